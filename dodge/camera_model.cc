@@ -1,0 +1,40 @@
+#include "dodge/camera_model.h"
+
+namespace dodge {
+
+namespace {
+
+constexpr int kUndistortIterations = 20;  // fixed point of the radtan model; converges to 1e-9
+
+Eigen::Vector2d distort(const CameraModel& camera, const Eigen::Vector2d& p) {
+  const double r2 = p.squaredNorm();
+  const double radial = 1 + r2 * (camera.k1 + r2 * (camera.k2 + r2 * camera.k3));
+  const double xy = p.x() * p.y();
+  return {p.x() * radial + 2 * camera.p1 * xy + camera.p2 * (r2 + 2 * p.x() * p.x()),
+          p.y() * radial + camera.p1 * (r2 + 2 * p.y() * p.y()) + 2 * camera.p2 * xy};
+}
+
+}  // namespace
+
+Eigen::Vector2d CameraModel::bearing(const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector2d distorted((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
+  if (k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0) return distorted;
+  Eigen::Vector2d ideal = distorted;
+  for (int i = 0; i < kUndistortIterations; ++i) ideal += distorted - distort(*this, ideal);
+  return ideal;
+}
+
+Eigen::Vector2d CameraModel::project(const Eigen::Vector3d& p_C) const {
+  return {fx * p_C.x() / p_C.z() + cx, fy * p_C.y() / p_C.z() + cy};
+}
+
+std::vector<Eigen::Vector2f> CameraModel::bearing_table() const {
+  std::vector<Eigen::Vector2f> table;
+  table.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) table.push_back(bearing({x, y}).cast<float>());
+  }
+  return table;
+}
+
+}  // namespace dodge

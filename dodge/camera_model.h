@@ -1,0 +1,30 @@
+// Pinhole camera with optional radial-tangential distortion, and where it sits on the body.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+namespace dodge {
+
+// u = fx X/Z + cx, v = fy Y/Z + cy for a point (X,Y,Z) in C (x right, y down, z forward).
+struct CameraModel {
+  int width = 320;   // [px]
+  int height = 240;  // [px]
+  double fx = 190.7, fy = 190.7;  // focal lengths [px]
+  double cx = 159.5, cy = 119.5;  // principal point [px]
+  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  // radtan distortion (OpenCV's model); 0: none
+  Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();  // pose of C in B
+
+  double mean_focal_px() const { return 0.5 * (fx + fy); }
+
+  // Undistorted bearing (X/Z, Y/Z) of a pixel position.
+  Eigen::Vector2d bearing(const Eigen::Vector2d& pixel) const;
+
+  // Ideal (undistorted) pixel position of a point in C. Requires p_C.z() > 0.
+  Eigen::Vector2d project(const Eigen::Vector3d& p_C) const;
+
+  // bearing() of every pixel, row-major (y * width + x).
+  std::vector<Eigen::Vector2f> bearing_table() const;
+};
+
+}  // namespace dodge

@@ -1,0 +1,31 @@
+// What any pilot offers to whatever carries it: the simulator's bridge, a recording player, a vehicle.
+// The paper's pilot is dodge::Dodger; a user's own dodger derives from this class too.
+#pragma once
+
+#include <span>
+
+#include "dodge/types.h"
+
+namespace dodge {
+
+class Pilot {
+ public:
+  virtual ~Pilot() = default;
+
+  // Data arrive in the order in which they would arrive on the vehicle: late, and each kind in the
+  // order of its own time stamps.
+  virtual void add_events(int camera, std::span<const Event> events) = 0;
+  virtual void add_imu(const ImuSample& sample) = 0;
+  virtual void add_state(const StateEstimate& state) = 0;
+  virtual void add_range(const RangeReading& /*reading*/) {}
+  virtual void set_goal(const Goal& goal) = 0;
+
+  // One cycle on all data received so far; now_us is the vehicle's clock.
+  virtual VelocityCommand update(TimeUs now_us) = 0;
+
+  // Of the last update, for logs and pictures.
+  virtual std::span<const Detection> detections() const = 0;
+  virtual std::span<const Obstacle> obstacles() const = 0;
+};
+
+}  // namespace dodge

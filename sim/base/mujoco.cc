@@ -1,0 +1,71 @@
+#include "sim/base/mujoco.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+namespace {
+
+void throw_error(const char* message) {
+  throw SimulationError(std::string("MuJoCo reports an error: ") + message + ".");
+}
+
+void ignore_warning(const char*) {}
+
+}  // namespace
+
+void install_mujoco_handlers() {
+  mju_user_error = throw_error;
+  mju_user_warning = ignore_warning;
+}
+
+MjModelPtr compile_model(const std::string& xml, const std::string& directory,
+                         const std::string& label) {
+  install_mujoco_handlers();
+  // A virtual file inside `directory`, so that relative includes and assets resolve there.
+  const std::string name = "dodgesim_composed_model.xml";
+  auto vfs = std::make_unique<mjVFS>();
+  mj_defaultVFS(vfs.get());
+  const int failed = mj_makeEmptyFileVFS(vfs.get(), name.c_str(), static_cast<int>(xml.size()));
+  if (failed != 0) throw ScenarioError(label + ": the composed model does not fit in memory.");
+  std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), name.c_str())], xml.data(), xml.size());
+  char message[1000] = "";
+  MjModelPtr model;
+  try {
+    model.reset(mj_loadXML((directory + "/" + name).c_str(), vfs.get(), message, sizeof message));
+  } catch (const SimulationError& error) {
+    mj_deleteVFS(vfs.get());
+    throw ScenarioError(label + ": " + error.what());
+  }
+  mj_deleteVFS(vfs.get());
+  if (!model) throw ScenarioError(label + ": the model does not compile: " + message);
+  return model;
+}
+
+void check_simulation(const mjData& data, double expected_time_s) {
+  const struct {
+    int kind;
+    const char* name;
+  } checks[] = {{mjWARN_INERTIA, "inertia matrix"},
+                {mjWARN_CONTACTFULL, "contact buffer"},
+                {mjWARN_CNSTRFULL, "constraint buffer"},
+                {mjWARN_BADQPOS, "position"},
+                {mjWARN_BADQVEL, "velocity"},
+                {mjWARN_BADQACC, "acceleration"},
+                {mjWARN_BADCTRL, "control"}};
+  for (const auto& check : checks) {
+    if (data.warning[check.kind].number > 0) {
+      throw SimulationError(std::string("The simulation diverged: MuJoCo warns of the ") +
+                            check.name + " at " + std::to_string(data.time) + " s.");
+    }
+  }
+  if (!(std::abs(data.time - expected_time_s) < 1e-6)) {
+    throw SimulationError("The simulation diverged: its time is " + std::to_string(data.time) +
+                          " s instead of " + std::to_string(expected_time_s) + " s.");
+  }
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,33 @@
+// RAII for MuJoCo, with its errors and warnings turned into exceptions.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <memory>
+#include <string>
+
+namespace dodgesim {
+
+struct MjModelDeleter {
+  void operator()(mjModel* m) const { mj_deleteModel(m); }
+};
+struct MjDataDeleter {
+  void operator()(mjData* d) const { mj_deleteData(d); }
+};
+using MjModelPtr = std::unique_ptr<mjModel, MjModelDeleter>;
+using MjDataPtr = std::unique_ptr<mjData, MjDataDeleter>;
+
+// Makes mju_error throw SimulationError (by default it waits for a key and exits) and silences
+// mju_warning, whose counters check_simulation() reads. Call once before any MuJoCo function.
+// After such an exception the mjData must be discarded.
+void install_mujoco_handlers();
+
+// Compiles MJCF text; includes and assets are found in the folder `directory`.
+// Throws ScenarioError with MuJoCo's message, naming `label`.
+MjModelPtr compile_model(const std::string& xml, const std::string& directory,
+                         const std::string& label);
+
+// Throws SimulationError if MuJoCo warned of a diverged state (it resets silently) or time stands.
+void check_simulation(const mjData& data, double expected_time_s);
+
+}  // namespace dodgesim

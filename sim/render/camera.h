@@ -1,0 +1,31 @@
+// Pinhole camera geometry shared by renderer, sampler and sensors.
+#pragma once
+
+#include <Eigen/Dense>
+
+namespace dodgesim {
+
+// Pixel (0,0) is the centre of the top-left pixel. C: x right, y down, z forward.
+struct Intrinsics {
+  int width = 320;   // [px]
+  int height = 240;  // [px]
+  double f = 190.68; // focal length [px]; square pixels, principal point at the image centre
+
+  double cx() const { return 0.5 * (width - 1); }
+  double cy() const { return 0.5 * (height - 1); }
+
+  Eigen::Vector2d project(const Eigen::Vector3d& p_C) const {
+    return {f * p_C.x() / p_C.z() + cx(), f * p_C.y() / p_C.z() + cy()};
+  }
+};
+
+// Focal length for a horizontal field of view [deg] over `width` pixels.
+double focal_length_px(int width, double horizontal_fov_deg);
+
+// Half-open pixel rectangle [x0, x1) x [y0, y1).
+struct Rect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+}  // namespace dodgesim
