@@ -1,0 +1,52 @@
+#include "sim/base/mujoco.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+namespace {
+
+constexpr const char* kBall =
+    "<mujoco><option timestep='0.001'/><worldbody><body><freejoint/>"
+    "<geom size='0.1'/></body></worldbody></mujoco>";
+
+TEST(CompileModel, CompilesMjcfText) {
+  const MjModelPtr model = compile_model(kBall, ".", "ball");
+  EXPECT_EQ(model->nq, 7);
+}
+
+TEST(CompileModel, NamesTheModelAndTheReasonWhenItDoesNotCompile) {
+  try {
+    compile_model("<mujoco><worldbody><geom type='cube'/></worldbody></mujoco>", ".", "my model");
+    FAIL() << "no exception";
+  } catch (const ScenarioError& error) {
+    EXPECT_NE(std::string(error.what()).find("my model"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("cube"), std::string::npos) << error.what();
+  }
+}
+
+TEST(CheckSimulation, AcceptsAStepThatWentWell) {
+  const MjModelPtr model = compile_model(kBall, ".", "ball");
+  const MjDataPtr data(mj_makeData(model.get()));
+  mj_step(model.get(), data.get());
+  EXPECT_NO_THROW(check_simulation(*data, 0.001));
+}
+
+TEST(CheckSimulation, RefusesAStateThatMuJoCoSilentlyReset) {
+  const MjModelPtr model = compile_model(kBall, ".", "ball");
+  const MjDataPtr data(mj_makeData(model.get()));
+  data->qvel[0] = std::numeric_limits<double>::quiet_NaN();
+  mj_step(model.get(), data.get());
+  EXPECT_THROW(check_simulation(*data, 0.001), SimulationError);
+}
+
+TEST(MujocoHandlers, TurnMuJoCoErrorsIntoExceptions) {
+  install_mujoco_handlers();
+  EXPECT_THROW(mju_error("on purpose"), SimulationError);
+}
+
+}  // namespace
+}  // namespace dodgesim
