@@ -1,0 +1,32 @@
+// Where to go, given the obstacles and the goal: the sum of the potential fields as a velocity.
+#pragma once
+
+#include <span>
+
+#include "dodge/avoid/attractive_field.h"
+#include "dodge/avoid/repulsive_field.h"
+#include "dodge/avoid/velocity_command.h"
+#include "dodge/detect/tracker.h"
+#include "dodge/types.h"
+
+namespace dodge {
+
+class Avoider {
+ public:
+  // Throws std::invalid_argument on values out of range.
+  Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attractive,
+          const VelocityLimitConfig& limit);
+
+  // The velocity command at `now`. Vehicle and obstacles are moved on at constant velocity from the
+  // instants their states speak of to `now`. Obstacles that are not confirmed, or not finite, do
+  // not act.
+  VelocityCommand command(TimeUs now, const StateEstimate& state, const Goal& goal,
+                          std::span<const TrackedObstacle> obstacles) const;
+
+ private:
+  RepulsiveField repulsive_;
+  AttractiveConfig attractive_;
+  VelocityLimitConfig limit_;
+};
+
+}  // namespace dodge

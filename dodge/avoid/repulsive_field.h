@@ -1,0 +1,108 @@
+// The force that keeps the vehicle out of an obstacle's way: Falanga et al. 2020, equations (26) to
+// (33), and the decisions that the paper leaves open.
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+
+#include "dodge/avoid/ellipsoid.h"
+#include "dodge/types.h"
+
+namespace dodge {
+
+struct RepulsiveConfig {
+  std::string field = "falanga";
+  double k_r0 = 4.0;
+  double eta_0_m = 3.0;
+  double gamma = 1.5;
+  double lambda_decay_1ps = 10.0;
+  double k_tau = 0.001;
+  double quadrotor_radius_m = 0.15;
+  bool scale_by_speed = true;
+  std::string obstacle_velocity = "world";
+  std::string direction = "cross";
+  std::string vertical = "absolute";
+  double head_on_sine = 0.05;
+  double steep_deg = 45.0;
+  bool ignore_receding = false;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("field", field, {"falanga", "khosla"},
+      "Magnitude and direction of the repulsive force: (28) to (31), or the classic field (27).");
+    v("k_r0", k_r0, 0.0, 1000.0,
+      "Repulsive constant at a detection (33). With |v| of (32) the force is in units of (m/s) per "
+      "(m/s). Not given by the paper; first value from the authors' group's open code.");
+    v("eta_0_m", eta_0_m, 0.01, 100.0,
+      "Distance at which the field ends (28). Not given by the paper; same source as k_r0.");
+    v("gamma", gamma, 0.1, 20.0,
+      "Shape of the field. Positive: only then does (28) rise much faster than (27), as the paper "
+      "says. At least 1 for khosla.");
+    v("lambda_decay_1ps", lambda_decay_1ps, 0.01, 1000.0,
+      "Decay of the repulsive constant since the last detection (33). Same source as k_r0.");
+    v("k_tau", k_tau, 1e-12, 1000.0,
+      "An obstacle is removed when its repulsive constant (33) has decayed below this.");
+    v("quadrotor_radius_m", quadrotor_radius_m, 0.0, 10.0,
+      "Taken off the distance between the vehicle's centre and the obstacle's surface.");
+    v("scale_by_speed", scale_by_speed, "Whether the force grows with the obstacle's speed (32).");
+    v("obstacle_velocity", obstacle_velocity, {"world", "relative"},
+      "Velocity in (29) and (32): the obstacle's in the world as the paper writes, or relative to "
+      "the vehicle.");
+    v("direction", direction, {"cross", "away"},
+      "Escape direction of the falanga field: the cross product (29), or away from the obstacle's "
+      "line of flight, within the plane of approach.");
+    v("vertical", vertical, {"absolute", "flip", "signed"},
+      "How the force's z component becomes positive: its absolute value as the paper writes, by "
+      "turning the whole force around, or not at all.");
+    v("head_on_sine", head_on_sine, 0.0, 1.0,
+      "Below this sine of the angle between distance gradient and velocity (29) is undefined in "
+      "practice, and the escape is upward. An estimated velocity's direction is no better than 3 "
+      "degrees.");
+    v("steep_deg", steep_deg, 0.0, 90.0,
+      "A head-on obstacle that climbs or falls more steeply than this is escaped from to the left, "
+      "because upward would be along its path.");
+    v("ignore_receding", ignore_receding,
+      "Whether an obstacle that moves away from the vehicle stops pushing at once. The paper lets "
+      "it "
+      "decay only.");
+  }
+};
+
+// How long an obstacle lives after its last detection: k_r (33) reaches k_tau.
+double decay_lifetime_s(const RepulsiveConfig& config);
+
+// What the field must know of the vehicle.
+struct VehicleMotion {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // [m/s]
+  Eigen::Vector3d heading_W =
+      Eigen::Vector3d::UnitX();  // unit, horizontal: B's x axis without tilt
+};
+
+class RepulsiveField {
+ public:
+  // Throws std::invalid_argument on values out of range.
+  explicit RepulsiveField(const RepulsiveConfig& config);
+
+  // Repulsive constant (33) a time since the last detection.
+  double k_r(double since_detection_s) const;
+
+  // |F| for a distance eta between the vehicle's hull and the obstacle, (28) or (27), without |v|.
+  // eta < 0 (touching) counts as 0.
+  double magnitude(double eta_m, double k_r) const;
+
+  // Unit escape direction: (29), (30) with the fall-back for head-on approach; away from the
+  // obstacle for khosla. Orthogonal to the heading for falanga.
+  Eigen::Vector3d direction(const Eigen::Vector3d& grad_eta_W, const Eigen::Vector3d& v_obstacle_W,
+                            const VehicleMotion& vehicle) const;
+
+  // The force (32) in W, in units of velocity (39). Zero for an obstacle without motion when the
+  // force scales with speed.
+  Eigen::Vector3d force(const VehicleMotion& vehicle, const Ellipsoid& obstacle,
+                        const Eigen::Vector3d& v_obstacle_W, double since_detection_s) const;
+
+ private:
+  RepulsiveConfig config_;
+};
+
+}  // namespace dodge

@@ -1,0 +1,75 @@
+// Which detection belongs to which obstacle: Falanga et al. 2020, "Obstacle correspondence".
+#pragma once
+
+#include <Eigen/Dense>
+#include <span>
+#include <vector>
+
+#include "dodge/types.h"
+
+namespace dodge {
+
+struct AssociationConfig {
+  double first_radius_m = 0.40;
+  double radius_m = 0.35;
+  double widen_sigmas = 0.0;
+  int min_detections = 3;
+  double max_velocity_sigma_mps = 1000.0;
+  int tentative_timeout_us = 100000;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("first_radius_m", first_radius_m, 1e-3, 100.0,
+      "Farthest a detection may be from an obstacle that was detected once, whose velocity is not "
+      "known yet. Not given by the paper; from the authors' group's open code.");
+    v("radius_m", radius_m, 1e-3, 100.0,
+      "Farthest a detection may be from the predicted position of an obstacle. Same source.");
+    v("widen_sigmas", widen_sigmas, 0.0, 10.0,
+      "Widens both radii by this many standard deviations of the predicted position towards the "
+      "detection. 0 is the paper's fixed sphere.");
+    v("min_detections", min_detections, 1, 1000,
+      "Detections before an obstacle is confirmed, that is, may cause an escape. One is never "
+      "enough: "
+      "it has no velocity.");
+    v("max_velocity_sigma_mps", max_velocity_sigma_mps, 1e-3, 1000.0,
+      "An obstacle is confirmed only when the standard deviation of its velocity (root mean square "
+      "over the axes) has fallen below this. 1000: no such condition, as in the paper.");
+    v("tentative_timeout_us", tentative_timeout_us, 0, 10000000,
+      "An obstacle that is not confirmed is dropped this long after its last detection, so that "
+      "unrelated noise does not add up to an obstacle.");
+  }
+};
+
+// Throws std::invalid_argument on values out of range.
+void validate(const AssociationConfig& config);
+
+// An obstacle as association sees it, at the detections' instant.
+struct PredictedObstacle {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]
+  Eigen::Matrix3d P_W = Eigen::Matrix3d::Zero();  // covariance of p_W [m^2]
+  int detections = 0;                             // so far
+};
+
+// One-to-one association, closest pairs first; ties go to the lower detection index, then to the
+// lower obstacle index. Reuses its memory.
+class Associator {
+ public:
+  explicit Associator(const AssociationConfig& config);
+
+  // For each detection the index of its obstacle, or -1. Valid until the next call.
+  std::span<const int> associate(std::span<const Detection> detections,
+                                 std::span<const PredictedObstacle> obstacles);
+
+ private:
+  struct Pair {
+    double distance_m;
+    int detection;
+    int obstacle;
+  };
+  AssociationConfig config_;
+  std::vector<Pair> pairs_;
+  std::vector<int> obstacle_of_;
+  std::vector<char> taken_;
+};
+
+}  // namespace dodge

@@ -1,0 +1,66 @@
+// The obstacles around the vehicle: associates detections, filters them, forgets what is long gone.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "dodge/avoid/ellipsoid.h"
+#include "dodge/detect/association.h"
+#include "dodge/detect/kalman.h"
+#include "dodge/types.h"
+
+namespace dodge {
+
+// Obstacle as the avoidance sees it.
+struct TrackedObstacle {
+  Obstacle obstacle;                       // position and velocity at obstacle.t_us
+  Matrix6d covariance = Matrix6d::Zero();  // of (p_WO, v_WO) [m, m/s]
+  Ellipsoid ellipsoid;                     // around the obstacle at obstacle.t_us
+  bool confirmed = false;                  // may cause an escape
+};
+
+// An obstacle whose state is known: a sphere of diameter size_m, detected at t_us, confirmed.
+TrackedObstacle known_obstacle(int id, TimeUs t_us, const Eigen::Vector3d& p_WO,
+                               const Eigen::Vector3d& v_WO, double size_m);
+
+class Tracker {
+ public:
+  // lifetime_s: how long an obstacle lives after its last detection (decay_lifetime_s of the
+  // repulsive field, (33)). Throws std::invalid_argument on values out of range.
+  Tracker(const AssociationConfig& association, const KalmanConfig& kalman, double lifetime_s);
+
+  // Takes in the detections of one cycle (none is fine), those of one camera in a row, fills their
+  // obstacle_id, removes obstacles that were not seen for too long, and predicts all to `now`.
+  // Detections that are not finite are ignored and keep id -1.
+  void update(TimeUs now, std::span<Detection> detections);
+
+  // In the order of their ids, predicted to the last update's `now`.
+  const std::vector<TrackedObstacle>& obstacles() const { return obstacles_; }
+
+ private:
+  struct Track {
+    int id;
+    Kalman filter;  // at the last detection's instant
+    TimeUs last_detection_us;
+    int detections;
+    double size_m;
+    Ellipsoid ellipsoid;  // its centre relative to the obstacle's position
+    bool confirmed;
+  };
+
+  void take_in(std::span<Detection> detections);
+  void measure(Track& track, const Detection& detection) const;
+  void remove_stale(TimeUs now);
+  void publish(TimeUs now);
+
+  AssociationConfig association_;
+  KalmanConfig kalman_;
+  TimeUs lifetime_us_;
+  Associator associator_;
+  int next_id_ = 0;
+  std::vector<Track> tracks_;
+  std::vector<PredictedObstacle> predicted_;
+  std::vector<TrackedObstacle> obstacles_;
+};
+
+}  // namespace dodge
