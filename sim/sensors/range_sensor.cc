@@ -1,0 +1,20 @@
+#include "sim/sensors/range_sensor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dodgesim {
+
+std::optional<RangeReading> RangeSensor::sample(TimeUs t_us, double true_range_m) {
+  // Drawn in any case: what is below must not shift the noise of later readings.
+  const double noise = random_.normal();
+  if (!(true_range_m >= spec_.min_range_m && true_range_m <= spec_.max_range_m)) {
+    return std::nullopt;
+  }
+  const double sigma = std::max(spec_.sigma_m, spec_.sigma_fraction * true_range_m);
+  double range = std::max(0.0, true_range_m + sigma * noise);
+  if (spec_.resolution_m > 0) range = std::round(range / spec_.resolution_m) * spec_.resolution_m;
+  return RangeReading{t_us, range};
+}
+
+}  // namespace dodgesim
