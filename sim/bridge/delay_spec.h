@@ -1,0 +1,36 @@
+// The latency chain from light to rotor, all in simulated time (design invariant 4). The ESC delay
+// and the rotors' lag belong to the motors.
+#pragma once
+
+namespace dodgesim {
+
+struct DelaySpec {
+  int pixel_us = 100;              // photoreceptor and change detector
+  int transport_us = 1000;         // readout and USB, from the end of a packet to the computer
+  int imu_us = 500;                // IMU sample to the computer
+  int state_estimate_us = 2000;    // age of the state estimate when the computer receives it
+  int range_us = 2000;
+  int compute_us = 3500;           // one cycle of the pilot
+  int command_us = 3000;           // serial link to the flight controller
+  int flight_controller_us = 250;  // from a received command to the rotor commands
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("pixel_us", pixel_us, 0, 100000,
+      "Pixel latency, added to the arrival of events (not to their time stamps).");
+    v("transport_us", transport_us, 0, 100000,
+      "Readout and USB: end of a packet to the computer (1 to 2 ms worst case for USB cameras).");
+    v("imu_us", imu_us, 0, 100000, "IMU sample to the computer.");
+    v("state_estimate_us", state_estimate_us, 0, 100000,
+      "Age of a state estimate when the computer receives it.");
+    v("range_us", range_us, 0, 100000, "Age of a range reading when the computer receives it.");
+    v("compute_us", compute_us, 0, 1000000,
+      "One cycle of the pilot, from its newest data to its command (3.5 ms in the paper's Table 3).");
+    v("command_us", command_us, 0, 100000,
+      "Serial link from the computer to the flight controller (3.0 ms measured by the authors).");
+    v("flight_controller_us", flight_controller_us, 0, 100000,
+      "From a received command to the rotor commands it causes (one 4 kHz cycle).");
+  }
+};
+
+}  // namespace dodgesim

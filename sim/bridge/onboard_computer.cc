@@ -1,0 +1,64 @@
+#include "sim/bridge/onboard_computer.h"
+
+#include <algorithm>
+
+namespace dodgesim {
+
+namespace {
+
+// The first tick at or after t_us.
+TimeUs ceil_to_tick(TimeUs t_us) { return (t_us + kTickUs - 1) / kTickUs * kTickUs; }
+
+}  // namespace
+
+OnboardComputer::OnboardComputer(const DelaySpec& delays, TimeUs cycle_us,
+                                 std::unique_ptr<dodge::Pilot> pilot)
+    : pilot_(std::move(pilot)),
+      cycle_us_(ceil_to_tick(std::max<TimeUs>(cycle_us, delays.compute_us))),
+      event_delay_us_(delays.pixel_us + delays.transport_us),
+      packets_(event_delay_us_),
+      imu_(delays.imu_us),
+      states_(delays.state_estimate_us),
+      ranges_(delays.range_us),
+      commands_(delays.compute_us) {}
+
+void OnboardComputer::send_events(int camera, TimeUs packet_end_us, std::vector<Event> packet) {
+  Packet out{camera, {}};
+  out.events.reserve(packet.size());
+  for (const Event& e : packet) out.events.push_back({e.t_us, e.x, e.y, e.polarity});
+  packets_.push(packet_end_us, std::move(out));
+}
+
+void OnboardComputer::send_imu(const ImuReading& reading) {
+  imu_.push(reading.t_us, {reading.t_us, reading.w_B_radps, reading.f_B_mps2});
+}
+
+void OnboardComputer::send_state(const StateReading& reading) {
+  states_.push(reading.t_us,
+               {reading.t_us, reading.p_W, reading.q_W, reading.v_W, reading.w_B});
+}
+
+void OnboardComputer::send_range(const RangeReading& reading) {
+  ranges_.push(reading.t_us, {reading.t_us, reading.range_m});
+}
+
+bool OnboardComputer::run_cycle(TimeUs now_us) {
+  if (now_us < next_cycle_us_) return false;
+  next_cycle_us_ = now_us + cycle_us_;
+  imu_.deliver(now_us, [&](const dodge::ImuSample& sample) { pilot_->add_imu(sample); });
+  states_.deliver(now_us, [&](const dodge::StateEstimate& state) { pilot_->add_state(state); });
+  ranges_.deliver(now_us, [&](const dodge::RangeReading& reading) { pilot_->add_range(reading); });
+  packets_.deliver(now_us, [&](const Packet& packet) {
+    pilot_->add_events(packet.camera, packet.events);
+  });
+  commands_.push(now_us, pilot_->update(now_us));
+  return true;
+}
+
+std::optional<dodge::VelocityCommand> OnboardComputer::take_command(TimeUs now_us) {
+  std::optional<dodge::VelocityCommand> newest;
+  commands_.deliver(now_us, [&](const dodge::VelocityCommand& command) { newest = command; });
+  return newest;
+}
+
+}  // namespace dodgesim

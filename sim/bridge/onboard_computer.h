@@ -1,0 +1,59 @@
+// The computer that carries the pilot: sensor data reach it late, it works in cycles, and each cycle
+// takes time. The one place where the simulator's values become the flight core's.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dodge/pilot.h"
+#include "sim/bridge/delay_line.h"
+#include "sim/bridge/delay_spec.h"
+#include "sim/events/event.h"
+#include "sim/sensors/readings.h"
+
+namespace dodgesim {
+
+class OnboardComputer {
+ public:
+  // A cycle starts every cycle_us, or as soon as the previous one has ended if that takes longer.
+  OnboardComputer(const DelaySpec& delays, TimeUs cycle_us, std::unique_ptr<dodge::Pilot> pilot);
+
+  void set_goal(const dodge::Goal& goal) { pilot_->set_goal(goal); }
+
+  // Each at the instant at which the sensor has it. An event packet may be empty.
+  void send_events(int camera, TimeUs packet_end_us, std::vector<Event> packet);
+  void send_imu(const ImuReading& reading);
+  void send_state(const StateReading& reading);
+  void send_range(const RangeReading& reading);
+
+  // Runs the cycle that starts at now_us, if one does. True if one did.
+  bool run_cycle(TimeUs now_us);
+
+  // The newest command whose computation has ended by now_us, once.
+  std::optional<dodge::VelocityCommand> take_command(TimeUs now_us);
+
+  // Start of the next cycle, and the end of the newest event packet that it will have received.
+  TimeUs next_cycle_us() const { return next_cycle_us_; }
+  TimeUs newest_packet_end_us(TimeUs cycle_us) const { return cycle_us - event_delay_us_; }
+
+  const dodge::Pilot& pilot() const { return *pilot_; }
+
+ private:
+  struct Packet {
+    int camera;
+    std::vector<dodge::Event> events;
+  };
+
+  std::unique_ptr<dodge::Pilot> pilot_;
+  TimeUs cycle_us_;
+  TimeUs event_delay_us_;
+  TimeUs next_cycle_us_ = 0;
+  DelayLine<Packet> packets_;
+  DelayLine<dodge::ImuSample> imu_;
+  DelayLine<dodge::StateEstimate> states_;
+  DelayLine<dodge::RangeReading> ranges_;
+  DelayLine<dodge::VelocityCommand> commands_;
+};
+
+}  // namespace dodgesim

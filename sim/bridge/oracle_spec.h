@@ -1,0 +1,19 @@
+// What the pilots that know the truth may see.
+#pragma once
+
+namespace dodgesim {
+
+struct OracleSpec {
+  double range_cap_m = 0;         // 0: no cap
+  bool field_of_view = false;     // see only what the reference camera has in its image
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("range_cap_m", range_cap_m, 0, 100,
+      "Objects farther than this from the reference camera are not seen; 0 for no cap.");
+    v("field_of_view", field_of_view,
+      "See an object only while its centre is inside the image of the reference camera.");
+  }
+};
+
+}  // namespace dodgesim

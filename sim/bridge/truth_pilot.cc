@@ -1,0 +1,54 @@
+#include "sim/bridge/truth_pilot.h"
+
+#include <algorithm>
+
+namespace dodgesim {
+
+TruthPilot::TruthPilot(Setup setup, const dodge::Avoider& avoider)
+    : setup_(std::move(setup)), avoider_(avoider), light_(setup_.delay_us) {}
+
+void TruthPilot::observe(const Snapshot& truth) {
+  if (!setup_.blind) light_.push(truth.t_us, truth);
+}
+
+bool TruthPilot::sees(const Snapshot& truth, std::size_t object) const {
+  if (!truth.launched[object]) return false;
+  const Eigen::Isometry3d X_CW = (truth.vehicle.pose() * setup_.X_BC).inverse();
+  const Eigen::Vector3d p_C = X_CW * truth.objects[object].p_W;
+  const OracleSpec& oracle = setup_.oracle;
+  if (oracle.range_cap_m > 0 && p_C.norm() > oracle.range_cap_m) return false;
+  if (!oracle.field_of_view) return true;
+  if (p_C.z() <= 0) return false;
+  const Eigen::Vector2d pixel = setup_.intrinsics.project(p_C);
+  return pixel.x() >= -0.5 && pixel.x() < setup_.intrinsics.width - 0.5 && pixel.y() >= -0.5 &&
+         pixel.y() < setup_.intrinsics.height - 0.5;
+}
+
+void TruthPilot::see(const Snapshot& truth) {
+  for (std::size_t i = 0; i < truth.objects.size(); ++i) {
+    if (!sees(truth, i)) continue;
+    const int id = static_cast<int>(i);
+    const auto known =
+        dodge::known_obstacle(id, truth.t_us, truth.objects[i].p_W, truth.objects[i].v_W,
+                              setup_.sizes_m[i]);
+    const auto old = std::find_if(obstacles_.begin(), obstacles_.end(),
+                                  [&](const auto& o) { return o.obstacle.id == id; });
+    if (old == obstacles_.end()) {
+      obstacles_.push_back(known);
+    } else {
+      *old = known;
+    }
+  }
+}
+
+dodge::VelocityCommand TruthPilot::update(TimeUs now_us) {
+  light_.deliver(now_us, [&](const Snapshot& truth) { see(truth); });
+  std::erase_if(obstacles_, [&](const auto& o) {
+    return seconds(now_us - o.obstacle.last_detection_us) > setup_.lifetime_s;
+  });
+  seen_.clear();
+  for (const auto& o : obstacles_) seen_.push_back(o.obstacle);
+  return avoider_.command(now_us, state_, goal_, obstacles_);
+}
+
+}  // namespace dodgesim

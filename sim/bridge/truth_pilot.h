@@ -1,0 +1,55 @@
+// Pilots that need no perception. `oracle` knows the true state of every object in its range, as
+// late as an event would tell; `none` sees nothing and only flies to the goal. Both use the flight
+// core's avoidance and fly through the same delays, controller and motors as the paper's pilot.
+#pragma once
+
+#include <vector>
+
+#include "dodge/avoid/avoider.h"
+#include "dodge/pilot.h"
+#include "sim/bridge/delay_line.h"
+#include "sim/bridge/oracle_spec.h"
+#include "sim/render/camera.h"
+#include "sim/world/snapshot.h"
+
+namespace dodgesim {
+
+class TruthPilot : public dodge::Pilot {
+ public:
+  struct Setup {
+    OracleSpec oracle;
+    bool blind = false;               // the pilot `none`
+    TimeUs delay_us = 0;              // from an object's motion to the computer
+    double lifetime_s = 1;            // of an object after it was last seen
+    std::vector<double> sizes_m;      // diameters of the objects
+    Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();  // the reference camera
+    Intrinsics intrinsics;
+  };
+
+  TruthPilot(Setup setup, const dodge::Avoider& avoider);
+
+  // The true state, at the instant at which it holds.
+  void observe(const Snapshot& truth);
+
+  void add_events(int, std::span<const dodge::Event>) override {}
+  void add_imu(const dodge::ImuSample&) override {}
+  void add_state(const dodge::StateEstimate& state) override { state_ = state; }
+  void set_goal(const dodge::Goal& goal) override { goal_ = goal; }
+  dodge::VelocityCommand update(TimeUs now_us) override;
+  std::span<const dodge::Detection> detections() const override { return {}; }
+  std::span<const dodge::Obstacle> obstacles() const override { return seen_; }
+
+ private:
+  bool sees(const Snapshot& truth, std::size_t object) const;
+  void see(const Snapshot& truth);
+
+  Setup setup_;
+  dodge::Avoider avoider_;
+  DelayLine<Snapshot> light_;
+  dodge::StateEstimate state_;
+  dodge::Goal goal_;
+  std::vector<dodge::TrackedObstacle> obstacles_;
+  std::vector<dodge::Obstacle> seen_;
+};
+
+}  // namespace dodgesim
