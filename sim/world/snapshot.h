@@ -11,10 +11,10 @@ namespace dodgesim {
 
 // A rigid body: pose and velocity of its frame (origin at the centre of mass) in W.
 struct BodyState {
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();              // [m]
-  Eigen::Quaterniond q_W = Eigen::Quaterniond::Identity();    // rotates body vectors into W
-  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();              // [m/s]
-  Eigen::Vector3d w_W = Eigen::Vector3d::Zero();              // angular velocity in W [rad/s]
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();            // [m]
+  Eigen::Quaterniond q_W = Eigen::Quaterniond::Identity();  // rotates body vectors into W
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();            // [m/s]
+  Eigen::Vector3d w_W = Eigen::Vector3d::Zero();            // angular velocity in W [rad/s]
 
   Eigen::Isometry3d pose() const {
     Eigen::Isometry3d X_W = Eigen::Isometry3d::Identity();

@@ -1,0 +1,84 @@
+#include "sim/world/compose.h"
+
+#include <algorithm>
+
+#include "sim/base/error.h"
+#include "sim/base/time.h"
+#include "sim/world/mjcf.h"
+
+namespace dodgesim {
+
+namespace {
+
+// A model is named by a plain word, so that it cannot point outside its folder.
+void check_model_name(const std::string& name, const std::string& folder) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), allowed)) {
+    throw ScenarioError("The model name '" + name + "' for " + folder +
+                        " must consist of letters, digits, '_' and '-'.");
+  }
+}
+
+// Files that bring global settings would change the other models in the world.
+void check_elements(const std::vector<MjcfTag>& tags, const std::string& label) {
+  constexpr const char* kGlobal[] = {"compiler", "option", "size", "default", "contact"};
+  for (const MjcfTag& tag : tags) {
+    if (std::find(std::begin(kGlobal), std::end(kGlobal), tag.name) != std::end(kGlobal)) {
+      throw ScenarioError(label + ": the model of an object must not use <" + tag.name + ">.");
+    }
+  }
+}
+
+std::vector<MjcfTag> scaled_object(const std::string& models_dir, const ObjectSpec& spec, int i) {
+  check_model_name(spec.kind, "models/objects");
+  const std::string file = "objects/" + spec.kind + ".xml";
+  const std::string label = models_dir + "/" + file;
+  if (!(spec.size_m >= 0.01 && spec.size_m <= 1.0)) {
+    throw ScenarioError(label + ": the size_m of an object must be between 0.01 and 1 m, not " +
+                        std::to_string(spec.size_m) + ".");
+  }
+  std::vector<MjcfTag> tags = read_model_file(models_dir, file);
+  check_elements(tags, label);
+  const double reference_size_m = find_numeric(tags, "reference_size_m", label);
+  if (!(reference_size_m > 0)) {
+    throw ScenarioError(label + ": reference_size_m must be positive.");
+  }
+  const double scale = spec.size_m / reference_size_m;
+  scale_body(tags, scale, find_numeric(tags, "mass_exponent", label), label);
+  prefix_names(tags, object_prefix(i));
+  return tags;
+}
+
+// Air drag is computed by World: MuJoCo's own fluid model stays off (density 0). The constraint
+// buffers are small because only a few contacts ever coexist; the defaults cost 14 MB each world.
+std::string globals() {
+  return "<compiler angle=\"degree\"/>"
+         "<option gravity=\"0 0 -9.81\" density=\"0\" viscosity=\"0\" timestep=\"" +
+         std::to_string(seconds(kTickUs)) + "\"/>" + "<size nconmax=\"50\" njmax=\"250\"/>";
+}
+
+}  // namespace
+
+std::string object_prefix(int i) { return "object" + std::to_string(i) + "/"; }
+
+MjModelPtr compose_model(const WorldSpec& spec) {
+  check_model_name(spec.room, "models");
+  check_model_name(spec.vehicle, "models");
+  std::string xml = "<mujoco model=\"dodgesim\">\n" + globals();
+  xml += print_mjcf(read_model_file(spec.models_dir, spec.room + ".xml"));
+  xml += print_mjcf(read_model_file(spec.models_dir, spec.vehicle + ".xml"));
+  std::string label = spec.models_dir + ": " + spec.room + ".xml with " + spec.vehicle + ".xml";
+  for (std::size_t i = 0; i < spec.objects.size(); ++i) {
+    xml += print_mjcf(scaled_object(spec.models_dir, spec.objects[i], static_cast<int>(i)));
+    if (label.find("objects/" + spec.objects[i].kind + ".xml") == std::string::npos) {
+      label += " and objects/" + spec.objects[i].kind + ".xml";
+    }
+  }
+  xml += "</mujoco>\n";
+  return compile_model(xml, spec.models_dir, label);
+}
+
+}  // namespace dodgesim

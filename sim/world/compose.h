@@ -1,0 +1,41 @@
+// Puts room, vehicle and thrown objects together into one MJCF model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/base/mujoco.h"
+
+namespace dodgesim {
+
+// A kind of object is a file models/objects/<kind>.xml: one body at a reference size.
+struct ObjectSpec {
+  std::string kind = "ball";
+  double size_m = 0.2;  // largest extent (a ball's diameter), 0.01 to 1
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("kind", kind, "Kind of object: the name of a file in models/objects, without .xml.");
+    v("size_m", size_m, 0.01, 1.0, "Largest extent of the object, a ball's diameter.");
+  }
+};
+
+struct WorldSpec {
+  std::string models_dir = "models";
+  std::string room = "room";        // models/<room>.xml
+  std::string vehicle = "qav_rxl";  // models/<vehicle>.xml
+  std::vector<ObjectSpec> objects;
+};
+
+// Contact bits: room geoms have contype 1, the vehicle's hull 2, thrown objects 4.
+// Geom groups: 0 room, 1 thrown objects, 3 vehicle as people see it, 4 vehicle hull (never drawn).
+inline constexpr int kRoomContact = 1, kVehicleContact = 2, kObjectContact = 4;
+
+// Prefix of the names of object i in the composed model: "object3/".
+std::string object_prefix(int i);
+
+// Names in the result: room and vehicle as in their files, objects with object_prefix().
+// Throws ScenarioError with one sentence that names the file.
+MjModelPtr compose_model(const WorldSpec& spec);
+
+}  // namespace dodgesim

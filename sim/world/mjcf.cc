@@ -1,0 +1,260 @@
+#include "sim/world/mjcf.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr std::uintmax_t kMaxModelBytes = 1 << 20;
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+bool is_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '-';
+}
+
+// Reads one file from front to back.
+class Reader {
+ public:
+  Reader(const std::string& text, const std::string& label) : text_(text), label_(label) {}
+
+  std::vector<MjcfTag> read() {
+    std::vector<MjcfTag> tags;
+    for (skip_space(); at_ < text_.size(); skip_space()) {
+      if (starts_with("<!--")) {
+        skip_past("-->");
+      } else if (starts_with("<?")) {
+        skip_past("?>");
+      } else {
+        tags.push_back(read_tag());
+      }
+    }
+    return tags;
+  }
+
+ private:
+  bool starts_with(std::string_view s) const { return text_.compare(at_, s.size(), s) == 0; }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(at_, text_.size()));
+    const auto line = 1 + std::count(text_.begin(), end, '\n');
+    throw ScenarioError(label_ + ":" + std::to_string(line) + ": " + what);
+  }
+
+  void expect(char c) {
+    if (at_ >= text_.size() || text_[at_] != c) {
+      fail(std::string("The model is not valid XML: '") + c + "' is expected here.");
+    }
+    ++at_;
+  }
+
+  void skip_space() {
+    while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+  }
+
+  void skip_past(std::string_view end) {
+    const std::size_t found = text_.find(end, at_);
+    if (found == std::string::npos) fail("The model is not valid XML: a comment does not end.");
+    at_ = found + end.size();
+  }
+
+  std::string read_name() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && is_name(text_[at_])) ++at_;
+    if (at_ == begin) fail("The model is not valid XML: a name is expected here.");
+    return text_.substr(begin, at_ - begin);
+  }
+
+  std::pair<std::string, std::string> read_attribute() {
+    std::string name = read_name();
+    skip_space();
+    expect('=');
+    skip_space();
+    const char quote = at_ < text_.size() && text_[at_] == '\'' ? '\'' : '"';
+    expect(quote);
+    const std::size_t end = text_.find(quote, at_);
+    if (end == std::string::npos) fail("The model is not valid XML: a quoted value does not end.");
+    std::string value = text_.substr(at_, end - at_);
+    // Entities would let a value mean something else than what is checked here.
+    if (value.find_first_of("<&\"") != std::string::npos) {
+      fail("The value of '" + name + "' holds a character that model files must not use.");
+    }
+    at_ = end + 1;
+    return {std::move(name), std::move(value)};
+  }
+
+  MjcfTag read_tag() {
+    MjcfTag tag;
+    expect('<');
+    if (starts_with("/")) {
+      ++at_;
+      tag.kind = MjcfTag::Kind::kClose;
+    }
+    tag.name = read_name();
+    for (skip_space(); at_ < text_.size() && is_name(text_[at_]); skip_space()) {
+      tag.attributes.push_back(read_attribute());
+    }
+    if (starts_with("/") && tag.kind == MjcfTag::Kind::kOpen) {
+      ++at_;
+      tag.kind = MjcfTag::Kind::kSelfClose;
+    }
+    expect('>');
+    return tag;
+  }
+
+  const std::string& text_;
+  const std::string& label_;
+  std::size_t at_ = 0;
+};
+
+// A path stays inside the models folder if it is relative and never goes up.
+bool leaves_folder(const std::string& path) {
+  const std::filesystem::path p(path);
+  return p.is_absolute() || path.find('\\') != std::string::npos ||
+         std::find(p.begin(), p.end(), std::filesystem::path("..")) != p.end();
+}
+
+void check_paths(const std::vector<MjcfTag>& tags, const std::string& label) {
+  constexpr std::array<const char*, 4> kPathAttributes = {"meshdir", "texturedir", "assetdir",
+                                                          "content_type"};
+  for (const MjcfTag& tag : tags) {
+    if (tag.name == "include")
+      throw ScenarioError(label + ": a model file must not include others.");
+    for (const auto& [name, value] : tag.attributes) {
+      const bool is_file = name.compare(0, 4, "file") == 0;
+      const bool is_folder =
+          std::find(kPathAttributes.begin(), kPathAttributes.end(), name) != kPathAttributes.end();
+      if ((is_file || is_folder) && leaves_folder(value)) {
+        throw ScenarioError(label + ": the path '" + value + "' leaves the models folder.");
+      }
+    }
+  }
+}
+
+bool is_numeric(const MjcfTag& tag, const std::string& name) {
+  const std::string* tag_name = tag.find("name");
+  return tag.name == "numeric" && tag_name && *tag_name == name;
+}
+
+std::string print_numbers(const std::vector<double>& numbers) {
+  std::ostringstream out;
+  out.precision(17);
+  for (std::size_t i = 0; i < numbers.size(); ++i) out << (i ? " " : "") << numbers[i];
+  return out.str();
+}
+
+}  // namespace
+
+const std::string* MjcfTag::find(const std::string& attribute) const {
+  for (const auto& [name, value] : attributes) {
+    if (name == attribute) return &value;
+  }
+  return nullptr;
+}
+
+std::vector<MjcfTag> parse_mjcf(const std::string& text, const std::string& label) {
+  return Reader(text, label).read();
+}
+
+std::string print_mjcf(const std::vector<MjcfTag>& tags) {
+  std::string out;
+  for (const MjcfTag& tag : tags) {
+    out += tag.kind == MjcfTag::Kind::kClose ? "</" : "<";
+    out += tag.name;
+    for (const auto& [name, value] : tag.attributes) out += " " + name + "=\"" + value + "\"";
+    out += tag.kind == MjcfTag::Kind::kSelfClose ? "/>\n" : ">\n";
+  }
+  return out;
+}
+
+std::vector<double> parse_numbers(const std::string& text, const std::string& label) {
+  std::vector<double> numbers;
+  std::istringstream in(text);
+  for (std::string word; in >> word;) {
+    char* end = nullptr;
+    const double number = std::strtod(word.c_str(), &end);
+    if (*end != '\0' || !std::isfinite(number)) {
+      throw ScenarioError(label + ": '" + word + "' is not a finite number.");
+    }
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+std::vector<MjcfTag> read_model_file(const std::string& directory, const std::string& file) {
+  const std::string path = directory + "/" + file;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw ScenarioError("The model file " + path + " does not exist.");
+  }
+  if (std::filesystem::file_size(path, error) > kMaxModelBytes || error) {
+    throw ScenarioError("The model file " + path + " is larger than 1 MB.");
+  }
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  if (!in) throw ScenarioError("The model file " + path + " cannot be read.");
+  std::vector<MjcfTag> tags = parse_mjcf(text.str(), path);
+  if (tags.size() < 2 || tags.front().name != "mujoco" || tags.back().name != "mujoco" ||
+      tags.front().kind != MjcfTag::Kind::kOpen || tags.back().kind != MjcfTag::Kind::kClose) {
+    throw ScenarioError(path + ": the model file must hold one <mujoco> element.");
+  }
+  check_paths(tags, path);
+  return {tags.begin() + 1, tags.end() - 1};
+}
+
+double find_numeric(const std::vector<MjcfTag>& tags, const std::string& name,
+                    const std::string& label) {
+  for (const MjcfTag& tag : tags) {
+    if (!is_numeric(tag, name)) continue;
+    const std::string* data = tag.find("data");
+    const std::vector<double> numbers = parse_numbers(data ? *data : "", label);
+    if (numbers.size() == 1) return numbers[0];
+  }
+  throw ScenarioError(label + ": the model must have <numeric name=\"" + name +
+                      "\"> with one number.");
+}
+
+void prefix_names(std::vector<MjcfTag>& tags, const std::string& prefix) {
+  constexpr std::array<const char*, 4> kNames = {"name", "material", "texture", "mesh"};
+  for (MjcfTag& tag : tags) {
+    for (auto& [name, value] : tag.attributes) {
+      if (std::find(kNames.begin(), kNames.end(), name) != kNames.end()) value = prefix + value;
+    }
+  }
+}
+
+void scale_body(std::vector<MjcfTag>& tags, double scale, double mass_exponent,
+                const std::string& label) {
+  for (MjcfTag& tag : tags) {
+    const bool is_length_tag = tag.name == "geom" || tag.name == "site" || tag.name == "body" ||
+                               tag.name == "camera" || tag.name == "inertial";
+    for (auto& [name, value] : tag.attributes) {
+      double factor = 1;
+      if (is_length_tag && (name == "pos" || name == "size" || name == "fromto")) factor = scale;
+      if (tag.name == "mesh" && name == "scale") factor = scale;
+      if (is_numeric(tag, "frontal_area_m2") && name == "data") factor = scale * scale;
+      if (tag.name == "inertial" && name == "mass") factor = std::pow(scale, mass_exponent);
+      if (tag.name == "inertial" && (name == "diaginertia" || name == "fullinertia")) {
+        factor = std::pow(scale, mass_exponent + 2);
+      }
+      if (factor == 1) continue;
+      std::vector<double> numbers = parse_numbers(value, label);
+      for (double& number : numbers) number *= factor;
+      value = print_numbers(numbers);
+    }
+  }
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,46 @@
+// The little of XML that MJCF needs: enough to put several model files together into one, with
+// names kept apart and objects scaled. MuJoCo 2.2.2 itself can only include a file once.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dodgesim {
+
+// An opening, closing or self-closing tag. MJCF has no text between tags.
+struct MjcfTag {
+  enum class Kind { kOpen, kClose, kSelfClose };
+  Kind kind = Kind::kOpen;
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> attributes;
+
+  const std::string* find(const std::string& attribute) const;
+};
+
+// The tags of `text` in order, without comments and the XML declaration. `label` names the file in
+// errors. Throws ScenarioError when the text is not made of tags.
+std::vector<MjcfTag> parse_mjcf(const std::string& text, const std::string& label);
+std::string print_mjcf(const std::vector<MjcfTag>& tags);
+
+// Numbers separated by blanks. Throws ScenarioError if one is not a finite number.
+std::vector<double> parse_numbers(const std::string& text, const std::string& label);
+
+// Reads the model file `directory`/`file` and returns what is inside its <mujoco> element.
+// Throws ScenarioError, naming the file, when it is missing, too large, not MJCF, includes another
+// file, or names an asset outside `directory` (absolute path or "..").
+std::vector<MjcfTag> read_model_file(const std::string& directory, const std::string& file);
+
+// Value of <numeric name=`name`>. Throws ScenarioError, naming `label`, when it is absent.
+double find_numeric(const std::vector<MjcfTag>& tags, const std::string& name,
+                    const std::string& label);
+
+// Puts `prefix` before every name and reference to a name.
+void prefix_names(std::vector<MjcfTag>& tags, const std::string& prefix);
+
+// Scales a body: lengths by `scale`, mass by scale^mass_exponent, inertia by
+// scale^(mass_exponent+2).
+void scale_body(std::vector<MjcfTag>& tags, double scale, double mass_exponent,
+                const std::string& label);
+
+}  // namespace dodgesim

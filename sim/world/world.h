@@ -1,0 +1,109 @@
+// Room, vehicle and thrown objects: the physics of one throw, in ticks of kTickUs.
+//
+// MuJoCo gives geometry, contacts and accelerations; every moving body is a free rigid body, which
+// World integrates itself to second order and better: a flight without drag is the exact parabola
+// (MuJoCo's Euler step is 1.2 mm off after 1 s, its Runge-Kutta step costs four times as much).
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <vector>
+
+#include "sim/base/mujoco.h"
+#include "sim/world/compose.h"
+#include "sim/world/snapshot.h"
+
+namespace dodgesim {
+
+inline constexpr double kGravityMps2 = 9.81;
+inline constexpr double kAirDensityKgpm3 = 1.2;  // dry air at 20 degrees C, 1013 hPa
+
+// The vehicle's constants, read from its MJCF.
+struct VehicleParameters {
+  double mass_kg = 0;
+  Eigen::Vector3d inertia_kgm2 = Eigen::Vector3d::Zero();  // diagonal in B
+  std::array<Eigen::Vector3d, 4> rotor_p_B;  // front left, front right, rear right, rear left
+  std::array<double, 4> rotor_spin{};        // sign of the drag torque about +z_B per thrust
+  double kappa_m = 0;                        // drag torque per thrust
+  double max_thrust_n = 0;                   // of one rotor
+  // Rotor drag, mass-normalised: a_B = -drag_1ps * v_B + (0, 0, drag_kh_1pm (v_x^2 + v_y^2)).
+  Eigen::Vector3d drag_1ps = Eigen::Vector3d::Zero();
+  double drag_kh_1pm = 0;
+  std::vector<Eigen::Isometry3d> X_BC;                     // cameras: 0 top, 1 bottom
+  Eigen::Isometry3d X_BR = Eigen::Isometry3d::Identity();  // range sensor, looking along z
+};
+
+// A thrown object's constants at its size.
+struct ObjectPhysics {
+  double mass_kg = 0;
+  double drag_area_m2 = 0;       // Cd * A: the drag force is 1/2 rho Cd A |v| v
+  double bounding_radius_m = 0;  // of the sphere about its centre of mass that encloses it
+};
+
+class World {
+ public:
+  // Throws ScenarioError with one sentence that names the file.
+  explicit World(const WorldSpec& spec);
+
+  const VehicleParameters& vehicle() const { return vehicle_; }
+  const ObjectPhysics& object(int i) const { return objects_.at(static_cast<std::size_t>(i)); }
+  int object_count() const { return static_cast<int>(objects_.size()); }
+
+  // Time 0: the vehicle level at p_WB with the given heading and velocity, all objects parked far
+  // away, invisible and unable to collide.
+  void reset(const Eigen::Vector3d& p_WB, double yaw_rad, const Eigen::Vector3d& v_W);
+
+  // Object i flies free from now on. It may be launched again.
+  void launch(int i, const BodyState& state);
+
+  // One tick. Thrusts are held over it and clipped to [0, max_thrust_n]. Throws SimulationError
+  // when the state diverges; the world must then be reset.
+  void step(const std::array<double, 4>& rotor_thrust_n);
+
+  // True state now. Accelerations are means over the tick that ends now (zero after reset).
+  const Snapshot& snapshot() const { return snapshot_; }
+
+  // MuJoCo's view of the same instant: positions and contacts are up to date.
+  const mjModel& model() const { return *model_; }
+  const mjData& data() const { return *data_; }
+  int vehicle_body() const { return vehicle_body_; }
+  int object_body(int i) const { return object_bodies_.at(static_cast<std::size_t>(i)); }
+
+ private:
+  // One free rigid body in MuJoCo's state vectors.
+  struct FreeBody {
+    int body = 0;
+    int qpos = 0;            // first of 7: position in W, quaternion (w x y z)
+    int qvel = 0;            // first of 6: velocity in W, angular velocity in the body's frame
+    Eigen::Matrix3d J_kgm2;  // about the centre of mass, in the body's frame
+    Eigen::Matrix3d J_inv;
+  };
+
+  FreeBody find_free_body(int body) const;
+  void read_vehicle();
+  void read_object(int i);
+  double numeric(const std::string& name, int index, int count) const;
+  int find(mjtObj type, const std::string& name) const;
+
+  BodyState state(const FreeBody& body) const;
+  void set_state(const FreeBody& body, const BodyState& state);
+  void set_collisions(int i, bool on);
+  void apply_drag();
+  void integrate(const FreeBody& body);
+  void check_accelerations() const;
+  void fill_snapshot();
+
+  std::string label_;
+  MjModelPtr model_;
+  MjDataPtr data_;
+  VehicleParameters vehicle_;
+  std::vector<ObjectPhysics> objects_;
+  int vehicle_body_ = 0;
+  std::vector<int> object_bodies_;
+  FreeBody vehicle_free_;
+  std::vector<FreeBody> objects_free_;
+  std::vector<Eigen::Vector3d> object_a_W_;  // over the last tick: predicts the middle of the next
+  Snapshot snapshot_;
+};
+
+}  // namespace dodgesim
