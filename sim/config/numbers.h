@@ -1,0 +1,29 @@
+// Numbers as text, exact in both directions and independent of the locale.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dodgesim {
+
+// Shortest text that reads back as the same double. Finite values only.
+std::string to_text(double value);
+inline std::string to_text(int value) { return std::to_string(value); }
+inline std::string to_text(std::int64_t value) { return std::to_string(value); }
+inline std::string to_text(std::uint64_t value) { return std::to_string(value); }
+
+// What a plain YAML scalar is when a number is wanted. Stricter than YAML: a number written with
+// leading zeros (octal in some readers), in hexadecimal, .nan or .inf is not one.
+enum class NumberForm { kDecimal, kInteger, kLeadingZero, kNotFinite, kNone };
+NumberForm number_form(std::string_view text);
+
+// Requires number_form kDecimal or kInteger. Empty when beyond the range of double.
+std::optional<double> parse_double(std::string_view text);
+
+// Requires number_form kInteger. Empty when beyond the range of the type.
+template <class Integer>
+std::optional<Integer> parse_integer(std::string_view text);
+
+}  // namespace dodgesim

@@ -1,0 +1,170 @@
+#include "sim/config/parameter_docs.h"
+
+#include <algorithm>
+
+#include "sim/base/error.h"
+#include "sim/config/numbers.h"
+#include "sim/config/reader.h"
+#include "sim/config/writer.h"
+
+namespace dodgesim {
+
+namespace {
+
+template <class Number>
+std::string range_text(Number min, Number max) {
+  return to_text(min) + " to " + to_text(max);
+}
+
+std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+std::string group_of(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string::npos ? "" : path.substr(0, dot);
+}
+
+// A bar would end the cell of a Markdown table.
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+std::string in_code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
+
+std::string paragraph(const ParameterDoc& doc) {
+  std::string text = doc.path + "\n    " + doc.doc + "\n";
+  if (doc.is_group()) return text;
+  text += "    " + doc.type;
+  if (!doc.range.empty()) text += ", " + doc.range;
+  if (!doc.default_text.empty()) text += "; default " + doc.default_text;
+  return text + "\n";
+}
+
+}  // namespace
+
+void Documenter::add(const char* key, const std::string& type, const std::string& range,
+                     const std::string& default_text, const char* doc) {
+  docs_.push_back({prefix_ + key, type, range, default_text, doc});
+}
+
+void Documenter::operator()(const char* key, double& value, double min, double max,
+                            const char* doc) {
+  add(key, "number", range_text(min, max), to_text(value), doc);
+}
+
+void Documenter::operator()(const char* key, int& value, int min, int max, const char* doc) {
+  add(key, "whole number", range_text(min, max), to_text(value), doc);
+}
+
+void Documenter::operator()(const char* key, std::int64_t& value, std::int64_t min,
+                            std::int64_t max, const char* doc) {
+  add(key, "whole number", range_text(min, max), to_text(value), doc);
+}
+
+void Documenter::operator()(const char* key, std::uint64_t& value, std::uint64_t min,
+                            std::uint64_t max, const char* doc) {
+  add(key, "whole number", range_text(min, max), to_text(value), doc);
+}
+
+void Documenter::operator()(const char* key, bool& value, const char* doc) {
+  add(key, "true or false", "", value ? "true" : "false", doc);
+}
+
+void Documenter::operator()(const char* key, const std::string& value,
+                            std::initializer_list<const char*> allowed, const char* doc) {
+  std::string type;
+  std::size_t i = 0;
+  for (const char* name : allowed) {
+    if (i > 0) type += i + 1 < allowed.size() ? ", " : " or ";
+    type += name;
+    ++i;
+  }
+  add(key, type, "", value, doc);
+}
+
+void Documenter::operator()(const char* key, const Eigen::Vector3d& value, double min, double max,
+                            const char* doc) {
+  add(key, "[x, y, z]", range_text(min, max), to_yaml(value), doc);
+}
+
+void Documenter::operator()(const char* key, const std::optional<Eigen::Vector3d>& value,
+                            double min, double max, const char* doc) {
+  add(key, "[x, y, z]", range_text(min, max), value ? to_yaml(*value) : "", doc);
+}
+
+void Documenter::operator()(const char* key, const Distribution& value, double min, double max,
+                            const char* doc) {
+  add(key, "number or distribution", range_text(min, max), to_yaml(value), doc);
+}
+
+void Documenter::operator()(const char* key, const Components& value, double min, double max,
+                            const char* doc) {
+  add(key, "number or distribution, or a list of " + std::to_string(value.count),
+      range_text(min, max), to_yaml(value), doc);
+}
+
+void Documenter::text(const char* key, const std::string& value, const char* doc) {
+  add(key, "text", "", value, doc);
+}
+
+void Documenter::model(const char* key, const std::string& value, const char* folder,
+                       const char* doc) {
+  add(key, std::string("name of a file in models/") + folder, "", value, doc);
+}
+
+void Documenter::model(const char* key, const NameChoice& value, const char* folder,
+                       const char* doc) {
+  add(key, std::string("name of a file in models/") + folder + ", or !choice of names", "",
+      to_yaml(value), doc);
+}
+
+std::string to_markdown(const std::vector<ParameterDoc>& docs) {
+  std::vector<ParameterDoc> groups = {{"", "", "", "", "Keys at the top level."}};
+  for (const ParameterDoc& doc : docs) {
+    if (doc.is_group()) groups.push_back(doc);
+  }
+  std::string text;
+  for (const ParameterDoc& group : groups) {
+    text += "### " + (group.path.empty() ? "Top level" : in_code(group.path)) + "\n\n" + group.doc +
+            "\n\n| key | value | range | default | meaning |\n|---|---|---|---|---|\n";
+    for (const ParameterDoc& doc : docs) {
+      if (group_of(doc.path) != group.path) continue;
+      const std::string key = in_code(last_part(doc.path));
+      if (doc.is_group()) {
+        text += "| " + key + " | map | | | see " + in_code(doc.path) + " below |\n";
+      } else {
+        text += "| " + key + " | " + cell(doc.type) + " | " + doc.range + " | " +
+                cell(in_code(doc.default_text)) + " | " + cell(doc.doc) + " |\n";
+      }
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string explain(const std::vector<ParameterDoc>& docs, const std::string& key) {
+  std::string text;
+  for (const ParameterDoc& doc : docs) {
+    const bool wanted = key.empty() || doc.path == key || doc.path.starts_with(key + ".");
+    if (wanted) text += paragraph(doc);
+  }
+  if (!text.empty()) return text;
+  for (const ParameterDoc& doc : docs) {
+    if (last_part(doc.path) == key) text += paragraph(doc);
+  }
+  if (!text.empty()) return text;
+  std::vector<std::string> names;
+  for (const ParameterDoc& doc : docs) {
+    names.push_back(doc.path);
+    names.push_back(last_part(doc.path));
+  }
+  const std::string near = closest_name(key, names);
+  throw ScenarioError("There is no key " + key + " in a scenario" +
+                      (near.empty() ? "." : "; did you mean " + near + "?"));
+}
+
+}  // namespace dodgesim

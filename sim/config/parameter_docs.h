@@ -1,0 +1,80 @@
+// The documentation of every key of a scenario, from the same visit() that reads and writes it.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/config/distribution.h"
+
+namespace dodgesim {
+
+struct ParameterDoc {
+  std::string path;          // "throw.size_m"
+  std::string type;          // "number", "a, b or c", ...; empty for a group of keys
+  std::string range;         // "0.01 to 1"; empty where there is none
+  std::string default_text;  // as in YAML; empty where there is none
+  std::string doc;           // one sentence
+  bool is_group() const { return type.empty(); }
+};
+
+// Visitor that lists the parameters of a struct with visit(), whose values are the defaults.
+class Documenter {
+ public:
+  std::vector<ParameterDoc> take() { return std::move(docs_); }
+
+  void operator()(const char* key, double& value, double min, double max, const char* doc);
+  void operator()(const char* key, int& value, int min, int max, const char* doc);
+  void operator()(const char* key, std::int64_t& value, std::int64_t min, std::int64_t max,
+                  const char* doc);
+  void operator()(const char* key, std::uint64_t& value, std::uint64_t min, std::uint64_t max,
+                  const char* doc);
+  void operator()(const char* key, bool& value, const char* doc);
+  void operator()(const char* key, const std::string& value,
+                  std::initializer_list<const char*> allowed, const char* doc);
+  void operator()(const char* key, const Eigen::Vector3d& value, double min, double max,
+                  const char* doc);
+  void operator()(const char* key, const std::optional<Eigen::Vector3d>& value, double min,
+                  double max, const char* doc);
+  void operator()(const char* key, const Distribution& value, double min, double max,
+                  const char* doc);
+  void operator()(const char* key, const Components& value, double min, double max,
+                  const char* doc);
+  void text(const char* key, const std::string& value, const char* doc);
+  void model(const char* key, const std::string& value, const char* folder, const char* doc);
+  void model(const char* key, const NameChoice& value, const char* folder, const char* doc);
+
+  template <class T>
+  void operator()(const char* key, T& value, const char* doc) {
+    docs_.push_back({prefix_ + key, "", "", "", doc});
+    const std::string outer = prefix_;
+    prefix_ += std::string(key) + ".";
+    value.visit(*this);
+    prefix_ = outer;
+  }
+
+  template <class T>
+  void operator()(const char* key, std::optional<T>& value, const char* doc) {
+    T present = value.value_or(T{});
+    (*this)(key, present, doc);
+  }
+
+ private:
+  void add(const char* key, const std::string& type, const std::string& range,
+           const std::string& default_text, const char* doc);
+
+  std::vector<ParameterDoc> docs_;
+  std::string prefix_;
+};
+
+// One table for each group of keys, as GitHub Markdown.
+std::string to_markdown(const std::vector<ParameterDoc>& docs);
+
+// For a terminal: the key `key`, or the group of keys, or (empty) all keys. Accepts the last part
+// of a path ("size_m"). Throws ScenarioError with a suggestion when there is no such key.
+std::string explain(const std::vector<ParameterDoc>& docs, const std::string& key);
+
+}  // namespace dodgesim

@@ -1,0 +1,52 @@
+#include "sim/config/problems.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+namespace {
+
+// More would scroll the first ones, which explain the rest, off the screen.
+constexpr std::size_t kMostProblems = 20;
+
+}  // namespace
+
+void Problems::add(Position at, const std::string& sentence) {
+  if (problems_.size() < kMostProblems) {
+    problems_.push_back({at, sentence});
+  } else {
+    ++left_out_;
+  }
+}
+
+void Problems::fail(Position at, const std::string& sentence) {
+  problems_.push_back({at, sentence});
+  raise_if_any();
+  throw ScenarioError(sentence);  // not reached: the list is not empty
+}
+
+void Problems::raise_if_any() const {
+  if (problems_.empty()) return;
+  std::vector<Problem> sorted = problems_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
+    return std::tie(a.at.line, a.at.column) < std::tie(b.at.line, b.at.column);
+  });
+  std::string message;
+  for (const Problem& problem : sorted) {
+    if (!message.empty()) message += '\n';
+    message += file_ + ":";
+    if (problem.at.line > 0) {
+      message += std::to_string(problem.at.line) + ":" + std::to_string(problem.at.column) + ":";
+    }
+    message += " " + problem.sentence;
+  }
+  if (left_out_ > 0) {
+    message += "\n" + file_ + ": and " + std::to_string(left_out_) + " more problems.";
+  }
+  throw ScenarioError(message);
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,386 @@
+#include "sim/config/reader.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "sim/config/numbers.h"
+
+namespace dodgesim {
+
+namespace {
+
+using Kind = YamlNode::Kind;
+
+constexpr std::size_t kLongestQuote = 60;  // of the user's text in a message
+
+std::string quote(const std::string& text) {
+  if (text.size() <= kLongestQuote) return "\"" + text + "\"";
+  std::size_t end = kLongestQuote;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80) --end;  // whole UTF-8
+  return "\"" + text.substr(0, end) + "...\"";
+}
+
+// What the user wrote, for "throw.size_m is <this>, but must be ...".
+std::string describe(const YamlNode& node) {
+  const std::string tag = node.tag.empty() ? "" : node.tag + " ";
+  switch (node.kind) {
+    case Kind::kNull:
+      return tag + "empty";
+    case Kind::kSequence:
+      return tag + "a list of " + std::to_string(node.items.size());
+    case Kind::kMap:
+      return tag + "a map";
+    case Kind::kScalar:
+      break;
+  }
+  const bool number = !node.quoted && node.text.size() <= kLongestQuote &&
+                      number_form(node.text) != NumberForm::kNone;
+  return tag + (number ? node.text : quote(node.text));
+}
+
+std::string range_text(double min, double max) {
+  return "between " + to_text(min) + " and " + to_text(max);
+}
+
+template <class Number>
+std::optional<Number> parse_number(const std::string& text) {
+  if constexpr (std::is_same_v<Number, double>) {
+    return parse_double(text);
+  } else {
+    return parse_integer<Number>(text);
+  }
+}
+
+// Damerau-Levenshtein distance (neighbours swapped count once), at most the longer length.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replace = a[i - 1] == b[j - 1] ? 0 : 1;
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + replace});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return d[a.size()][b.size()];
+}
+
+std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+}  // namespace
+
+std::string closest_name(const std::string& word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t kLongestWord = 64;
+  if (word.empty() || word.size() > kLongestWord) return "";
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const bool only_unit_missing = candidate.starts_with(word + "_");
+    const std::size_t distance = only_unit_missing ? 1 : edit_distance(word, candidate);
+    if (distance >= best_distance) continue;
+    best_distance = distance;
+    best = candidate;
+  }
+  return best;
+}
+
+void Reader::finish() {
+  for (const YamlNode::Key& key : map_.keys) {
+    if (std::find(known_.begin(), known_.end(), key.name) != known_.end()) continue;
+    if (key.name == "<<") continue;  // already a problem of the parser
+    std::string sentence = full(key.name) + " is not a known key";
+    const std::string near = closest_name(key.name, known_);
+    std::string elsewhere;
+    for (const std::string& path : context_.all_keys) {
+      if (elsewhere.empty() && last_part(path) == key.name) elsewhere = path;
+    }
+    if (!elsewhere.empty()) {
+      sentence += "; " + elsewhere + " is.";
+    } else if (!near.empty()) {
+      sentence += "; did you mean " + full(near) + "?";
+    } else {
+      sentence += ".";
+    }
+    context_.problems.add(key.at, sentence);
+  }
+}
+
+const YamlNode* Reader::take(const char* key) {
+  known_.emplace_back(key);
+  for (std::size_t i = 0; i < map_.keys.size(); ++i) {
+    if (map_.keys[i].name != key) continue;
+    context_.where[full(key)] = map_.items[i].at;
+    return &map_.items[i];
+  }
+  return nullptr;
+}
+
+const YamlNode* Reader::take_map(const char* key) {
+  const YamlNode* node = take(key);
+  if (node == nullptr) return nullptr;
+  if (node->kind == Kind::kMap && node->tag.empty()) return node;
+  problem(*node, full(key), "must be a map of keys");
+  return nullptr;
+}
+
+void Reader::problem(const YamlNode& node, const std::string& name, const std::string& complaint) {
+  context_.problems.add(node.at, name + " is " + describe(node) + ", but " + complaint + ".");
+}
+
+template <class Number>
+void Reader::read_number(const YamlNode& node, const std::string& name, Number& value, Number min,
+                         Number max) {
+  const bool whole = !std::is_same_v<Number, double>;
+  const std::string range = "between " + to_text(min) + " and " + to_text(max);
+  const std::string wanted =
+      std::string("must be a ") + (whole ? "whole " : "") + "number " + range;
+  if (node.kind != Kind::kScalar || node.quoted || !node.tag.empty()) {
+    return problem(node, name, wanted);
+  }
+  switch (number_form(node.text)) {
+    case NumberForm::kNone:
+      return problem(node, name, wanted);
+    case NumberForm::kNotFinite:
+      return problem(node, name, wanted + " (it must be finite)");
+    case NumberForm::kLeadingZero:
+      return problem(node, name,
+                     wanted + " without leading zeros (some readers take them as octal)");
+    case NumberForm::kDecimal:
+      if (whole) return problem(node, name, wanted);
+      break;
+    case NumberForm::kInteger:
+      break;
+  }
+  const std::optional<Number> parsed = parse_number<Number>(node.text);
+  if (!parsed || *parsed < min || *parsed > max) return problem(node, name, "must be " + range);
+  value = *parsed;
+}
+
+void Reader::operator()(const char* key, double& value, double min, double max, const char*) {
+  if (const YamlNode* node = take(key)) read_number(*node, full(key), value, min, max);
+}
+
+void Reader::operator()(const char* key, int& value, int min, int max, const char*) {
+  if (const YamlNode* node = take(key)) read_number(*node, full(key), value, min, max);
+}
+
+void Reader::operator()(const char* key, std::int64_t& value, std::int64_t min, std::int64_t max,
+                        const char*) {
+  if (const YamlNode* node = take(key)) read_number(*node, full(key), value, min, max);
+}
+
+void Reader::operator()(const char* key, std::uint64_t& value, std::uint64_t min, std::uint64_t max,
+                        const char*) {
+  if (const YamlNode* node = take(key)) read_number(*node, full(key), value, min, max);
+}
+
+void Reader::operator()(const char* key, bool& value, const char*) {
+  const YamlNode* node = take(key);
+  if (node == nullptr) return;
+  const bool plain = node->kind == Kind::kScalar && !node->quoted && node->tag.empty();
+  if (!plain || (node->text != "true" && node->text != "false")) {
+    return problem(*node, full(key), "must be true or false");
+  }
+  value = node->text == "true";
+}
+
+void Reader::operator()(const char* key, std::string& value,
+                        std::initializer_list<const char*> allowed, const char*) {
+  const YamlNode* node = take(key);
+  if (node == nullptr) return;
+  const std::vector<std::string> names(allowed.begin(), allowed.end());
+  const bool text = node->kind == Kind::kScalar && node->tag.empty();
+  if (text && std::find(names.begin(), names.end(), node->text) != names.end()) {
+    value = node->text;
+    return;
+  }
+  std::string wanted = "must be ";
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) wanted += i + 1 < names.size() ? ", " : " or ";
+    wanted += names[i];
+  }
+  const std::string near = text ? closest_name(node->text, names) : "";
+  if (!near.empty()) wanted += " (did you mean " + near + "?)";
+  problem(*node, full(key), wanted);
+}
+
+bool Reader::read_vector(const YamlNode& node, const std::string& name, Eigen::Vector3d& value,
+                         double min, double max) {
+  if (node.kind != Kind::kSequence || !node.tag.empty() || node.items.size() != 3) {
+    problem(node, name, "must be [x, y, z], each a number " + range_text(min, max));
+    return false;
+  }
+  for (int i = 0; i < 3; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    read_number(node.items[n], name + "[" + std::to_string(i) + "]", value[i], min, max);
+  }
+  return true;
+}
+
+void Reader::operator()(const char* key, Eigen::Vector3d& value, double min, double max,
+                        const char*) {
+  if (const YamlNode* node = take(key)) read_vector(*node, full(key), value, min, max);
+}
+
+void Reader::operator()(const char* key, std::optional<Eigen::Vector3d>& value, double min,
+                        double max, const char*) {
+  const YamlNode* node = take(key);
+  if (node == nullptr) return;
+  Eigen::Vector3d vector = Eigen::Vector3d::Zero();
+  if (read_vector(*node, full(key), vector, min, max)) value = vector;
+}
+
+namespace {
+
+// The keys of !normal.
+struct NormalKeys {
+  double mean, sd, min, max;
+  double key_min, key_max;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("mean", mean, key_min, key_max, "");
+    v("sd", sd, 1e-12, key_max - key_min, "");
+    v("min", min, key_min, key_max, "");
+    v("max", max, key_min, key_max, "");
+  }
+};
+
+bool has_key(const YamlNode& map, const char* name) {
+  return std::any_of(map.keys.begin(), map.keys.end(),
+                     [&](const YamlNode::Key& key) { return key.name == name; });
+}
+
+}  // namespace
+
+bool Reader::read_distribution(const YamlNode& node, const std::string& name, Distribution& value,
+                               double min, double max) {
+  const std::string numbers = "each a number " + range_text(min, max);
+  if (node.tag.empty() && node.kind == Kind::kScalar) {
+    double number = 0;
+    read_number(node, name, number, min, max);
+    value = Distribution::constant(number);
+  } else if (node.tag == "!uniform" || node.tag == "!choice") {
+    const bool uniform = node.tag == "!uniform";
+    if (node.kind != Kind::kSequence || node.items.empty() || (uniform && node.items.size() != 2)) {
+      problem(node, name,
+              uniform ? "must be !uniform [lowest, highest], " + numbers
+                      : "must be !choice [a, b, ...], " + numbers);
+      return false;
+    }
+    std::vector<double> values(node.items.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      read_number(node.items[i], name + "[" + std::to_string(i) + "]", values[i], min, max);
+    }
+    if (uniform && values[0] > values[1]) {
+      problem(node.items[0], name + "[0]",
+              "the lowest value must come first and be at most " + to_text(values[1]));
+      return false;
+    }
+    value = uniform ? Distribution::uniform(values[0], values[1]) : Distribution::choice(values);
+  } else if (node.tag == "!normal") {
+    if (node.kind != Kind::kMap || !has_key(node, "mean") || !has_key(node, "sd")) {
+      problem(node, name, "must be !normal {mean: a, sd: b}, optionally with min and max");
+      return false;
+    }
+    NormalKeys keys{min, 1, min, max, min, max};
+    read_nested(last_part(name).c_str(), node, keys);
+    if (keys.min >= keys.max || keys.mean < keys.min || keys.mean > keys.max) {
+      problem(node, name, "must have min < max and its mean between them");
+      return false;
+    }
+    value = Distribution::normal(keys.mean, keys.sd, keys.min, keys.max);
+  } else {
+    problem(node, name,
+            "must be a number " + range_text(min, max) +
+                ", !uniform [lowest, highest], !normal {mean, sd} or !choice [a, b, ...]");
+    return false;
+  }
+  return true;
+}
+
+void Reader::operator()(const char* key, Distribution& value, double min, double max, const char*) {
+  if (const YamlNode* node = take(key)) read_distribution(*node, full(key), value, min, max);
+}
+
+void Reader::operator()(const char* key, Components& value, double min, double max, const char*) {
+  const YamlNode* node = take(key);
+  if (node == nullptr) return;
+  if (node->kind != Kind::kSequence || !node->tag.empty()) {
+    Distribution all;
+    if (read_distribution(*node, full(key), all, min, max)) value.parts = {all};
+    return;
+  }
+  const auto count = static_cast<std::size_t>(value.count);
+  if (node->items.size() != count) {
+    return problem(*node, full(key),
+                   "must be one number or distribution, or a list of " + std::to_string(count));
+  }
+  std::vector<Distribution> parts(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    read_distribution(node->items[i], full(key) + "[" + std::to_string(i) + "]", parts[i], min,
+                      max);
+  }
+  value.parts = parts;
+}
+
+void Reader::text(const char* key, std::string& value, const char*) {
+  const YamlNode* node = take(key);
+  if (node == nullptr) return;
+  if (node->kind != Kind::kScalar || !node->tag.empty()) {
+    return problem(*node, full(key), "must be text");
+  }
+  value = node->text;
+}
+
+bool Reader::read_model(const YamlNode& node, const std::string& name, const char* folder,
+                        std::string& value) {
+  const auto is_name_character = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  // Only a plain name: a path could lead out of the folder of models.
+  if (node.kind != Kind::kScalar || !node.tag.empty() || node.text.empty() ||
+      !std::all_of(node.text.begin(), node.text.end(), is_name_character)) {
+    problem(node, name,
+            std::string("must be the name of a file in models/") + folder +
+                " without .xml (letters, digits, _ and -)");
+    return false;
+  }
+  if (!context_.models_dir.empty()) {
+    const std::filesystem::path file =
+        std::filesystem::path(context_.models_dir) / folder / (node.text + ".xml");
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) {
+      problem(node, name, "there is no model file " + file.string());
+      return false;
+    }
+  }
+  value = node.text;
+  return true;
+}
+
+void Reader::model(const char* key, std::string& value, const char* folder, const char*) {
+  if (const YamlNode* node = take(key)) read_model(*node, full(key), folder, value);
+}
+
+void Reader::model(const char* key, NameChoice& value, const char* folder, const char*) {
+  const YamlNode* node = take(key);
+  if (node == nullptr) return;
+  std::vector<std::string> names(1);
+  if (node->tag == "!choice" && node->kind == Kind::kSequence && !node->items.empty()) {
+    names.resize(node->items.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::string name = full(key) + "[" + std::to_string(i) + "]";
+      if (!read_model(node->items[i], name, folder, names[i])) return;
+    }
+  } else if (!read_model(*node, full(key), folder, names[0])) {
+    return;
+  }
+  value.names = names;
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,109 @@
+// Reads a YAML map into a struct with visit(), strictly: unknown keys, wrong types and values out
+// of range are problems with file, line, column and key. The first of the three visitors of the one
+// list of parameters (see writer.h and parameter_docs.h).
+#pragma once
+
+#include <Eigen/Dense>
+#include <initializer_list>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/config/distribution.h"
+#include "sim/config/yaml_tree.h"
+
+namespace dodgesim {
+
+// Shared by the readers of all nested structs of one file.
+struct ReadContext {
+  explicit ReadContext(std::string file) : problems(std::move(file)) {}
+
+  Problems problems;
+  std::map<std::string, Position> where;  // of the value of every key given, by its dotted path
+  std::vector<std::string> all_keys;      // dotted paths of all keys there are, for suggestions
+  std::string models_dir;                 // when set, named models must exist below it
+};
+
+class Reader {
+ public:
+  // `map` must outlive the reader. `path` is the dotted path of the map, empty at the root.
+  Reader(const YamlNode& map, std::string path, ReadContext& context)
+      : map_(map), path_(std::move(path)), context_(context) {}
+
+  // Keys that were not asked for are problems. Call after visit().
+  void finish();
+
+  void operator()(const char* key, double& value, double min, double max, const char*);
+  void operator()(const char* key, int& value, int min, int max, const char*);
+  void operator()(const char* key, std::int64_t& value, std::int64_t min, std::int64_t max,
+                  const char*);
+  void operator()(const char* key, std::uint64_t& value, std::uint64_t min, std::uint64_t max,
+                  const char*);
+  void operator()(const char* key, bool& value, const char*);
+  void operator()(const char* key, std::string& value, std::initializer_list<const char*> allowed,
+                  const char*);
+  void operator()(const char* key, Eigen::Vector3d& value, double min, double max, const char*);
+  void operator()(const char* key, std::optional<Eigen::Vector3d>& value, double min, double max,
+                  const char*);
+
+  // A number or a distribution whose whole support lies in [min, max].
+  void operator()(const char* key, Distribution& value, double min, double max, const char*);
+  // One such, or a list of value.count of them.
+  void operator()(const char* key, Components& value, double min, double max, const char*);
+
+  // Free text for people.
+  void text(const char* key, std::string& value, const char*);
+  // The name of the model file models/<folder>/<name>.xml; several: !choice [a, b].
+  void model(const char* key, std::string& value, const char* folder, const char*);
+  void model(const char* key, NameChoice& value, const char* folder, const char*);
+
+  template <class T>
+  void operator()(const char* key, T& value, const char*) {
+    if (const YamlNode* map = take_map(key)) read_nested(key, *map, value);
+  }
+
+  // A part that may be absent altogether.
+  template <class T>
+  void operator()(const char* key, std::optional<T>& value, const char*) {
+    const YamlNode* map = take_map(key);
+    if (map == nullptr) return;
+    value.emplace();
+    read_nested(key, *map, *value);
+  }
+
+ private:
+  template <class T>
+  void read_nested(const char* key, const YamlNode& map, T& value) {
+    Reader nested(map, full(key), context_);
+    value.visit(nested);
+    nested.finish();
+  }
+
+  std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+  const YamlNode* take(const char* key);
+  const YamlNode* take_map(const char* key);
+  void problem(const YamlNode& node, const std::string& name, const std::string& complaint);
+
+  template <class Number>
+  void read_number(const YamlNode& node, const std::string& name, Number& value, Number min,
+                   Number max);
+  bool read_distribution(const YamlNode& node, const std::string& name, Distribution& value,
+                         double min, double max);
+  bool read_vector(const YamlNode& node, const std::string& name, Eigen::Vector3d& value,
+                   double min, double max);
+  bool read_model(const YamlNode& node, const std::string& name, const char* folder,
+                  std::string& value);
+
+  const YamlNode& map_;
+  std::string path_;
+  ReadContext& context_;
+  std::vector<std::string> known_;
+};
+
+// The name in `candidates` that `word` most likely misspells, or empty. Counts insertions,
+// deletions, replacements and swaps of neighbours; a missing unit (size for size_m) is always
+// recognised.
+std::string closest_name(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace dodgesim

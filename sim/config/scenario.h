@@ -1,0 +1,160 @@
+// A scenario: everything that decides the result of a campaign, read from one YAML file. Every
+// struct lists its parameters once, in visit(), which serves reading, checking, writing and
+// documenting.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/bridge/delay_spec.h"
+#include "sim/bridge/oracle_spec.h"
+#include "sim/config/distribution.h"
+#include "sim/config/parameter_docs.h"
+#include "sim/motors/motors.h"
+#include "sim/sensors/imu.h"
+#include "sim/sensors/range_sensor.h"
+#include "sim/sensors/state_estimator.h"
+
+namespace dodgesim {
+
+struct CameraSpec {
+  int width = 320;   // [px]
+  int height = 240;  // [px]
+  double horizontal_fov_deg = 80;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("width", width, 16, 2048, "Columns of each event camera (320 as the paper's SEES1).");
+    v("height", height, 16, 2048, "Rows of each event camera (240 as the paper's SEES1).");
+    v("horizontal_fov_deg", horizontal_fov_deg, 10, 150,
+      "Horizontal field of view; 80 degrees over 320 columns is a focal length of 190.7 px.");
+  }
+};
+
+struct SensorsSpec {
+  CameraSpec camera;
+  ImuSpec imu;
+  StateEstimateSpec state_estimate;
+  RangeSpec range;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("camera", camera, "Image size and field of view of both event cameras.");
+    v("imu", imu, "Gyroscope and accelerometer.");
+    v("state_estimate", state_estimate, "Pose and velocity as the vehicle's estimator gives them.");
+    v("range", range, "The range sensor that looks down.");
+  }
+};
+
+struct MissionSpec {
+  std::string type = "hover";
+  Eigen::Vector3d start_m{0, 0, 2};
+  double heading_deg = 0;
+  std::optional<Eigen::Vector3d> goal_m;
+  double speed_mps = 1.5;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("type", type, {"hover", "goal"}, "Stay at start_m, or fly from there to goal_m.");
+    v("start_m", start_m, -100, 100, "Where the vehicle starts, in world coordinates (z up).");
+    v("heading_deg", heading_deg, -180, 180,
+      "Heading of the vehicle and its cameras: 0 along world x, positive to the left.");
+    v("goal_m", goal_m, -100, 100, "Where to fly; required for the type goal.");
+    v("speed_mps", speed_mps, 0.1, 10, "Cruise speed towards the goal (1.5 in the paper).");
+  }
+};
+
+struct ThrowSpec {
+  NameChoice object = {{"ball"}};
+  Distribution size_m = Distribution::constant(0.2);
+  Distribution speed_mps = Distribution::constant(6);
+  Distribution distance_m = Distribution::constant(3);
+  Distribution bearing_deg = Distribution::constant(0);
+  Components aim_offset_m = {2, {Distribution::constant(0)}};
+  Components spin_radps = {3, {Distribution::constant(0)}};
+  Distribution launch_height_m = Distribution::constant(1.5);
+  Distribution launch_s = Distribution::constant(1);
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.model("object", object, "objects", "What is thrown.");
+    v("size_m", size_m, 0.01, 1, "Its longest extension; a ball's diameter.");
+    v("speed_mps", speed_mps, 0.5, 30,
+      "Mean closing speed over the ground: the object reaches the aim point distance_m / speed_mps "
+      "after its launch.");
+    v("distance_m", distance_m, 0.5, 20,
+      "Horizontal distance from the launch point to the vehicle at the moment of the launch.");
+    v("bearing_deg", bearing_deg, -180, 180,
+      "Where the throw comes from, seen from the vehicle: 0 ahead, positive to the left.");
+    v("aim_offset_m", aim_offset_m, -2, 2,
+      "Offset of the aim point from the vehicle's centre, [lateral, vertical] across the line of "
+      "the throw; a single distribution is drawn for each of the two.");
+    v("spin_radps", spin_radps, -200, 200,
+      "Rotation of the object: a rate about a random axis, or [x, y, z] in the world.");
+    v("launch_height_m", launch_height_m, 0.05, 10,
+      "Height of the hand above the floor when it lets go.");
+    v("launch_s", launch_s, 0.1, 600, "Time of the launch after the start of the flight.");
+  }
+};
+
+struct Scenario {
+  std::string name;
+  std::string description;
+  std::uint64_t seed = 1;
+  int repeats = 1;
+  std::string pilot = "falanga2020";
+  bool fly_oracle = true;
+  std::string room = "room";
+  std::string vehicle = "qav_rxl";
+  MissionSpec mission;
+  std::optional<ThrowSpec> toss;  // the key `throw`; absent: nobody throws
+  double after_s = 1;
+  double duration_s = 10;
+  SensorsSpec sensors;
+  DelaySpec delays;
+  MotorSpec motors;
+  OracleSpec oracle;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.text("name", name, "Title of the campaign in tables; the file's name when empty.");
+    v.text("description", description, "What the scenario is for.");
+    v("seed", seed, 0, UINT64_MAX,
+      "Names the random numbers: the same seed and scenario give the same results.");
+    v("repeats", repeats, 1, 1000000, "Number of throws (of quiet flights, when nobody throws).");
+    v("pilot", pilot, {"falanga2020", "oracle", "none"},
+      "Who flies: the paper's dodger, one that is told the true obstacle, or one that never "
+      "dodges.");
+    v("fly_oracle", fly_oracle,
+      "Fly every throw with the pilot oracle too, which bounds what perception can cost.");
+    v.model("room", room, "rooms", "The world around the vehicle.");
+    v.model("vehicle", vehicle, "vehicles", "The quadrotor.");
+    v("mission", mission, "What the vehicle does when it does not dodge.");
+    v("throw", toss, "What is thrown at the vehicle; without this key nobody throws.");
+    v("after_s", after_s, 0.1, 60, "Flown on after the object's predicted arrival.");
+    v("duration_s", duration_s, 0.1, 3600,
+      "Length of a flight when nobody throws (with a throw, after_s ends it).");
+    v("sensors", sensors, "What the vehicle senses, and how badly.");
+    v("delays", delays, "The latency chain, in simulated time.");
+    v("motors", motors, "Speed controllers and rotors.");
+    v("oracle", oracle, "What the pilot oracle may see.");
+  }
+};
+
+// Reads and checks a scenario. Every problem is one sentence with file, line, column and key; all
+// are reported together in one ScenarioError. Named models must exist in `models_dir` (empty: not
+// checked).
+Scenario load_scenario(const std::string& path, const std::string& models_dir);
+Scenario parse_scenario(const std::string& text, const std::string& file,
+                        const std::string& models_dir);
+
+// Every value spelled out; parse_scenario reads it back equal to the last bit.
+std::string to_yaml(const Scenario& scenario);
+
+// All keys with their defaults.
+std::vector<ParameterDoc> scenario_docs();
+
+}  // namespace dodgesim

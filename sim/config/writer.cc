@@ -1,0 +1,156 @@
+#include "sim/config/writer.h"
+
+#include "sim/config/numbers.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr std::size_t kIndent = 2;
+
+std::string list(const std::vector<std::string>& items) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < items.size(); ++i) text += (i > 0 ? ", " : "") + items[i];
+  return text + "]";
+}
+
+std::string list(const std::vector<double>& values) {
+  std::vector<std::string> items;
+  for (const double value : values) items.push_back(to_text(value));
+  return list(items);
+}
+
+std::string in_quotes(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    switch (c) {
+      case '"':
+      case '\\':
+        quoted += '\\';
+        quoted += c;
+        break;
+      case '\n':
+        quoted += "\\n";
+        break;
+      case '\r':
+        quoted += "\\r";
+        break;
+      case '\t':
+        quoted += "\\t";
+        break;
+      default:
+        quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+// Names of models are letters, digits, _ and -, but YAML reads some of those as something else.
+std::string name_text(const std::string& name) {
+  const bool letter = (name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z');
+  const bool null = name == "null" || name == "Null" || name == "NULL";
+  return letter && !null ? name : in_quotes(name);
+}
+
+}  // namespace
+
+std::string to_yaml(const Distribution& distribution) {
+  const std::vector<double>& values = distribution.values;
+  switch (distribution.kind) {
+    case Distribution::Kind::kConstant:
+      return to_text(values[0]);
+    case Distribution::Kind::kUniform:
+      return "!uniform " + list(values);
+    case Distribution::Kind::kChoice:
+      return "!choice " + list(values);
+    case Distribution::Kind::kNormal:
+      break;
+  }
+  return "!normal {mean: " + to_text(values[0]) + ", sd: " + to_text(values[1]) +
+         ", min: " + to_text(distribution.lo) + ", max: " + to_text(distribution.hi) + "}";
+}
+
+std::string to_yaml(const Components& components) {
+  if (components.parts.size() == 1) return to_yaml(components.parts[0]);
+  std::vector<std::string> items;
+  for (const Distribution& part : components.parts) items.push_back(to_yaml(part));
+  return list(items);
+}
+
+std::string to_yaml(const NameChoice& choice) {
+  if (choice.names.size() == 1) return name_text(choice.names[0]);
+  std::vector<std::string> items;
+  for (const std::string& name : choice.names) items.push_back(name_text(name));
+  return "!choice " + list(items);
+}
+
+std::string to_yaml(const Eigen::Vector3d& vector) {
+  return list(std::vector<double>{vector.x(), vector.y(), vector.z()});
+}
+
+void Writer::line(const char* key, const std::string& value) {
+  yaml_.append(kIndent * static_cast<std::size_t>(level_), ' ');
+  yaml_ += key;
+  yaml_ += ":";
+  if (!value.empty()) yaml_ += " " + value;
+  yaml_ += "\n";
+}
+
+void Writer::operator()(const char* key, double& value, double, double, const char*) {
+  line(key, to_text(value));
+}
+
+void Writer::operator()(const char* key, int& value, int, int, const char*) {
+  line(key, to_text(value));
+}
+
+void Writer::operator()(const char* key, std::int64_t& value, std::int64_t, std::int64_t,
+                        const char*) {
+  line(key, to_text(value));
+}
+
+void Writer::operator()(const char* key, std::uint64_t& value, std::uint64_t, std::uint64_t,
+                        const char*) {
+  line(key, to_text(value));
+}
+
+void Writer::operator()(const char* key, bool& value, const char*) {
+  line(key, value ? "true" : "false");
+}
+
+void Writer::operator()(const char* key, const std::string& value,
+                        std::initializer_list<const char*>, const char*) {
+  line(key, value);
+}
+
+void Writer::operator()(const char* key, const Eigen::Vector3d& value, double, double,
+                        const char*) {
+  line(key, to_yaml(value));
+}
+
+void Writer::operator()(const char* key, const std::optional<Eigen::Vector3d>& value, double,
+                        double, const char*) {
+  if (value) line(key, to_yaml(*value));
+}
+
+void Writer::operator()(const char* key, const Distribution& value, double, double, const char*) {
+  line(key, to_yaml(value));
+}
+
+void Writer::operator()(const char* key, const Components& value, double, double, const char*) {
+  line(key, to_yaml(value));
+}
+
+void Writer::text(const char* key, const std::string& value, const char*) {
+  line(key, in_quotes(value));
+}
+
+void Writer::model(const char* key, const std::string& value, const char*, const char*) {
+  line(key, name_text(value));
+}
+
+void Writer::model(const char* key, const NameChoice& value, const char*, const char*) {
+  line(key, to_yaml(value));
+}
+
+}  // namespace dodgesim

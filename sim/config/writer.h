@@ -1,0 +1,62 @@
+// Writes a struct with visit() as YAML with every value spelled out: what Reader reads back equal,
+// to the last bit of every number.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+
+#include "sim/config/distribution.h"
+
+namespace dodgesim {
+
+// Values are taken by reference only so that no number converts to another type.
+class Writer {
+ public:
+  const std::string& yaml() const { return yaml_; }
+
+  void operator()(const char* key, double& value, double, double, const char*);
+  void operator()(const char* key, int& value, int, int, const char*);
+  void operator()(const char* key, std::int64_t& value, std::int64_t, std::int64_t, const char*);
+  void operator()(const char* key, std::uint64_t& value, std::uint64_t, std::uint64_t, const char*);
+  void operator()(const char* key, bool& value, const char*);
+  void operator()(const char* key, const std::string& value, std::initializer_list<const char*>,
+                  const char*);
+  void operator()(const char* key, const Eigen::Vector3d& value, double, double, const char*);
+  void operator()(const char* key, const std::optional<Eigen::Vector3d>& value, double, double,
+                  const char*);
+  void operator()(const char* key, const Distribution& value, double, double, const char*);
+  void operator()(const char* key, const Components& value, double, double, const char*);
+  void text(const char* key, const std::string& value, const char*);
+  void model(const char* key, const std::string& value, const char*, const char*);
+  void model(const char* key, const NameChoice& value, const char*, const char*);
+
+  template <class T>
+  void operator()(const char* key, T& value, const char*) {
+    line(key, "");
+    ++level_;
+    value.visit(*this);
+    --level_;
+  }
+
+  template <class T>
+  void operator()(const char* key, std::optional<T>& value, const char* doc) {
+    if (value) (*this)(key, *value, doc);
+  }
+
+ private:
+  void line(const char* key, const std::string& value);
+
+  std::string yaml_;
+  int level_ = 0;
+};
+
+// As they stand in YAML: "0.3", "!uniform [0.1, 0.3]", "[0.1, 0, !normal {...}]".
+std::string to_yaml(const Distribution& distribution);
+std::string to_yaml(const Components& components);
+std::string to_yaml(const NameChoice& choice);
+std::string to_yaml(const Eigen::Vector3d& vector);
+
+}  // namespace dodgesim

@@ -1,0 +1,254 @@
+#include "sim/config/yaml_tree.h"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr std::size_t kMostBytes = 256 * 1024;  // a long scenario has 10 kB
+constexpr std::size_t kMostNodes = 5000;
+constexpr std::size_t kDeepest = 16;
+
+Position position(const YAML::Mark& mark) { return {mark.line + 1, mark.column + 1}; }
+
+// Raised inside yaml-cpp's parser to leave it; never seen by the caller.
+struct Stop {
+  Position at;
+  std::string sentence;
+};
+
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  explicit TreeBuilder(Problems& problems) : problems_(problems) {}
+
+  YamlNode take_root() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    add(make(YamlNode::Kind::kNull, mark, "", anchor));
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    problems_.add(position(mark), "Aliases (*name) are not supported; write the value out.");
+    add(make(YamlNode::Kind::kNull, mark, "", 0));
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    // yaml-cpp marks a plain scalar "?" and a quoted one "!".
+    YamlNode node =
+        make(YamlNode::Kind::kScalar, mark, tag == "?" || tag == "!" ? "" : tag, anchor);
+    node.quoted = tag == "!";
+    node.text = value;
+    add(std::move(node));
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(make(YamlNode::Kind::kSequence, mark, tag == "?" ? "" : tag, anchor));
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(make(YamlNode::Kind::kMap, mark, tag == "?" ? "" : tag, anchor));
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Open {
+    YamlNode node;
+    bool expects_value = false;  // a key of this map has been read, its value not yet
+  };
+
+  YamlNode make(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag,
+                YAML::anchor_t anchor) {
+    if (++nodes_ > kMostNodes) {
+      throw Stop{position(mark), "The file has more than " + std::to_string(kMostNodes) +
+                                     " values, which no scenario needs."};
+    }
+    if (anchor != 0) {
+      problems_.add(position(mark), "Anchors (&name) are not supported; write the value out.");
+    }
+    YamlNode node;
+    node.kind = kind;
+    node.at = position(mark);
+    node.tag = tag;
+    return node;
+  }
+
+  void open(YamlNode node) {
+    if (!open_.empty()) require_key_if_due(node);
+    if (open_.size() >= kDeepest) {
+      throw Stop{node.at, "The file is nested more than " + std::to_string(kDeepest) +
+                              " levels deep, which no scenario needs."};
+    }
+    open_.push_back({std::move(node)});
+  }
+
+  void close() {
+    YamlNode node = std::move(open_.back().node);
+    open_.pop_back();
+    place(std::move(node));
+  }
+
+  void add(YamlNode node) {
+    if (!open_.empty() && open_.back().node.kind == YamlNode::Kind::kMap &&
+        !open_.back().expects_value) {
+      add_key(node);
+    } else {
+      place(std::move(node));
+    }
+  }
+
+  void require_key_if_due(const YamlNode& node) {
+    const Open& top = open_.back();
+    if (top.node.kind == YamlNode::Kind::kMap && !top.expects_value) {
+      throw Stop{node.at, "A key must be a plain word, not a list or a map."};
+    }
+  }
+
+  void add_key(const YamlNode& node) {
+    if (node.kind != YamlNode::Kind::kScalar || node.text.empty()) {
+      throw Stop{node.at, "A key must be a plain word."};
+    }
+    Open& top = open_.back();
+    if (node.text == "<<") {
+      problems_.add(node.at, "Merge keys (<<) are not supported; write the keys out.");
+    }
+    for (const YamlNode::Key& key : top.node.keys) {
+      if (key.name != node.text) continue;
+      problems_.add(node.at, path() + node.text + " is given twice; it is already in line " +
+                                 std::to_string(key.at.line) + ".");
+      break;
+    }
+    top.node.keys.push_back({node.text, node.at});
+    top.expects_value = true;
+  }
+
+  void place(YamlNode node) {
+    if (open_.empty()) {
+      root_ = std::move(node);
+      return;
+    }
+    open_.back().node.items.push_back(std::move(node));
+    open_.back().expects_value = false;
+  }
+
+  // "throw." inside the map under the key `throw`.
+  std::string path() const {
+    std::string path;
+    for (const Open& level : open_) {
+      if (level.expects_value) path += level.node.keys.back().name + ".";
+    }
+    return path;
+  }
+
+  Problems& problems_;
+  YamlNode root_;
+  std::vector<Open> open_;
+  std::size_t nodes_ = 0;
+};
+
+// Length of the valid UTF-8 sequence at the start of `text`, or 0. Control characters other than
+// tab and line ends do not belong into a text file.
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) {
+    const bool allowed =
+        (first >= 0x20 && first != 0x7f) || first == '\t' || first == '\n' || first == '\r';
+    return allowed ? 1 : 0;
+  }
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
+  unsigned code = first & (0xffu >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0u) != 0x80) return 0;
+    code = (code << 6) | (byte(i) & 0x3fu);
+  }
+  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+  const bool surrogate = code >= 0xd800 && code <= 0xdfff;
+  return overlong || surrogate || code > 0x10ffff ? 0 : length;
+}
+
+void check_encoding(std::string_view text, Problems& problems) {
+  Position at{1, 1};
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = utf8_length(text.substr(i));
+    if (length == 0) {
+      const int byte = static_cast<unsigned char>(text[i]);
+      problems.fail(at, "The file is not UTF-8 text (byte " + std::to_string(byte) + ").");
+    }
+    if (text[i] == '\n') {
+      at = {at.line + 1, 1};
+    } else {
+      ++at.column;
+    }
+    i += length;
+  }
+}
+
+}  // namespace
+
+YamlNode parse_yaml(std::string_view text, Problems& problems) {
+  if (text.size() > kMostBytes) {
+    problems.fail({}, "The file has " + std::to_string(text.size()) +
+                          " bytes; a scenario has at most " + std::to_string(kMostBytes) + ".");
+  }
+  check_encoding(text, problems);
+  YamlNode root;
+  try {
+    std::istringstream stream{std::string(text)};
+    YAML::Parser parser(stream);
+    TreeBuilder builder(problems);
+    if (!parser.HandleNextDocument(builder)) problems.fail({}, "The file is empty.");
+    root = builder.take_root();
+    TreeBuilder second(problems);
+    if (parser.HandleNextDocument(second)) {
+      problems.fail(second.take_root().at, "The file holds more than one YAML document (---).");
+    }
+  } catch (const Stop& stop) {
+    problems.fail(stop.at, stop.sentence);
+  } catch (const YAML::Exception& error) {
+    problems.fail(error.mark.is_null() ? Position{} : position(error.mark),
+                  "The file is not valid YAML (" + error.msg + ").");
+  }
+  if (root.kind == YamlNode::Kind::kNull) problems.fail({}, "The file is empty.");
+  if (root.kind != YamlNode::Kind::kMap) {
+    problems.fail(root.at, "A scenario must be a map of keys, one a line, such as \"seed: 1\".");
+  }
+  return root;
+}
+
+std::string read_scenario_text(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    throw ScenarioError(path + ": There is no such file.");
+  }
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw ScenarioError(path + ": This is a directory; a scenario is a YAML file.");
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw IoError(path + ": The file could not be opened for reading.");
+  // One byte beyond the limit is enough to know that it is exceeded (a device never ends).
+  std::string text(kMostBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad()) throw IoError(path + ": The file could not be read.");
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kMostBytes) {
+    throw ScenarioError(path + ": The file has more than " + std::to_string(kMostBytes) +
+                        " bytes, which no scenario needs.");
+  }
+  return text;
+}
+
+}  // namespace dodgesim

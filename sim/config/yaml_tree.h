@@ -1,0 +1,41 @@
+// A YAML file as a plain tree with positions. Built from yaml-cpp's parser events, not from its
+// nodes, because those hide what a strict reader must see: duplicate keys (the first wins), merge
+// keys (ignored), aliases (shared nodes that an alias bomb multiplies), several documents
+// (dropped).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/config/problems.h"
+
+namespace dodgesim {
+
+struct YamlNode {
+  enum class Kind { kNull, kScalar, kSequence, kMap };
+  struct Key {
+    std::string name;
+    Position at;
+  };
+
+  Kind kind = Kind::kNull;
+  Position at;
+  std::string tag;              // "!uniform"; empty when the file gives none
+  std::string text;             // of a scalar
+  bool quoted = false;          // a scalar in quotes is text, whatever it looks like
+  std::vector<YamlNode> items;  // of a sequence or map
+  std::vector<Key> keys;        // of a map: keys[i] names items[i]
+};
+
+// Parses one document whose root is a map. Duplicate keys, anchors, aliases and merge keys are
+// added to `problems`; what cannot be parsed at all (not UTF-8, syntax, empty, several documents,
+// too deep, too large) throws ScenarioError at once. Time and memory are bounded by limits on size
+// and depth.
+YamlNode parse_yaml(std::string_view text, Problems& problems);
+
+// Whole contents of a file of bounded size. Throws ScenarioError when there is no such file or it
+// is a directory or too large for a scenario, and IoError when reading fails.
+std::string read_scenario_text(const std::string& path);
+
+}  // namespace dodgesim
