@@ -91,10 +91,14 @@ class RepulsiveField {
   // eta < 0 (touching) counts as 0.
   double magnitude(double eta_m, double k_r) const;
 
-  // Unit escape direction: (29), (30) with the fall-back for head-on approach; away from the
-  // obstacle for khosla. Orthogonal to the heading for falanga.
-  Eigen::Vector3d direction(const Eigen::Vector3d& grad_eta_W, const Eigen::Vector3d& v_obstacle_W,
-                            const VehicleMotion& vehicle) const;
+  // Unit escape direction for the gradient of the distance (unit, away from the obstacle) and the
+  // velocity that counts. Falanga: (29), (30), orthogonal to the heading and made a unit vector
+  // again, so that (28) alone sets the magnitude: as printed, an obstacle that crosses from the
+  // side would hardly push. Where (29) or (30) vanish (head-on), the escape is upward, or to the
+  // left if the obstacle flies steeply; in both cases without the components along the obstacle's
+  // velocity and along the heading. Khosla: away from the obstacle.
+  Eigen::Vector3d direction(const Eigen::Vector3d& grad_eta_W, const Eigen::Vector3d& v_W,
+                            const Eigen::Vector3d& heading_W) const;
 
   // The force (32) in W, in units of velocity (39). Zero for an obstacle without motion when the
   // force scales with speed.
@@ -102,7 +106,12 @@ class RepulsiveField {
                         const Eigen::Vector3d& v_obstacle_W, double since_detection_s) const;
 
  private:
+  Eigen::Vector3d head_on_escape(const Eigen::Vector3d& along,
+                                 const Eigen::Vector3d& heading_W) const;
+
   RepulsiveConfig config_;
+  bool khosla_, relative_, cross_, absolute_, flip_;
+  double steep_sine_;
 };
 
 }  // namespace dodge

@@ -49,7 +49,7 @@ class Tracker {
   };
 
   void take_in(std::span<Detection> detections);
-  void measure(Track& track, const Detection& detection) const;
+  void measure(Track& track, Detection& detection) const;
   void remove_stale(TimeUs now);
   void publish(TimeUs now);
 

@@ -1,0 +1,52 @@
+#include "dodge/avoid/avoider.h"
+
+#include <cmath>
+
+namespace dodge {
+namespace {
+
+constexpr double kSecondsPerUs = 1e-6;
+constexpr double kVertical = 1e-6;  // horizontal length below which an axis counts as vertical
+
+double seconds(TimeUs from, TimeUs to) { return static_cast<double>(to - from) * kSecondsPerUs; }
+
+// The vehicle's x axis without tilt: the heading of (30) is where the vehicle is turned to, not how
+// far it leans into its escape.
+Eigen::Vector3d heading(const Eigen::Quaterniond& q_WB) {
+  const Eigen::Matrix3d R_WB = q_WB.normalized().toRotationMatrix();
+  Eigen::Vector3d x = R_WB.col(0);
+  if (std::hypot(x.x(), x.y()) < kVertical) x = std::copysign(1.0, -x.z()) * R_WB.col(2);
+  x.z() = 0;
+  return x.normalized();
+}
+
+}  // namespace
+
+Avoider::Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attractive,
+                 const VelocityLimitConfig& limit)
+    : repulsive_(repulsive), attractive_(attractive), limit_(limit) {
+  validate(attractive);
+  validate(limit);
+}
+
+VelocityCommand Avoider::command(TimeUs now, const StateEstimate& state, const Goal& goal,
+                                 std::span<const TrackedObstacle> obstacles) const {
+  VehicleMotion vehicle;
+  vehicle.v_W = state.v_WB;
+  vehicle.p_W = state.p_WB + seconds(state.t_us, now) * state.v_WB;
+  vehicle.heading_W = heading(state.q_WB);
+
+  Eigen::Vector3d repulsive_W = Eigen::Vector3d::Zero();
+  for (const TrackedObstacle& tracked : obstacles) {
+    if (!tracked.confirmed) continue;
+    const Obstacle& obstacle = tracked.obstacle;
+    Ellipsoid ellipsoid = tracked.ellipsoid;
+    ellipsoid.centre_W += seconds(obstacle.t_us, now) * obstacle.v_WO;
+    repulsive_W += repulsive_.force(vehicle, ellipsoid, obstacle.v_WO,  // (34)
+                                    seconds(obstacle.last_detection_us, now));
+  }
+  return velocity_command(limit_, now, repulsive_W,
+                          attractive_force(attractive_, goal.speed_mps, goal.p_WG - vehicle.p_W));
+}
+
+}  // namespace dodge

@@ -1,0 +1,82 @@
+#include "dodge/detect/kalman.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace dodge {
+namespace {
+
+constexpr double kSecondsPerUs = 1e-6;
+constexpr double kGravityMps2 = 9.81;
+// The near and far centre are this far apart at least to give a line of sight.
+constexpr double kNoDirectionM = 1e-9;
+
+}  // namespace
+
+void validate(const KalmanConfig& config) {
+  if (!(config.acceleration_noise >= 0) || !(config.initial_speed_sigma_mps > 0) ||
+      !(config.lateral_sigma_m > 0) || !(config.min_depth_sigma_m > 0)) {
+    throw std::invalid_argument(
+        "The Kalman filter needs acceleration_noise >= 0 and initial_speed_sigma_mps, "
+        "lateral_sigma_m and min_depth_sigma_m > 0.");
+  }
+}
+
+Eigen::Matrix3d measurement_covariance(const KalmanConfig& config, const Detection& detection) {
+  const double lateral = config.lateral_sigma_m;
+  const double along = std::max(detection.depth_sigma_m, config.min_depth_sigma_m);
+  const Eigen::Vector3d ray = detection.p_W[5] - detection.p_W[4];
+  const double length = ray.norm();
+  if (length < kNoDirectionM) {
+    const double largest = std::max(lateral, along);
+    return largest * largest * Eigen::Matrix3d::Identity();
+  }
+  const Eigen::Vector3d sight = ray / length;
+  return lateral * lateral * Eigen::Matrix3d::Identity() +
+         (along * along - lateral * lateral) * sight * sight.transpose();
+}
+
+Kalman::Kalman(const KalmanConfig& config, TimeUs t_us, const Eigen::Vector3d& z_W,
+               const Eigen::Matrix3d& R)
+    : config_(config), t_us_(t_us) {
+  x_ << z_W, Eigen::Vector3d::Zero();
+  const double sigma = config.initial_speed_sigma_mps;
+  P_.setZero();
+  P_.topLeftCorner<3, 3>() = R;
+  P_.bottomRightCorner<3, 3>() = sigma * sigma * Eigen::Matrix3d::Identity();
+}
+
+void Kalman::predict(TimeUs t_us) {
+  if (t_us <= t_us_) return;
+  const double dt = static_cast<double>(t_us - t_us_) * kSecondsPerUs;  // (15)
+  t_us_ = t_us;
+  Matrix6d A = Matrix6d::Identity();  // (19)
+  A.topRightCorner<3, 3>() = dt * Eigen::Matrix3d::Identity();
+  x_ = A * x_;  // (21)
+  if (config_.gravity) {
+    x_[2] -= 0.5 * kGravityMps2 * dt * dt;
+    x_[5] -= kGravityMps2 * dt;
+  }
+  // White acceleration, integrated exactly over dt.
+  const double q = config_.acceleration_noise * config_.acceleration_noise;
+  P_ = A * P_ * A.transpose();  // (22)
+  for (int i = 0; i < 3; ++i) {
+    P_(i, i) += q * dt * dt * dt / 3;
+    P_(i, i + 3) += q * dt * dt / 2;
+    P_(i + 3, i) += q * dt * dt / 2;
+    P_(i + 3, i + 3) += q * dt;
+  }
+}
+
+void Kalman::update(const Eigen::Vector3d& z_W, const Eigen::Matrix3d& R) {
+  const Eigen::Matrix3d S = P_.topLeftCorner<3, 3>() + R;
+  const Eigen::Matrix<double, 3, 6> HP = P_.topRows<3>();
+  const Eigen::Matrix<double, 6, 3> K = S.llt().solve(HP).transpose();  // (23)
+  x_ += K * (z_W - x_.head<3>());                                       // (24)
+  Matrix6d I_KH = Matrix6d::Identity();
+  I_KH.leftCols<3>() -= K;
+  const Matrix6d P = I_KH * P_ * I_KH.transpose() + K * R * K.transpose();  // (25)
+  P_ = 0.5 * (P + P.transpose());
+}
+
+}  // namespace dodge

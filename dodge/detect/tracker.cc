@@ -1,0 +1,124 @@
+#include "dodge/detect/tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace dodge {
+namespace {
+
+constexpr double kUsPerSecond = 1e6;
+// Half the least thickness of an obstacle's ellipsoid, well below any thrown object's.
+constexpr double kMinHalfWidthM = 0.01;
+// A lifetime beyond this is for ever.
+constexpr double kLongestLifetimeS = 1e9;
+
+bool is_finite(const Detection& detection) {
+  return detection.centre_W.allFinite() && std::isfinite(detection.depth_sigma_m) &&
+         std::all_of(detection.p_W.begin(), detection.p_W.end(),
+                     [](const Eigen::Vector3d& p) { return p.allFinite(); });
+}
+
+}  // namespace
+
+TrackedObstacle known_obstacle(int id, TimeUs t_us, const Eigen::Vector3d& p_WO,
+                               const Eigen::Vector3d& v_WO, double size_m) {
+  TrackedObstacle known;
+  known.obstacle = {id, t_us, t_us, 1, p_WO, v_WO, size_m};
+  known.ellipsoid = sphere(p_WO, 0.5 * size_m);
+  known.confirmed = true;
+  return known;
+}
+
+Tracker::Tracker(const AssociationConfig& association, const KalmanConfig& kalman,
+                 double lifetime_s)
+    : association_(association), kalman_(kalman), associator_(association) {
+  validate(kalman);
+  if (!(lifetime_s >= 0)) {
+    throw std::invalid_argument("The lifetime of an obstacle must not be negative.");
+  }
+  lifetime_us_ = static_cast<TimeUs>(std::min(lifetime_s, kLongestLifetimeS) * kUsPerSecond);
+}
+
+void Tracker::update(TimeUs now, std::span<Detection> detections) {
+  remove_stale(now);
+  for (std::size_t first = 0; first < detections.size();) {
+    std::size_t end = first + 1;
+    while (end < detections.size() && detections[end].camera == detections[first].camera) ++end;
+    take_in(detections.subspan(first, end - first));
+    first = end;
+  }
+  publish(now);
+}
+
+// One camera's detections at a time: it sees an obstacle once, another camera may see it again.
+void Tracker::take_in(std::span<Detection> detections) {
+  predicted_.clear();
+  for (const Track& track : tracks_) {
+    Kalman filter = track.filter;
+    filter.predict(detections.front().t_us);
+    predicted_.push_back(
+        {filter.position(), filter.covariance().topLeftCorner<3, 3>(), track.detections});
+  }
+  const std::span<const int> track_of = associator_.associate(detections, predicted_);
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    Detection& detection = detections[i];
+    detection.obstacle_id = -1;
+    if (!is_finite(detection)) continue;
+    const Eigen::Matrix3d R = measurement_covariance(kalman_, detection);
+    if (track_of[i] < 0) {
+      tracks_.push_back({next_id_++,
+                         Kalman(kalman_, detection.t_us, detection.centre_W, R),
+                         detection.t_us,
+                         0,
+                         0,
+                         {},
+                         false});
+      measure(tracks_.back(), detection);
+    } else {
+      Track& track = tracks_[static_cast<std::size_t>(track_of[i])];
+      track.filter.predict(detection.t_us);
+      track.filter.update(detection.centre_W, R);
+      measure(track, detection);
+    }
+  }
+}
+
+void Tracker::measure(Track& track, Detection& detection) const {
+  detection.obstacle_id = track.id;
+  track.last_detection_us = std::max(track.last_detection_us, detection.t_us);
+  track.size_m = detection.size_m;
+  track.ellipsoid = minimum_volume_ellipsoid(detection.p_W, kMinHalfWidthM);
+  track.ellipsoid.centre_W -= detection.centre_W;
+  ++track.detections;
+  const double velocity_variance = track.filter.covariance().bottomRightCorner<3, 3>().trace() / 3;
+  track.confirmed |= track.detections >= association_.min_detections &&
+                     std::sqrt(velocity_variance) <= association_.max_velocity_sigma_mps;
+}
+
+void Tracker::remove_stale(TimeUs now) {
+  std::erase_if(tracks_, [&](const Track& track) {
+    const TimeUs allowed = track.confirmed
+                               ? lifetime_us_
+                               : std::min<TimeUs>(lifetime_us_, association_.tentative_timeout_us);
+    return now - track.last_detection_us > allowed;
+  });
+}
+
+void Tracker::publish(TimeUs now) {
+  obstacles_.clear();
+  for (const Track& track : tracks_) {
+    Kalman filter = track.filter;
+    filter.predict(now);
+    TrackedObstacle& tracked = obstacles_.emplace_back();
+    tracked.obstacle = {track.id,         filter.t_us(),     track.last_detection_us,
+                        track.detections, filter.position(), filter.velocity(),
+                        track.size_m};
+    tracked.covariance = filter.covariance();
+    tracked.ellipsoid = track.ellipsoid;
+    tracked.ellipsoid.centre_W += filter.position();
+    tracked.confirmed = track.confirmed;
+  }
+}
+
+}  // namespace dodge
