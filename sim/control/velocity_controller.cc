@@ -31,7 +31,7 @@ void VelocityController::start(const StateReading& state, const VelocityReferenc
   const Eigen::Vector3d x_W = state.q_W * Eigen::Vector3d::UnitX();
   yaw_rad_ = std::atan2(x_W.y(), x_W.x());
   p_ref_W_ = state.p_W;
-  v_ref_W_ = reference.v_W;
+  v_filter_W_ = reference.v_W;
   last_us_ = state.t_us;
 }
 
@@ -62,7 +62,7 @@ Eigen::Vector3d VelocityController::feedback_normal(const StateReading& state,
                                                     const Eigen::Vector3d& v_W, double dt_s) {
   const double stays =
       spec_.velocity_filter_s > 0 ? std::exp(-dt_s / spec_.velocity_filter_s) : 0.0;
-  v_ref_W_ = v_W + stays * (v_ref_W_ - v_W);
+  v_ref_W_ = v_filter_W_ = v_W + stays * (v_filter_W_ - v_W);
   const Eigen::Vector3d e_p = clipped(p_ref_W_ + dt_s * v_ref_W_ - state.p_W,
                                       xyz(spec_.position_clip_xy_m, spec_.position_clip_z_m));
   p_ref_W_ = state.p_W + e_p;
@@ -78,6 +78,7 @@ Eigen::Vector3d VelocityController::feedback_evading(const StateReading& state,
   v_ref_W_ =
       v_W * (speed > spec_.evading_speed_limit_mps ? spec_.evading_speed_limit_mps / speed : 1.0);
   p_ref_W_ = state.p_W;
+  v_filter_W_ = state.v_W;
   const Eigen::Vector3d e_v =
       clipped(v_ref_W_ - state.v_W, Eigen::Vector3d::Constant(spec_.evading_velocity_clip_mps));
   return spec_.evading_velocity_gain_1ps * e_v;

@@ -96,7 +96,7 @@ struct ControllerSpec {
 // vehicle in place when the command fades near the goal; it never leaves the estimate by more than
 // the clip. Evading, the command bypasses the filter, the position loop is open, and gain and clip
 // are their own; p_ref and the filter follow the estimate so that the position loop closes again
-// without a jump in position. The heading is held at that of the first estimate.
+// without a jump. The heading is held at that of the first estimate.
 //
 // When the thrust does not suffice, the height has priority: the part of a_des beyond g z_W
 // shrinks, keeping its direction. When the tilt limit is met, a commanded descent gives way first
@@ -136,6 +136,7 @@ class VelocityController {
   double yaw_rad_ = 0;
   Eigen::Vector3d p_ref_W_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_ref_W_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_filter_W_ = Eigen::Vector3d::Zero();  // the low-pass of the command
   Eigen::Vector3d a_des_W_ = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_des_W_ = Eigen::Quaterniond::Identity();
 };
