@@ -1,0 +1,120 @@
+#include "dodge/config.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace dodge {
+
+namespace {
+
+constexpr double kRectifiedTolerance = 1e-3;  // [rad] and relative to the baseline
+
+[[noreturn]] void fail(const std::string& sentence) { throw std::invalid_argument(sentence); }
+
+// Checks each value against the range its struct states; knows the path of nested names.
+class RangeChecker {
+ public:
+  void operator()(const char* name, double& value, double min, double max, const char*) {
+    check(name, value, min, max);
+  }
+  void operator()(const char* name, int& value, int min, int max, const char*) {
+    check(name, value, min, max);
+  }
+  void operator()(const char* name, std::int64_t& value, std::int64_t min, std::int64_t max,
+                  const char*) {
+    check(name, value, min, max);
+  }
+  void operator()(const char*, bool&, const char*) {}
+  void operator()(const char* name, std::string& value, std::initializer_list<const char*> allowed,
+                  const char*) {
+    std::string choices;
+    for (const char* choice : allowed) {
+      if (value == choice) return;
+      choices += std::string(choices.empty() ? "" : ", ") + choice;
+    }
+    fail("The parameter " + path_ + name + " is \"" + value + "\" but must be one of " + choices +
+         ".");
+  }
+  template <class Nested>
+  void operator()(const char* name, Nested& nested, const char*) {
+    const std::string outer = path_;
+    path_ += std::string(name) + ".";
+    nested.visit(*this);
+    path_ = outer;
+  }
+
+ private:
+  template <class Number>
+  void check(const char* name, Number value, Number min, Number max) const {
+    if (value >= min && value <= max) return;  // false for NaN
+    std::ostringstream sentence;
+    sentence << "The parameter " << path_ << name << " is " << value << " but must lie between "
+             << min << " and " << max << ".";
+    fail(sentence.str());
+  }
+
+  std::string path_;
+};
+
+void check_odd(const char* name, int size) {
+  if (size % 2 == 0 && size != 0) {
+    fail(std::string("The parameter ") + name + " is " + std::to_string(size) +
+         " but must be odd, so that the kernel has a centre.");
+  }
+}
+
+void check_camera(const CameraModel& camera) {
+  if (camera.width < 1 || camera.height < 1 || !(camera.fx > 0) || !(camera.fy > 0)) {
+    fail("A camera must have a positive size and positive focal lengths.");
+  }
+}
+
+// Stereo takes the disparity along the image's columns: same intrinsics, same orientation, the
+// second camera straight below the first.
+void check_rectified(const CameraModel& top, const CameraModel& bottom) {
+  if (top.fx != bottom.fx || top.fy != bottom.fy || top.cx != bottom.cx || top.cy != bottom.cy) {
+    fail("Stereo needs two cameras of the same intrinsics (rectified).");
+  }
+  const Eigen::Isometry3d X_TopBottom = top.X_BC.inverse() * bottom.X_BC;
+  const Eigen::Vector3d baseline = X_TopBottom.translation();
+  const double turn = Eigen::AngleAxisd(X_TopBottom.linear()).angle();
+  if (std::abs(turn) > kRectifiedTolerance) {
+    fail("Stereo needs two cameras of the same orientation (rectified).");
+  }
+  if (baseline.y() <= 0 ||
+      std::hypot(baseline.x(), baseline.z()) > kRectifiedTolerance * baseline.norm()) {
+    fail("Stereo needs the second camera straight below the first, along the images' columns.");
+  }
+}
+
+}  // namespace
+
+void validate(const Config& config) {
+  Config copy = config;  // visit() is not const
+  RangeChecker checker;
+  copy.visit(checker);
+
+  check_odd("time_image.blur_px", config.time_image.blur_px);
+  check_odd("time_image.open_px", config.time_image.open_px);
+  check_odd("time_image.close_px", config.time_image.close_px);
+  check_odd("time_image.dilate_px", config.time_image.dilate_px);
+  check_odd("flow.window_px", config.flow.window_px);
+  if (config.position.min_range_m >= config.position.max_range_m) {
+    fail("The parameter position.min_range_m must be less than position.max_range_m.");
+  }
+  if (config.position.min_size_m >= config.position.max_size_m) {
+    fail("The parameter position.min_size_m must be less than position.max_size_m.");
+  }
+
+  const std::size_t needed = config.position.depth == "stereo" ? 2 : 1;
+  if (config.cameras.size() < needed) {
+    fail("Depth by " + config.position.depth + " needs " + std::to_string(needed) +
+         " camera(s), but the configuration has " + std::to_string(config.cameras.size()) + ".");
+  }
+  for (const CameraModel& camera : config.cameras) check_camera(camera);
+  if (needed == 2) check_rectified(config.cameras[0], config.cameras[1]);
+}
+
+}  // namespace dodge

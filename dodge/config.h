@@ -1,0 +1,59 @@
+// All parameters of the paper's pilot, composed from the parameters of its stages.
+#pragma once
+
+#include <vector>
+
+#include "dodge/avoid/attractive_field.h"
+#include "dodge/avoid/repulsive_field.h"
+#include "dodge/avoid/velocity_command.h"
+#include "dodge/camera_model.h"
+#include "dodge/detect/association.h"
+#include "dodge/detect/cluster.h"
+#include "dodge/detect/depth.h"
+#include "dodge/detect/ego_motion.h"
+#include "dodge/detect/event_window.h"
+#include "dodge/detect/kalman.h"
+#include "dodge/detect/optical_flow.h"
+#include "dodge/detect/time_image.h"
+
+namespace dodge {
+
+// The defaults are the faithful pilot of Falanga et al. 2020.
+struct Config {
+  // Set by whatever carries the core; not a parameter of the pilot. Stereo needs two, the upper one
+  // first; mono uses the first.
+  std::vector<CameraModel> cameras;
+
+  WindowConfig window;
+  EgoMotionConfig ego_motion;
+  TimeImageConfig time_image;
+  FlowConfig flow;
+  ClusterConfig cluster;
+  DepthConfig position;
+  AssociationConfig association;
+  KalmanConfig kalman;
+  RepulsiveConfig repulsive;
+  AttractiveConfig attractive;
+  VelocityLimitConfig velocity_limit;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("window", window, "The sliding window of events.");
+    v("ego_motion", ego_motion, "Compensation of the camera's rotation, eq. (1).");
+    v("time_image", time_image, "Time image, threshold and morphology, eqs. (2) to (4).");
+    v("flow", flow, "Optical flow of the time image.");
+    v("cluster", cluster, "Grouping of pixels into obstacles, eq. (6).");
+    v("position", position, "Depth, size and position of obstacles, eqs. (7) to (12).");
+    v("association", association, "Which detection belongs to which obstacle.");
+    v("kalman", kalman, "Filter of an obstacle's position and velocity, eqs. (13) to (25).");
+    v("repulsive", repulsive, "Force away from obstacles, eqs. (26) to (33).");
+    v("attractive", attractive, "Force towards the goal, eqs. (35), (36).");
+    v("velocity_limit", velocity_limit, "Limit of the commanded velocity, eq. (39).");
+  }
+};
+
+// Throws std::invalid_argument, with a sentence that names the parameter, if a value is out of its
+// range, parameters contradict each other, or the cameras do not fit the way depth is measured.
+void validate(const Config& config);
+
+}  // namespace dodge

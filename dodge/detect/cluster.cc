@@ -1,0 +1,245 @@
+#include "dodge/detect/cluster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+
+namespace dodge {
+
+namespace {
+
+using Corners = std::array<Eigen::Vector2f, 4>;
+
+Corners corners_of(const cv::RotatedRect& rectangle) {
+  cv::Point2f points[4];
+  rectangle.points(points);
+  Corners corners;
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = {points[i].x, points[i].y};
+  return corners;
+}
+
+// Is there a side of `a` that separates the two rectangles?
+bool separated_by_side(const Corners& a, const Corners& b) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Eigen::Vector2f axis = a[side + 1] - a[side];
+    float a_min = axis.dot(a[side]), a_max = axis.dot(a[side + 1]);
+    if (a_min > a_max) std::swap(a_min, a_max);
+    float b_min = std::numeric_limits<float>::max(), b_max = std::numeric_limits<float>::lowest();
+    for (const Eigen::Vector2f& corner : b) {
+      b_min = std::min(b_min, axis.dot(corner));
+      b_max = std::max(b_max, axis.dot(corner));
+    }
+    if (b_min > a_max || b_max < a_min) return true;
+  }
+  return false;
+}
+
+float squared_distance(const Eigen::Vector2f& p, const Eigen::Vector2f& a,
+                       const Eigen::Vector2f& b) {
+  const Eigen::Vector2f side = b - a;
+  const float length2 = side.squaredNorm();
+  const float s = length2 > 0 ? std::clamp(side.dot(p - a) / length2, 0.0F, 1.0F) : 0.0F;
+  return (p - a - s * side).squaredNorm();
+}
+
+// The rectangle around pixel centres, grown by half a pixel on each side to their borders.
+cv::RotatedRect bounding_rectangle(std::span<const cv::Point2f> points) {
+  const cv::Mat wrapped(static_cast<int>(points.size()), 1, CV_32FC2,
+                        const_cast<cv::Point2f*>(points.data()));
+  cv::RotatedRect rectangle = cv::minAreaRect(wrapped);
+  rectangle.size += cv::Size2f(1, 1);
+  return rectangle;
+}
+
+float longer_side(const cv::RotatedRect& r) { return std::max(r.size.width, r.size.height); }
+float shorter_side(const cv::RotatedRect& r) { return std::min(r.size.width, r.size.height); }
+
+}  // namespace
+
+double rectangle_distance(const cv::RotatedRect& a, const cv::RotatedRect& b) {
+  const Corners ca = corners_of(a), cb = corners_of(b);
+  if (!separated_by_side(ca, cb) && !separated_by_side(cb, ca)) return 0;
+  // Of two disjoint convex polygons the nearest pair contains a corner.
+  float nearest = std::numeric_limits<float>::max();
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) {
+      nearest = std::min(nearest, squared_distance(ca[i], cb[j], cb[(j + 1) % 4]));
+      nearest = std::min(nearest, squared_distance(cb[i], ca[j], ca[(j + 1) % 4]));
+    }
+  }
+  return std::sqrt(nearest);
+}
+
+Clusterer::Clusterer(const ClusterConfig& config, int width, int height)
+    : config_(config),
+      width_(width),
+      height_(height),
+      visited_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      row_left_(static_cast<std::size_t>(height)),
+      row_right_(static_cast<std::size_t>(height)) {
+  region_.reserve(visited_.size());
+  points_.reserve(visited_.size());
+}
+
+const std::vector<Cluster>& Clusterer::find(const TimeImage& image, const OpticalFlow& flow) {
+  group_connected_pixels(image, flow);
+  merge_groups(label_groups());
+  return clusters_;
+}
+
+double Clusterer::cost(const Cluster& a, const Cluster& b) const {
+  return config_.weight_position * rectangle_distance(a.rectangle, b.rectangle) +
+         config_.weight_velocity * (a.velocity - b.velocity).norm() +
+         config_.weight_rho * std::abs(a.rho - b.rho);
+}
+
+void Clusterer::group_connected_pixels(const TimeImage& image, const OpticalFlow& flow) {
+  groups_.clear();
+  outline_.clear();
+  const std::uint8_t* mask = image.obstacle_mask().ptr<std::uint8_t>();
+  const int size = width_ * height_;
+  // The mask is nearly empty: look at eight pixels at a time.
+  for (int start = 0; start < size; start += 8) {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, mask + start, static_cast<std::size_t>(std::min(8, size - start)));
+    if (eight == 0) continue;
+    for (int pixel = start; pixel < std::min(start + 8, size); ++pixel) {
+      if (mask[pixel] == 0 || visited_[static_cast<std::size_t>(pixel)] != 0) continue;
+      // Groups share region_, so that visited_ can be cleared at the end.
+      flood(image, pixel);
+      summarise(image, flow);
+    }
+  }
+  for (const int pixel : region_) visited_[static_cast<std::size_t>(pixel)] = 0;
+  region_.clear();
+
+  if (groups_.size() > static_cast<std::size_t>(config_.max_groups)) {
+    std::stable_sort(groups_.begin(), groups_.end(), [](const Group& a, const Group& b) {
+      return a.features.events > b.features.events;
+    });
+    groups_.resize(static_cast<std::size_t>(config_.max_groups));
+  }
+}
+
+// Appends all pixels connected with the seed to region_, and sets points_ to those with events.
+void Clusterer::flood(const TimeImage& image, int seed) {
+  const std::uint8_t* mask = image.obstacle_mask().ptr<std::uint8_t>();
+  const std::uint16_t* count = image.count().ptr<std::uint16_t>();
+  points_.clear();
+  std::size_t next = region_.size();
+  region_.push_back(seed);
+  visited_[static_cast<std::size_t>(seed)] = 1;
+  for (; next < region_.size(); ++next) {
+    const int x = region_[next] % width_, y = region_[next] / width_;
+    if (count[region_[next]] > 0) points_.emplace_back(x, y);
+    for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v) {
+      for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u) {
+        const int neighbour = v * width_ + u;
+        if (mask[neighbour] == 0 || visited_[static_cast<std::size_t>(neighbour)] != 0) continue;
+        visited_[static_cast<std::size_t>(neighbour)] = 1;
+        region_.push_back(neighbour);
+      }
+    }
+  }
+}
+
+// Turns points_ into a group, unless they are too few.
+void Clusterer::summarise(const TimeImage& image, const OpticalFlow& flow) {
+  if (points_.size() < static_cast<std::size_t>(config_.min_group_pixels)) return;
+  Group group;
+  Cluster& features = group.features;
+  int top = height_, bottom = -1;
+  for (const cv::Point& p : points_) {
+    top = std::min(top, p.y);
+    bottom = std::max(bottom, p.y);
+  }
+  std::fill(row_left_.begin() + top, row_left_.begin() + bottom + 1, width_);
+  std::fill(row_right_.begin() + top, row_right_.begin() + bottom + 1, -1);
+  for (const cv::Point& p : points_) {
+    const int events = image.count()(p);
+    features.events += events;
+    features.rho += image.rho()(p);
+    features.centroid += events * Eigen::Vector2d(p.x, p.y);
+    const auto row = static_cast<std::size_t>(p.y);
+    row_left_[row] = std::min(row_left_[row], p.x);
+    row_right_[row] = std::max(row_right_[row], p.x);
+  }
+  features.pixels = static_cast<int>(points_.size());
+  features.rho /= features.pixels;
+  features.centroid /= features.events;
+  features.velocity = flow.mean_velocity(points_);
+  // The ends of the rows have the same bounding rectangle as all pixels.
+  group.outline_begin = outline_.size();
+  for (int y = top; y <= bottom; ++y) {
+    const auto row = static_cast<std::size_t>(y);
+    if (row_right_[row] < 0) continue;
+    outline_.emplace_back(static_cast<float>(row_left_[row]), static_cast<float>(y));
+    outline_.emplace_back(static_cast<float>(row_right_[row]), static_cast<float>(y));
+  }
+  group.outline_end = outline_.size();
+  features.rectangle = bounding_rectangle(
+      std::span(outline_).subspan(group.outline_begin, group.outline_end - group.outline_begin));
+  groups_.push_back(group);
+}
+
+void Clusterer::neighbours(std::size_t i, std::vector<std::size_t>& out) const {
+  out.clear();
+  for (std::size_t j = 0; j < groups_.size(); ++j) {
+    if (j == i || cost(groups_[i].features, groups_[j].features) <= config_.eps) out.push_back(j);
+  }
+}
+
+// DBSCAN. Returns the number of labels; groups_ are labelled 0.. or -1 for noise.
+int Clusterer::label_groups() {
+  const auto min_points = static_cast<std::size_t>(config_.min_points);
+  int labels = 0;
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    if (groups_[i].label >= 0) continue;
+    neighbours(i, neighbours_);
+    if (neighbours_.size() < min_points) continue;
+    const int label = labels++;
+    groups_[i].label = label;
+    queue_.assign(neighbours_.begin(), neighbours_.end());
+    for (std::size_t next = 0; next < queue_.size(); ++next) {
+      Group& group = groups_[queue_[next]];
+      if (group.label >= 0) continue;
+      group.label = label;
+      neighbours(queue_[next], neighbours_);
+      if (neighbours_.size() < min_points) continue;  // a border point: does not reach further
+      queue_.insert(queue_.end(), neighbours_.begin(), neighbours_.end());
+    }
+  }
+  return labels;
+}
+
+void Clusterer::merge_groups(int label_count) {
+  clusters_.clear();
+  for (int label = 0; label < label_count; ++label) {
+    Cluster merged;
+    merged_outline_.clear();
+    for (const Group& group : groups_) {
+      if (group.label != label) continue;
+      const Cluster& part = group.features;
+      merged.pixels += part.pixels;
+      merged.events += part.events;
+      merged.rho += part.rho * part.pixels;
+      merged.velocity += part.velocity * part.pixels;
+      merged.centroid += part.centroid * part.events;
+      merged_outline_.insert(merged_outline_.end(),
+                             outline_.begin() + static_cast<std::ptrdiff_t>(group.outline_begin),
+                             outline_.begin() + static_cast<std::ptrdiff_t>(group.outline_end));
+    }
+    if (merged.pixels < config_.min_pixels || merged.events < config_.min_events) continue;
+    merged.rho /= merged.pixels;
+    merged.velocity /= merged.pixels;
+    merged.centroid /= merged.events;
+    merged.rectangle = bounding_rectangle(merged_outline_);
+    if (longer_side(merged.rectangle) > config_.max_aspect * shorter_side(merged.rectangle))
+      continue;
+    clusters_.push_back(merged);
+  }
+}
+
+}  // namespace dodge

@@ -1,0 +1,106 @@
+// From clusters in the image to obstacles in the world: depth by known size (7) or by stereo
+// matching (8), size (9), projection (10, 11) and the six points (12) of Falanga et al. 2020.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dodge/camera_model.h"
+#include "dodge/detect/cluster.h"
+#include "dodge/types.h"
+
+namespace dodge {
+
+struct StereoConfig {
+  double weight_position_1ppx = 0.1;
+  double weight_area = 0.5;
+  double weight_count = 0.5;
+  double max_cost = 2;
+  double disparity_sigma_px = 1;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("weight_position_1ppx", weight_position_1ppx, 0, 100,
+      "Weight w_p of the horizontal distance of the centres in eq. (8).");
+    v("weight_area", weight_area, 0, 100, "Weight w_a of the ratio of the areas in eq. (8).");
+    v("weight_count", weight_count, 0, 100, "Weight w_n of the ratio of the pixels in eq. (8).");
+    v("max_cost", max_cost, 0, 1000, "Pairs of a greater cost (8) are not the same object.");
+    v("disparity_sigma_px", disparity_sigma_px, 0.01, 20,
+      "Standard deviation of the disparity of two centres; gives the depth's.");
+  }
+};
+
+struct DepthConfig {
+  std::string depth = "stereo";
+  double known_size_m = 0.2;
+  double side_sigma_px = 2;
+  StereoConfig stereo;
+  std::string centre = "rectangle";
+  double min_range_m = 0.2;
+  double max_range_m = 1.5;
+  double min_size_m = 0.03;
+  double max_size_m = 0.8;
+  std::string depth_margin = "size";
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("depth", depth, {"mono", "stereo"},
+      "How depth is measured: from the object's known size with the first camera, or from the "
+      "disparity of two cameras one above the other.");
+    v("known_size_m", known_size_m, 0.01, 10, "Size of every object; used by mono only.");
+    v("side_sigma_px", side_sigma_px, 0.01, 20,
+      "Standard deviation of the rectangle's longer side; gives the depth's in mono.");
+    v("stereo", stereo, "Matching of clusters between the two cameras.");
+    v("centre", centre, {"rectangle", "centroid"},
+      "The point of a cluster whose disparity is taken: its rectangle's centre as in the paper, or "
+      "the centroid of its events.");
+    v("min_range_m", min_range_m, 0.01, 100, "Nearer detections are dropped.");
+    v("max_range_m", max_range_m, 0.1, 100,
+      "Detections of greater depth are dropped; 1.5 m in the paper, as farther ones are too "
+      "noisy.");
+    v("min_size_m", min_size_m, 0, 100, "Smaller objects are not credible.");
+    v("max_size_m", max_size_m, 0, 100, "Larger objects are not credible.");
+    v("depth_margin", depth_margin, {"size", "size_plus_sigma"},
+      "What is added to and taken from the depth for the near and the far point: the estimated "
+      "size as in eq. (12), or that plus the depth's standard deviation.");
+  }
+};
+
+class DepthEstimator {
+ public:
+  // One camera for mono; for stereo camera 0 on top and camera 1 below it, rectified (validate()
+  // in dodge/config.h checks this).
+  DepthEstimator(const DepthConfig& config, std::span<const CameraModel> cameras);
+
+  // Appends the obstacles among the clusters of the cameras (indexed as the cameras) to
+  // detections, nearest match first. The pixels are those of the instant state.t_us, which becomes
+  // the detections'.
+  void locate(std::span<const std::vector<Cluster>* const> clusters, const StateEstimate& state,
+              std::vector<Detection>& detections);
+
+  // Eq. (8), with both ratios counted from 1; the second camera's cluster below the first's.
+  double matching_cost(const Cluster& top, const Cluster& bottom) const;
+
+ private:
+  struct Match {
+    double cost;
+    std::size_t top, bottom;
+  };
+
+  void locate_by_size(const std::vector<Cluster>& clusters, const StateEstimate& state,
+                      std::vector<Detection>& detections) const;
+  void locate_by_stereo(const std::vector<Cluster>& top, const std::vector<Cluster>& bottom,
+                        const StateEstimate& state, std::vector<Detection>& detections);
+  void append(const Cluster& cluster, double depth_m, double depth_sigma_m,
+              const StateEstimate& state, std::vector<Detection>& detections) const;
+  Eigen::Vector2d centre(const Cluster& cluster) const;
+
+  DepthConfig config_;
+  CameraModel camera_;         // the reference camera
+  double focal_baseline_ = 0;  // focal length times baseline [px m]
+  std::vector<Match> matches_;
+  std::vector<bool> top_taken_, bottom_taken_;
+};
+
+}  // namespace dodge

@@ -1,0 +1,48 @@
+// The events of one camera in a sliding window of time, fed packet by packet.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "dodge/detect/ring_buffer.h"
+#include "dodge/types.h"
+
+namespace dodge {
+
+struct WindowConfig {
+  std::int64_t window_us = 10000;
+  std::int64_t event_timeout_us = 10000;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("window_us", window_us, 1000, 100000,
+      "Length of the sliding event window; the paper uses 10 ms, longer windows see farther and "
+      "slower objects at the cost of latency and work.");
+    v("event_timeout_us", event_timeout_us, 0, 1000000,
+      "The window ends at the newest event of any camera, but at most this long before now, so "
+      "that old events are not seen again and again when the scene falls silent.");
+  }
+};
+
+class EventWindow {
+ public:
+  EventWindow();
+
+  // Events in ascending time. Allocates only while the largest window so far is exceeded.
+  void add(std::span<const Event> events);
+
+  // Forgets all events up to and including t_us.
+  void forget_until(TimeUs t_us);
+
+  // The events not forgotten with t <= t_us, oldest first, in two pieces.
+  std::array<std::span<const Event>, 2> until(TimeUs t_us) const;
+
+  bool empty() const { return events_.empty(); }
+  TimeUs newest_us() const { return events_.back().t_us; }  // requires !empty()
+  std::size_t capacity() const { return events_.capacity(); }
+
+ private:
+  RingBuffer<Event> events_;
+};
+
+}  // namespace dodge

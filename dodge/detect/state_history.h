@@ -1,0 +1,24 @@
+// The state estimates of the recent past, and the state at any instant near them.
+#pragma once
+
+#include <optional>
+
+#include "dodge/detect/ring_buffer.h"
+#include "dodge/types.h"
+
+namespace dodge {
+
+class StateHistory {
+ public:
+  StateHistory();
+  void add(const StateEstimate& state);  // in ascending time
+
+  // The state at t_us: interpolated between two estimates, or carried on from the newest (oldest)
+  // one at constant velocity and angular velocity. Empty as long as there is no estimate.
+  std::optional<StateEstimate> at(TimeUs t_us) const;
+
+ private:
+  RingBuffer<StateEstimate> states_;
+};
+
+}  // namespace dodge

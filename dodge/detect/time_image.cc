@@ -1,0 +1,101 @@
+#include "dodge/detect/time_image.h"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace dodge {
+
+namespace {
+
+// Row of Pascal's triangle, normalised to sum 1.
+cv::Mat1f binomial_kernel(int size) {
+  cv::Mat1f kernel(1, size);
+  float value = 1;
+  for (int i = 0; i < size; ++i) {
+    kernel(0, i) = value * std::ldexp(1.0F, 1 - size);
+    value = value * static_cast<float>(size - 1 - i) / static_cast<float>(i + 1);
+  }
+  return kernel;
+}
+
+cv::Mat box(int size) {
+  return size > 1 ? cv::getStructuringElement(cv::MORPH_RECT, {size, size}) : cv::Mat();
+}
+
+}  // namespace
+
+TimeImage::TimeImage(const TimeImageConfig& config, int width, int height)
+    : config_(config),
+      count_(height, width, static_cast<std::uint16_t>(0)),
+      rho_(height, width, 0.0F),
+      averaged_(height, width, 0.0F),
+      previous_(height, width, 0.0F),
+      threshold_mask_(height, width, static_cast<std::uint8_t>(0)),
+      obstacle_mask_(height, width, static_cast<std::uint8_t>(0)),
+      blur_kernel_(binomial_kernel(config.blur_px)),
+      open_kernel_(box(config.open_px)),
+      close_kernel_(box(config.close_px)),
+      dilate_kernel_(box(config.dilate_px)) {
+  active_.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+}
+
+void TimeImage::accumulate(std::span<const std::span<const Event>> pieces,
+                           const EgoMotion& ego_motion, TimeUs begin_us, TimeUs end_us) {
+  const int width = count_.cols, height = count_.rows;
+  std::uint16_t* count = count_.ptr<std::uint16_t>();
+  float* time_sum = rho_.ptr<float>();
+  for (const int pixel : active_) {
+    count[pixel] = 0;
+    time_sum[pixel] = 0;
+  }
+  active_.clear();
+
+  const float per_us = 1.0F / static_cast<float>(end_us - begin_us);
+  for (const std::span<const Event> piece : pieces) {
+    for (const Event& event : piece) {
+      if (event.x >= width || event.y >= height) continue;
+      const Eigen::Vector2f warped = ego_motion.warp(event);
+      // Rounds to the nearest pixel; the test on the shifted value also catches NaN.
+      const float u = warped.x() + 0.5F, v = warped.y() + 0.5F;
+      if (!(u >= 0 && v >= 0 && u < static_cast<float>(width) && v < static_cast<float>(height))) {
+        continue;
+      }
+      const int pixel = static_cast<int>(v) * width + static_cast<int>(u);
+      if (count[pixel]++ == 0) active_.push_back(pixel);
+      time_sum[pixel] += per_us * static_cast<float>(event.t_us - begin_us);
+    }
+  }
+}
+
+void TimeImage::threshold(double rate_rps) {
+  const std::uint16_t* count = count_.ptr<std::uint16_t>();
+  float* rho = rho_.ptr<float>();
+  double sum = 0;
+  for (const int pixel : active_) {
+    rho[pixel] /= static_cast<float>(count[pixel]);
+    sum += rho[pixel];
+  }
+  const auto mean =
+      static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(1, active_.size())));
+  for (const int pixel : active_) rho[pixel] -= mean;
+
+  cv::swap(averaged_, previous_);
+  cv::sepFilter2D(rho_, averaged_, CV_32F, blur_kernel_, blur_kernel_, {-1, -1}, 0,
+                  cv::BORDER_CONSTANT);
+  const double threshold = config_.threshold_a_s * rate_rps + config_.threshold_b;
+  cv::compare(averaged_, threshold, threshold_mask_, cv::CMP_GE);
+}
+
+void TimeImage::clean() {
+  if (open_kernel_.empty()) {
+    threshold_mask_.copyTo(obstacle_mask_);
+  } else {
+    cv::morphologyEx(threshold_mask_, obstacle_mask_, cv::MORPH_OPEN, open_kernel_);
+  }
+  if (!close_kernel_.empty()) {
+    cv::morphologyEx(obstacle_mask_, obstacle_mask_, cv::MORPH_CLOSE, close_kernel_);
+  }
+  if (!dilate_kernel_.empty()) cv::dilate(obstacle_mask_, obstacle_mask_, dilate_kernel_);
+}
+
+}  // namespace dodge

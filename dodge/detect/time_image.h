@@ -1,0 +1,68 @@
+// From the compensated events of one window to the mask of what moves by itself: event count (2),
+// time image (3), normalised mean time stamp rho (4), averaging, threshold a|w| + b, morphology.
+// Falanga et al. 2020. All images have the camera's size.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <span>
+#include <vector>
+
+#include "dodge/detect/ego_motion.h"
+#include "dodge/types.h"
+
+namespace dodge {
+
+struct TimeImageConfig {
+  double threshold_a_s = 0.02;
+  double threshold_b = 0.06;
+  int blur_px = 5;
+  int open_px = 3;
+  int close_px = 3;
+  int dilate_px = 1;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("threshold_a_s", threshold_a_s, 0, 1, "Slope of the threshold a|w| + b on rho.");
+    v("threshold_b", threshold_b, 0, 1, "Threshold on the averaged rho of a still camera.");
+    v("blur_px", blur_px, 1, 15, "Size of the binomial averaging of rho before the cut.");
+    v("open_px", open_px, 0, 15, "Kernel of the opening of the mask; 0 or 1 is off.");
+    v("close_px", close_px, 0, 15, "Kernel of the closing of the mask; 0 or 1 is off.");
+    v("dilate_px", dilate_px, 0, 15, "Kernel of the final dilation of the mask; 0 or 1 is off.");
+  }
+};
+
+class TimeImage {
+ public:
+  TimeImage(const TimeImageConfig& config, int width, int height);
+
+  // Eqs. (2), (3): empties the images and takes the events of (begin_us, end_us], given in pieces.
+  // The pixel is the warped one, the time the event's own. Events outside of the image, before or
+  // after the warp, are dropped.
+  void accumulate(std::span<const std::span<const Event>> pieces, const EgoMotion& ego_motion,
+                  TimeUs begin_us, TimeUs end_us);
+
+  // Eq. (4), the averaging, and the cut at a|w| + b. rate_rps is |w|.
+  void threshold(double rate_rps);
+
+  // Opening, closing and dilation.
+  void clean();
+
+  const cv::Mat1w& count() const { return count_; }        // events per pixel (2)
+  const cv::Mat1f& rho() const { return rho_; }            // (4); 0 where there is no event
+  const cv::Mat1f& averaged() const { return averaged_; }  // rho after the blur
+  const cv::Mat1f& previous_averaged() const { return previous_; }     // of the window before
+  const cv::Mat1b& threshold_mask() const { return threshold_mask_; }  // 0 or 255
+  const cv::Mat1b& obstacle_mask() const { return obstacle_mask_; }    // 0 or 255, cleaned
+
+ private:
+  TimeImageConfig config_;
+  cv::Mat1w count_;
+  cv::Mat1f rho_;  // holds the sum of times until threshold() normalises it
+  cv::Mat1f averaged_, previous_;
+  cv::Mat1b threshold_mask_, obstacle_mask_;
+  cv::Mat1f blur_kernel_;
+  cv::Mat open_kernel_, close_kernel_, dilate_kernel_;
+  std::vector<int> active_;  // pixels with at least one event
+};
+
+}  // namespace dodge

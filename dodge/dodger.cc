@@ -1,0 +1,153 @@
+#include "dodge/dodger.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace dodge {
+
+namespace {
+
+const Config& validated(const Config& config) {
+  validate(config);
+  return config;
+}
+
+// Adds the time since the last call to a stage's sum.
+class Stopwatch {
+ public:
+  void add_to(double& sum_us) {
+    const auto now = std::chrono::steady_clock::now();
+    sum_us += std::chrono::duration<double, std::micro>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Dodger::Eye::Eye(const Config& config, const CameraModel& camera)
+    : R_CB(camera.X_BC.linear().transpose()),
+      ego_motion(config.ego_motion, camera),
+      time_image(config.time_image, camera.width, camera.height),
+      flow(config.flow),
+      clusterer(config.cluster, camera.width, camera.height) {}
+
+Dodger::Dodger(const Config& config)
+    : config_(validated(config)),
+      depth_(config.position, config.cameras),
+      tracker_(config.association, config.kalman, decay_lifetime_s(config.repulsive)),
+      avoider_(config.repulsive, config.attractive, config.velocity_limit) {
+  const std::size_t used = config.position.depth == "stereo" ? 2 : 1;
+  for (std::size_t i = 0; i < used; ++i) eyes_.emplace_back(config_, config_.cameras[i]);
+  for (const Eye& eye : eyes_) clusters_of_eyes_.push_back(&eye.clusters);
+}
+
+void Dodger::add_events(int camera, std::span<const Event> events) {
+  const auto index = static_cast<std::size_t>(camera);
+  if (index < eyes_.size()) eyes_[index].events.add(events);
+}
+
+void Dodger::set_goal(const Goal& goal) {
+  goal_ = goal;
+  has_goal_ = true;
+}
+
+VelocityCommand Dodger::update(TimeUs now_us) {
+  stage_times_ = {};
+  detections_.clear();
+  move_window(now_us);
+  for (Eye& eye : eyes_) find_clusters(eye);
+
+  Stopwatch watch;
+  locate_obstacles();
+  tracker_.update(now_us, detections_);
+  VelocityCommand command{.t_us = end_us_};
+  if (const std::optional<StateEstimate> state = states_.at(now_us)) {
+    const Goal stay{.p_WG = state->p_WB};
+    command = avoider_.command(now_us, *state, has_goal_ ? goal_ : stay, tracker_.obstacles());
+    command.t_us = end_us_;
+  }
+  obstacles_.clear();
+  for (const TrackedObstacle& tracked : tracker_.obstacles())
+    obstacles_.push_back(tracked.obstacle);
+  watch.add_to(stage_times_.rest_us);
+  return command;
+}
+
+// The window ends at the newest event of any camera, so that it is full whatever the cameras'
+// delay; in silence it moves on with the clock.
+void Dodger::move_window(TimeUs now_us) {
+  TimeUs newest_us = now_us - config_.window.event_timeout_us;
+  for (const Eye& eye : eyes_) {
+    if (!eye.events.empty()) newest_us = std::max(newest_us, eye.events.newest_us());
+  }
+  const TimeUs end_us = std::min(newest_us, now_us);
+  elapsed_windows_ = started_ ? static_cast<double>(end_us - end_us_) /
+                                    static_cast<double>(config_.window.window_us)
+                              : 0;
+  started_ = true;
+  end_us_ = end_us;
+  begin_us_ = end_us - config_.window.window_us;
+  for (Eye& eye : eyes_) eye.events.forget_until(begin_us_);
+}
+
+void Dodger::find_clusters(Eye& eye) {
+  Stopwatch watch;
+  const Eigen::Vector3d w_WC_C = eye.R_CB * rates_.mean(begin_us_, end_us_);
+  eye.ego_motion.set_motion(w_WC_C, begin_us_, end_us_);
+  eye.time_image.accumulate(eye.events.until(end_us_), eye.ego_motion, begin_us_, end_us_);
+  watch.add_to(stage_times_.ego_motion_us);
+
+  eye.time_image.threshold(w_WC_C.norm());
+  watch.add_to(stage_times_.threshold_us);
+
+  eye.time_image.clean();
+  watch.add_to(stage_times_.morphology_us);
+
+  eye.flow.set_images(eye.time_image.previous_averaged(), eye.time_image.averaged(),
+                      elapsed_windows_);
+  eye.clusters = eye.clusterer.find(eye.time_image, eye.flow);
+  watch.add_to(stage_times_.clustering_us);
+
+  if (capture_) capture_images(eye);
+}
+
+void Dodger::locate_obstacles() {
+  if (elapsed_windows_ <= 0) return;  // the same data again are no new measurement
+  if (const std::optional<StateEstimate> state = states_.at(end_us_)) {
+    depth_.locate(clusters_of_eyes_, *state, detections_);
+  }
+}
+
+const std::vector<Cluster>& Dodger::clusters(int camera) const {
+  static const std::vector<Cluster> none;
+  const auto index = static_cast<std::size_t>(camera);
+  return index < eyes_.size() ? eyes_[index].clusters : none;
+}
+
+const StageImages& Dodger::stage_images(int camera) const {
+  static const StageImages none;
+  const auto index = static_cast<std::size_t>(camera);
+  return index < eyes_.size() ? eyes_[index].images : none;
+}
+
+void Dodger::capture_images(Eye& eye) const {
+  StageImages& images = eye.images;
+  images.events.create(eye.time_image.count().size());
+  images.events = 0;
+  for (const std::span<const Event> piece : eye.events.until(end_us_)) {
+    for (const Event& event : piece) {
+      if (event.x >= images.events.cols || event.y >= images.events.rows) continue;
+      images.events(event.y, event.x) = event.polarity > 0 ? 2 : 1;
+    }
+  }
+  eye.time_image.count().copyTo(images.count);
+  eye.time_image.rho().copyTo(images.rho);
+  eye.time_image.averaged().copyTo(images.averaged);
+  eye.time_image.threshold_mask().copyTo(images.threshold_mask);
+  eye.time_image.obstacle_mask().copyTo(images.obstacle_mask);
+}
+
+}  // namespace dodge

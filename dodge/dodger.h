@@ -1,0 +1,109 @@
+// The paper's pilot: Falanga, Kleber, Scaramuzza, "Dynamic obstacle avoidance for quadrotors with
+// event cameras", Science Robotics 2020. Events and angular rates in, a velocity command out.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <span>
+#include <vector>
+
+#include "dodge/avoid/avoider.h"
+#include "dodge/config.h"
+#include "dodge/detect/cluster.h"
+#include "dodge/detect/depth.h"
+#include "dodge/detect/ego_motion.h"
+#include "dodge/detect/event_window.h"
+#include "dodge/detect/optical_flow.h"
+#include "dodge/detect/state_history.h"
+#include "dodge/detect/time_image.h"
+#include "dodge/detect/tracker.h"
+#include "dodge/pilot.h"
+
+namespace dodge {
+
+// Wall-clock times of the last update [us], all cameras together, in the terms of the paper's
+// Table 3. For reports only: no result depends on them.
+struct StageTimes {
+  double ego_motion_us = 0;  // compensation, event count and time image
+  double threshold_us = 0;   // normalised mean time stamp, averaging, cut
+  double morphology_us = 0;
+  double clustering_us = 0;  // optical flow, pre-clusters, DBSCAN
+  double rest_us = 0;        // depth, tracking, avoidance
+};
+
+// What one camera's stages saw in the last update: panels B to F of the paper's Fig. 4.
+struct StageImages {
+  cv::Mat1b events;          // B: not compensated; 0 none, 1 darker last, 2 brighter last
+  cv::Mat1w count;           // C: compensated events per pixel
+  cv::Mat1f rho;             // D: normalised mean time stamp, 0 where there is no event
+  cv::Mat1f averaged;        //    the same after averaging
+  cv::Mat1b threshold_mask;  // E: 0 or 255
+  cv::Mat1b obstacle_mask;   // F: after morphology, 0 or 255
+};
+
+class Dodger : public Pilot {
+ public:
+  // Throws std::invalid_argument (see validate()).
+  explicit Dodger(const Config& config);
+  Dodger(const Dodger&) = delete;
+  Dodger& operator=(const Dodger&) = delete;
+
+  void add_events(int camera, std::span<const Event> events) override;
+  void add_imu(const ImuSample& sample) override { rates_.add(sample); }
+  void add_state(const StateEstimate& state) override { states_.add(state); }
+  void set_goal(const Goal& goal) override;
+
+  // Until the first state estimate the command is zero.
+  VelocityCommand update(TimeUs now_us) override;
+
+  std::span<const Detection> detections() const override { return detections_; }
+  std::span<const Obstacle> obstacles() const override { return obstacles_; }
+
+  // Of the last update. Cameras that the configuration does not use (mono) have no clusters.
+  const std::vector<Cluster>& clusters(int camera) const;
+  const StageTimes& stage_times() const { return stage_times_; }
+
+  // Whether the stages' images are kept from the next update on. They are valid until the next one.
+  void set_capture(bool capture) { capture_ = capture; }
+  const StageImages& stage_images(int camera) const;
+
+ private:
+  // The stages of one camera, each reusing its memory.
+  struct Eye {
+    Eye(const Config& config, const CameraModel& camera);
+
+    Eigen::Matrix3d R_CB;
+    EventWindow events;
+    EgoMotion ego_motion;
+    TimeImage time_image;
+    OpticalFlow flow;
+    Clusterer clusterer;
+    std::vector<Cluster> clusters;
+    StageImages images;
+  };
+
+  void move_window(TimeUs now_us);
+  void find_clusters(Eye& eye);
+  void locate_obstacles();
+  void capture_images(Eye& eye) const;
+
+  Config config_;
+  std::vector<Eye> eyes_;  // the cameras in use
+  std::vector<const std::vector<Cluster>*> clusters_of_eyes_;
+  RateHistory rates_;
+  StateHistory states_;
+  Goal goal_;
+  bool has_goal_ = false;
+  DepthEstimator depth_;
+  Tracker tracker_;
+  Avoider avoider_;
+
+  TimeUs begin_us_ = 0, end_us_ = 0;  // the window is (begin_us_, end_us_]
+  double elapsed_windows_ = 0;        // between the last two windows; 0: no new data
+  bool started_ = false;
+  std::vector<Detection> detections_;
+  std::vector<Obstacle> obstacles_;
+  StageTimes stage_times_;
+  bool capture_ = false;
+};
+
+}  // namespace dodge
