@@ -65,12 +65,13 @@ std::string globals() {
 std::string object_prefix(int i) { return "object" + std::to_string(i) + "/"; }
 
 MjModelPtr compose_model(const WorldSpec& spec) {
-  check_model_name(spec.room, "models");
-  check_model_name(spec.vehicle, "models");
+  check_model_name(spec.room, "models/rooms");
+  check_model_name(spec.vehicle, "models/vehicles");
   std::string xml = "<mujoco model=\"dodgesim\">\n" + globals();
-  xml += print_mjcf(read_model_file(spec.models_dir, spec.room + ".xml"));
-  xml += print_mjcf(read_model_file(spec.models_dir, spec.vehicle + ".xml"));
-  std::string label = spec.models_dir + ": " + spec.room + ".xml with " + spec.vehicle + ".xml";
+  xml += print_mjcf(read_model_file(spec.models_dir, "rooms/" + spec.room + ".xml"));
+  xml += print_mjcf(read_model_file(spec.models_dir, "vehicles/" + spec.vehicle + ".xml"));
+  std::string label =
+      spec.models_dir + ": rooms/" + spec.room + ".xml with vehicles/" + spec.vehicle + ".xml";
   for (std::size_t i = 0; i < spec.objects.size(); ++i) {
     xml += print_mjcf(scaled_object(spec.models_dir, spec.objects[i], static_cast<int>(i)));
     if (label.find("objects/" + spec.objects[i].kind + ".xml") == std::string::npos) {

@@ -22,14 +22,14 @@ struct ObjectSpec {
 
 struct WorldSpec {
   std::string models_dir = "models";
-  std::string room = "room";        // models/<room>.xml
-  std::string vehicle = "qav_rxl";  // models/<vehicle>.xml
+  std::string room = "room";        // models/rooms/<room>.xml
+  std::string vehicle = "qav_rxl";  // models/vehicles/<vehicle>.xml
   std::vector<ObjectSpec> objects;
 };
 
-// Contact bits: room geoms have contype 1, the vehicle's hull 2, thrown objects 4.
+// Conventions of the model files. Contact bits: room geoms have contype 1 and conaffinity 6, the
+// vehicle's hull 2 and 5, thrown objects 4 and 7; what is for the eye only has 0 and 0.
 // Geom groups: 0 room, 1 thrown objects, 3 vehicle as people see it, 4 vehicle hull (never drawn).
-inline constexpr int kRoomContact = 1, kVehicleContact = 2, kObjectContact = 4;
 
 // Prefix of the names of object i in the composed model: "object3/".
 std::string object_prefix(int i);

@@ -33,9 +33,11 @@ Eigen::Quaterniond rotation(const Eigen::Vector3d& angle_rad) {
 }  // namespace
 
 World::World(const WorldSpec& spec)
-    : label_(spec.models_dir + "/" + spec.vehicle + ".xml"), model_(compose_model(spec)) {
+    : label_(spec.models_dir + "/vehicles/" + spec.vehicle + ".xml"), model_(compose_model(spec)) {
   data_.reset(mj_makeData(model_.get()));
   if (!data_) throw SimulationError("MuJoCo cannot allocate its data.");
+  contype_.assign(model_->geom_contype, model_->geom_contype + model_->ngeom);
+  conaffinity_.assign(model_->geom_conaffinity, model_->geom_conaffinity + model_->ngeom);
   read_vehicle();
   for (int i = 0; i < static_cast<int>(spec.objects.size()); ++i) {
     label_ =
@@ -119,7 +121,6 @@ void World::read_object(int i) {
   const int body = find(mjOBJ_BODY, prefix + "body");
   ObjectPhysics object;
   object.mass_kg = model_->body_mass[body];
-  // The files give the frontal area at the reference size.
   const int first = model_->body_geomadr[body];
   for (int g = first; g < first + model_->body_geomnum[body]; ++g) {
     const double extent = ConstMap3(model_->geom_pos + 3 * g).norm() + model_->geom_rbound[g];
@@ -274,8 +275,9 @@ void World::set_collisions(int i, bool on) {
   const int body = object_body(i);
   const int first = model_->body_geomadr[body];
   for (int g = first; g < first + model_->body_geomnum[body]; ++g) {
-    model_->geom_contype[g] = on ? kObjectContact : 0;
-    model_->geom_conaffinity[g] = on ? kRoomContact | kVehicleContact | kObjectContact : 0;
+    const auto geom = static_cast<std::size_t>(g);
+    model_->geom_contype[g] = on ? contype_[geom] : 0;
+    model_->geom_conaffinity[g] = on ? conaffinity_[geom] : 0;
   }
 }
 

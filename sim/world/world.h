@@ -9,13 +9,13 @@
 #include <array>
 #include <vector>
 
+#include "sim/base/gravity.h"
 #include "sim/base/mujoco.h"
 #include "sim/world/compose.h"
 #include "sim/world/snapshot.h"
 
 namespace dodgesim {
 
-inline constexpr double kGravityMps2 = 9.81;
 inline constexpr double kAirDensityKgpm3 = 1.2;  // dry air at 20 degrees C, 1013 hPa
 
 // The vehicle's constants, read from its MJCF.
@@ -69,6 +69,10 @@ class World {
   int vehicle_body() const { return vehicle_body_; }
   int object_body(int i) const { return object_bodies_.at(static_cast<std::size_t>(i)); }
 
+  // Whether the geom belongs to the room, a hull or an object's surface, rather than being for the
+  // eye only. (The model's own contact bits of objects are off before their launch.)
+  bool can_collide(int geom) const { return contype_[static_cast<std::size_t>(geom)] != 0; }
+
  private:
   // One free rigid body in MuJoCo's state vectors.
   struct FreeBody {
@@ -96,6 +100,7 @@ class World {
   std::string label_;
   MjModelPtr model_;
   MjDataPtr data_;
+  std::vector<int> contype_, conaffinity_;  // by geom, as the model files say
   VehicleParameters vehicle_;
   std::vector<ObjectPhysics> objects_;
   int vehicle_body_ = 0;

@@ -1,0 +1,105 @@
+#include "sim/world/referee.h"
+
+#include <algorithm>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+Referee::Referee(const World& world) : hull_(read_body(world, world.vehicle_body())) {
+  for (int i = 0; i < world.object_count(); ++i) {
+    objects_.push_back(read_body(world, world.object_body(i)));
+  }
+  reset();
+}
+
+Referee::Body Referee::read_body(const World& world, int body) {
+  const mjModel& model = world.model();
+  const std::string label = mj_id2name(&model, mjOBJ_BODY, body);
+  Body out;
+  const int first = model.body_geomadr[body];
+  for (int g = first; g < first + model.body_geomnum[body]; ++g) {
+    if (!world.can_collide(g)) continue;
+    out.parts.push_back(Convex::from_geom(model, g, "The body " + label));
+    const Convex& part = out.parts.back();
+    out.radius_m = std::max(out.radius_m, part.centre().norm() + part.extent_m());
+  }
+  if (out.parts.empty())
+    throw ScenarioError("The body " + label + " has no geom that can collide.");
+  return out;
+}
+
+void Referee::reset() {
+  verdict_ = Verdict{};
+  verdict_.objects.resize(objects_.size());
+}
+
+Referee::Gap Referee::gap(const BodyState& vehicle, const BodyState& object,
+                          const Body& body) const {
+  const Eigen::Isometry3d X_WB = vehicle.pose();
+  const Eigen::Isometry3d X_BO = X_WB.inverse() * object.pose();
+  Gap best;
+  best.distance_m = std::numeric_limits<double>::infinity();
+  for (const Convex& a : hull_.parts) {
+    for (const Convex& b : body.parts) {
+      const double at_least = (a.centre() - X_BO * b.centre()).norm() - a.extent_m() - b.extent_m();
+      if (at_least >= best.distance_m) continue;
+      const ConvexGap found = convex_gap(a, b, X_BO);
+      if (found.distance_m < best.distance_m) best = {found.distance_m, X_WB * found.p_A};
+    }
+  }
+  return best;
+}
+
+double Referee::clearance(const World& world, int object) const {
+  const auto i = static_cast<std::size_t>(object);
+  const Snapshot& now = world.snapshot();
+  if (!now.launched.at(i)) return std::numeric_limits<double>::infinity();
+  return gap(now.vehicle, now.objects[i], objects_[i]).distance_m;
+}
+
+void Referee::observe(const World& world) {
+  const Snapshot& now = world.snapshot();
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    if (now.launched[i]) observe_object(i, now);
+  }
+  if (!verdict_.crashed) observe_crash(world);
+}
+
+void Referee::observe_object(std::size_t i, const Snapshot& now) {
+  Approach& approach = verdict_.objects[i];
+  if (approach.hit) return;
+  const double at_least =
+      (now.objects[i].p_W - now.vehicle.p_W).norm() - hull_.radius_m - objects_[i].radius_m;
+  if (at_least >= approach.clearance_m) return;
+  const Gap found = gap(now.vehicle, now.objects[i], objects_[i]);
+  if (found.distance_m >= approach.clearance_m) return;
+  approach.clearance_m = found.distance_m;
+  approach.closest_us = now.t_us;
+  approach.closest_p_W = found.p_W;
+  if (found.distance_m <= 0) {
+    approach.hit = true;
+    approach.hit_us = now.t_us;
+  }
+  if (!verdict_.nearest.hit && approach.clearance_m < verdict_.nearest.clearance_m) {
+    verdict_.nearest = approach;
+    verdict_.nearest_object = static_cast<int>(i);
+  }
+}
+
+void Referee::observe_crash(const World& world) {
+  const mjModel& model = world.model();
+  const mjData& data = world.data();
+  for (int k = 0; k < data.ncon; ++k) {
+    const int body1 = model.geom_bodyid[data.contact[k].geom1];
+    const int body2 = model.geom_bodyid[data.contact[k].geom2];
+    const int other = body1 == world.vehicle_body() ? body2 : body1;
+    if (body1 != world.vehicle_body() && body2 != world.vehicle_body()) continue;
+    if (model.body_weldid[other] != 0) continue;  // not part of the room
+    verdict_.crashed = true;
+    verdict_.crashed_us = world.snapshot().t_us;
+    return;
+  }
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,72 @@
+// The truth about a throw: did an object touch the vehicle, and how near did it come?
+#pragma once
+
+#include <Eigen/Dense>
+#include <limits>
+#include <vector>
+
+#include "sim/base/time.h"
+#include "sim/world/convex.h"
+#include "sim/world/world.h"
+
+namespace dodgesim {
+
+// About one object, or about the nearest of all.
+struct Approach {
+  bool hit = false;
+  TimeUs hit_us = -1;  // first contact, at the end of the tick that brought it
+  // Smallest distance so far between the surfaces of object and vehicle hull; 0 after a contact,
+  // infinite before the launch.
+  double clearance_m = std::numeric_limits<double>::infinity();
+  TimeUs closest_us = -1;                                 // when (the first contact if hit)
+  Eigen::Vector3d closest_p_W = Eigen::Vector3d::Zero();  // where on the vehicle's hull
+};
+
+struct Verdict {
+  std::vector<Approach> objects;  // by object index
+  Approach nearest;               // of all objects: the first hit, else the smallest clearance
+  int nearest_object = -1;        // -1 before the first launch
+  bool crashed = false;           // the vehicle touched the room
+  TimeUs crashed_us = -1;
+};
+
+// Observes every tick. The vehicle's hull are the geoms of its body that can collide.
+class Referee {
+ public:
+  // Throws ScenarioError if a hull or object geom is of a kind without a known distance.
+  explicit Referee(const World& world);
+
+  // Forgets everything; call after World::reset.
+  void reset();
+
+  // Call after reset and after each step. Distances are exact at ticks; between them the clearance
+  // is missed by less than (relative speed x half a tick)^2 / (2 x distance of the centres).
+  void observe(const World& world);
+
+  const Verdict& verdict() const { return verdict_; }
+
+  // Distance now between the surfaces of object i and the hull [m], 0 on contact; infinite while
+  // the object is not launched.
+  double clearance(const World& world, int object) const;
+
+ private:
+  struct Body {
+    std::vector<Convex> parts;
+    double radius_m = 0;  // of the sphere about the body's origin that encloses the parts
+  };
+  struct Gap {
+    double distance_m = 0;
+    Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // on the hull
+  };
+
+  static Body read_body(const World& world, int body);
+  Gap gap(const BodyState& vehicle, const BodyState& object, const Body& body) const;
+  void observe_object(std::size_t i, const Snapshot& now);
+  void observe_crash(const World& world);
+
+  Body hull_;
+  std::vector<Body> objects_;
+  Verdict verdict_;
+};
+
+}  // namespace dodgesim
