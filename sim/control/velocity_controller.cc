@@ -27,17 +27,17 @@ VelocityController::VelocityController(const ControllerSpec& spec, const Vehicle
 
 void VelocityController::reset() { last_us_.reset(); }
 
-void VelocityController::start(const StateReading& state, const VelocityReference& reference) {
+void VelocityController::start(const StateReading& state) {
   const Eigen::Vector3d x_W = state.q_W * Eigen::Vector3d::UnitX();
   yaw_rad_ = std::atan2(x_W.y(), x_W.x());
   p_ref_W_ = state.p_W;
-  v_filter_W_ = reference.v_W;
+  v_filter_W_ = state.v_W;
   last_us_ = state.t_us;
 }
 
 RateThrustCommand VelocityController::update(const StateReading& state,
                                              const VelocityReference& reference) {
-  if (!last_us_) start(state, reference);
+  if (!last_us_) start(state);
   const double dt_s = seconds(state.t_us - *last_us_);
   last_us_ = state.t_us;
 
@@ -60,16 +60,28 @@ RateThrustCommand VelocityController::update(const StateReading& state,
 
 Eigen::Vector3d VelocityController::feedback_normal(const StateReading& state,
                                                     const Eigen::Vector3d& v_W, double dt_s) {
-  const double stays =
-      spec_.velocity_filter_s > 0 ? std::exp(-dt_s / spec_.velocity_filter_s) : 0.0;
-  v_ref_W_ = v_filter_W_ = v_W + stays * (v_filter_W_ - v_W);
+  const Eigen::Vector3d a_ref = advance_filter(v_W, dt_s);
+  v_ref_W_ = v_filter_W_;
   const Eigen::Vector3d e_p = clipped(p_ref_W_ + dt_s * v_ref_W_ - state.p_W,
                                       xyz(spec_.position_clip_xy_m, spec_.position_clip_z_m));
   p_ref_W_ = state.p_W + e_p;
   const Eigen::Vector3d e_v =
       clipped(v_ref_W_ - state.v_W, xyz(spec_.velocity_clip_xy_mps, spec_.velocity_clip_z_mps));
-  return xyz(spec_.position_gain_xy_1ps2, spec_.position_gain_z_1ps2).cwiseProduct(e_p) +
+  return a_ref + xyz(spec_.position_gain_xy_1ps2, spec_.position_gain_z_1ps2).cwiseProduct(e_p) +
          xyz(spec_.velocity_gain_xy_1ps, spec_.velocity_gain_z_1ps).cwiseProduct(e_v);
+}
+
+// Moves the filtered command towards v_W; returns the acceleration to feed forward.
+Eigen::Vector3d VelocityController::advance_filter(const Eigen::Vector3d& v_W, double dt_s) {
+  if (dt_s <= 0) return Eigen::Vector3d::Zero();
+  const double stays =
+      spec_.velocity_filter_s > 0 ? std::exp(-dt_s / spec_.velocity_filter_s) : 0.0;
+  Eigen::Vector3d change = (1 - stays) * (v_W - v_filter_W_);
+  const double most = spec_.acceleration_limit_mps2 * dt_s;
+  if (change.norm() > most) change *= most / change.norm();
+  v_filter_W_ += change;
+  if (!spec_.acceleration_feed_forward) return Eigen::Vector3d::Zero();
+  return change / dt_s;
 }
 
 Eigen::Vector3d VelocityController::feedback_evading(const StateReading& state,

@@ -14,7 +14,7 @@ namespace dodgesim {
 // vehicle must hold its place.
 struct StateEstimateSpec {
   int rate_hz = 250;
-  double position_walk_m_sqrts = 0.002;
+  double position_walk_m_sqrts = 0.001;
   double position_white_m = 0.002;
   double velocity_bias_mps = 0.02;
   double velocity_bias_correlation_s = 1.0;
@@ -29,7 +29,8 @@ struct StateEstimateSpec {
   void visit(Visitor& v) {
     v("rate_hz", rate_hz, 1, 4000, "Estimates per second (paper: 250); it must divide 4000.");
     v("position_walk_m_sqrts", position_walk_m_sqrts, 0, 10,
-      "Random walk of the position's error, unbounded as odometry is: 1.5 cm after a minute "
+      "Random walk of the position's error, unbounded as odometry is: 0.8 cm after a minute of "
+      "hover "
       "(assumed).");
     v("position_white_m", position_white_m, 0, 1,
       "White noise of the position, per axis and estimate (assumed).");
