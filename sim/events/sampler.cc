@@ -1,0 +1,163 @@
+#include "sim/events/sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace dodgesim {
+
+namespace {
+
+// Nodes at which the speed of the static scene is evaluated. It is a smooth function of the place
+// that is largest at the border, nearly always in a corner.
+constexpr int kGridColumns = 9;
+constexpr int kGridRows = 7;
+
+// No surface is taken to be nearer than this, so that all speeds stay finite [m].
+constexpr double kNearestM = 1e-3;
+
+// An object counts as visible this many displacement limits before it enters the view. One would do
+// at constant speed: the sample after it crossed that line still comes before it enters.
+constexpr double kViewMarginLimits = 4;
+
+}  // namespace
+
+Sampler::Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics,
+                 const Eigen::Isometry3d& X_BC, std::vector<double> object_radius_m)
+    : spec_(spec),
+      intrinsics_(intrinsics),
+      X_BC_(X_BC),
+      object_radius_m_(std::move(object_radius_m)),
+      max_interval_us_(static_cast<TimeUs>(1e6 / spec.min_rate_hz)),
+      moved_px_(1 + object_radius_m_.size()),
+      speed_pxps_(1 + object_radius_m_.size()) {
+  if (!(spec.max_displacement_px > 0) || max_interval_us_ < 1 || spec.min_interval_us < 1) {
+    throw std::invalid_argument("The sampling of an event camera needs positive limits.");
+  }
+  const double f = intrinsics.f;
+  const double half_width = 0.5 * intrinsics.width / f;
+  const double half_height = 0.5 * intrinsics.height / f;
+  for (int j = 0; j < kGridRows; ++j) {
+    for (int i = 0; i < kGridColumns; ++i) {
+      view_grid_.emplace_back(half_width * (2.0 * i / (kGridColumns - 1) - 1),
+                              half_height * (2.0 * j / (kGridRows - 1) - 1));
+    }
+  }
+  const double margin = kViewMarginLimits * spec.max_displacement_px / f;
+  const double right = half_width + margin;
+  const double bottom = half_height + margin;
+  for (const double sign : {-1.0, 1.0}) {
+    view_planes_.push_back(Eigen::Vector3d(sign, 0, right).normalized());
+    view_planes_.push_back(Eigen::Vector3d(0, sign, bottom).normalized());
+  }
+  max_secant_ = Eigen::Vector3d(right, bottom, 1).norm();
+}
+
+void Sampler::reset(TimeUs t_us) {
+  last_us_ = t_us;
+  required_us_.clear();
+  std::fill(moved_px_.begin(), moved_px_.end(), 0.0);
+}
+
+void Sampler::require(TimeUs t_us) {
+  if (t_us <= last_us_) return;
+  const auto place = std::lower_bound(required_us_.begin(), required_us_.end(), t_us);
+  if (place == required_us_.end() || *place != t_us) required_us_.insert(place, t_us);
+}
+
+void Sampler::advance(const Snapshot& a, const Snapshot& b, double nearest_static_m,
+                      std::vector<TimeUs>& sample_times) {
+  speed_pxps_[0] = std::max(static_speed(a, nearest_static_m), static_speed(b, nearest_static_m));
+  for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
+    speed_pxps_[1 + i] = std::max(object_speed(a, i), object_speed(b, i));
+  }
+  TimeUs now_us = a.t_us;
+  while (true) {
+    const TimeUs t_us = next_sample(now_us);
+    const double dt_s = seconds(std::min(t_us, b.t_us) - now_us);
+    for (std::size_t i = 0; i < moved_px_.size(); ++i) moved_px_[i] += speed_pxps_[i] * dt_s;
+    if (t_us > b.t_us) return;
+    sample_times.push_back(t_us);
+    now_us = t_us;
+    last_us_ = t_us;
+    std::fill(moved_px_.begin(), moved_px_.end(), 0.0);
+    const auto later = std::upper_bound(required_us_.begin(), required_us_.end(), t_us);
+    required_us_.erase(required_us_.begin(), later);
+  }
+}
+
+// The instant after now_us at which the next sample is due if the speeds last.
+TimeUs Sampler::next_sample(TimeUs now_us) const {
+  double left_s = seconds(max_interval_us_);
+  for (std::size_t i = 0; i < moved_px_.size(); ++i) {
+    const double left_px = std::max(0.0, spec_.max_displacement_px - moved_px_[i]);
+    if (speed_pxps_[i] * left_s > left_px) left_s = left_px / speed_pxps_[i];
+  }
+  TimeUs t_us =
+      std::max(now_us + static_cast<TimeUs>(1e6 * left_s), last_us_ + spec_.min_interval_us);
+  t_us = std::min(t_us, last_us_ + max_interval_us_);
+  if (!required_us_.empty()) t_us = std::min(t_us, required_us_.front());
+  return std::max(t_us, now_us + 1);
+}
+
+Sampler::CameraMotion Sampler::camera_motion(const Snapshot& snapshot) const {
+  const BodyState& body = snapshot.vehicle;
+  CameraMotion camera;
+  camera.X_WC = body.pose() * X_BC_;
+  const Eigen::Matrix3d R_CW = camera.X_WC.linear().transpose();
+  const Eigen::Vector3d p_BC_W = body.q_W * X_BC_.translation();
+  camera.v_C = R_CW * (body.v_W + body.w_W.cross(p_BC_W));
+  camera.w_C = R_CW * body.w_W;
+  return camera;
+}
+
+double Sampler::static_speed(const Snapshot& snapshot, double nearest_static_m) const {
+  const CameraMotion camera = camera_motion(snapshot);
+  const Eigen::Vector3d& w = camera.w_C;
+  const Eigen::Vector3d& v = camera.v_C;
+  const double distance = std::max(nearest_static_m, kNearestM);
+  double fastest = 0;
+  for (const Eigen::Vector2d& p : view_grid_) {
+    const double x = p.x();
+    const double y = p.y();
+    // Image motion of a static point (x, y, 1) Z: d/dt of X/Z and Y/Z with dp/dt = -v - w x p.
+    const double approach = w.x() * y - w.y() * x;
+    const Eigen::Vector2d turn(-w.y() + w.z() * y + x * approach, w.x() - w.z() * x + y * approach);
+    const double inverse_depth = std::sqrt(1 + p.squaredNorm()) / distance;
+    const Eigen::Vector2d shift(-v.x() + x * v.z(), -v.y() + y * v.z());
+    // The speed is a convex function of the inverse depth: its maximum is at one of the ends.
+    fastest = std::max({fastest, turn.norm(), (turn + inverse_depth * shift).norm()});
+  }
+  return intrinsics_.f * fastest;
+}
+
+double Sampler::object_speed(const Snapshot& snapshot, std::size_t object) const {
+  if (!snapshot.launched[object]) return 0;
+  const CameraMotion camera = camera_motion(snapshot);
+  const BodyState& body = snapshot.objects[object];
+  const double radius = object_radius_m_[object];
+  const Eigen::Vector3d c = camera.X_WC.inverse() * body.p_W;
+  for (const Eigen::Vector3d& plane : view_planes_) {
+    if (plane.dot(c) < -radius) return 0;
+  }
+  const double distance = std::max(c.norm(), kNearestM);
+  const double near = std::max(distance - radius, kNearestM);
+  const double half_angle = std::asin(std::min(1.0, radius / distance));
+  const Eigen::Vector3d ray = c / distance;
+  const Eigen::Vector3d u = camera.X_WC.linear().transpose() * body.v_W - camera.v_C;
+  const Eigen::Vector3d u_across = u - ray * ray.dot(u);
+  // Angular speed of the centre, then how much more any other visible point can have: by its
+  // direction (growth included), by being nearer, by the camera's rotation, by the object's spin.
+  const double angular =
+      (u_across / distance - camera.w_C.cross(ray)).norm() +
+      u.norm() * std::sin(half_angle) / near + u_across.norm() * (1 / near - 1 / distance) +
+      camera.w_C.norm() * 2 * std::sin(0.5 * half_angle) + body.w_W.norm() * radius / near;
+  // A pinhole camera stretches angles by up to 1/cos^2 of the angle to the optical axis.
+  const double axis_angle = std::acos(std::clamp(ray.z(), -1.0, 1.0)) + half_angle;
+  const double cosine =
+      axis_angle < 1.5 ? std::max(std::cos(axis_angle), 1 / max_secant_) : 1 / max_secant_;
+  return intrinsics_.f * angular / (cosine * cosine);
+}
+
+}  // namespace dodgesim

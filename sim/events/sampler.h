@@ -1,0 +1,76 @@
+// Decides at which instants a camera is sampled, from the true motion.
+//
+// Between two samples the luminance of a pixel is taken to run linearly in time, so nothing may
+// move far from one sample to the next. For the static scene and for each object the sampler adds
+// up a bound on the distance that any of its visible points moves in the image, and asks for a
+// sample when one of them reaches SamplingSpec::max_displacement_px. Each camera has its own
+// sampler.
+//
+// What a loop must do with events that are known late: an event is known at the first sample at or
+// after its stamp, and a packet that ends at T is complete at the first sample at or after T (see
+// packetizer.h). So that no packet is late, the loop asks by require(T) for a sample at the end T
+// of the last packet that the pilot's next cycle will read; between the cycles only the motion asks
+// for samples. A loop that does not is late by at most the longest interval, 1/min_rate_hz.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "sim/base/time.h"
+#include "sim/events/spec.h"
+#include "sim/render/camera.h"
+#include "sim/world/snapshot.h"
+
+namespace dodgesim {
+
+class Sampler {
+ public:
+  // `X_BC` is the pose of the camera in the vehicle's frame, `object_radius_m` the radius of the
+  // sphere about each object's origin that encloses it. Throws std::invalid_argument if the
+  // parameters do not allow any sampling.
+  Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics, const Eigen::Isometry3d& X_BC,
+          std::vector<double> object_radius_m);
+
+  // A sample has been taken at t_us. Forgets what was required.
+  void reset(TimeUs t_us);
+
+  // Asks for a sample exactly at t_us, which lies after the end of the last advance().
+  void require(TimeUs t_us);
+
+  // Appends the instants in (a.t_us, b.t_us] at which to sample, in order. a and b are a tick
+  // apart, and consecutive calls follow each other. `nearest_static_m` is a lower bound on the
+  // distance from the camera to the static scene in its view. Objects that are not launched do not
+  // count.
+  void advance(const Snapshot& a, const Snapshot& b, double nearest_static_m,
+               std::vector<TimeUs>& sample_times);
+
+  // Bounds on the speed in the image at one instant [px/s].
+  double static_speed(const Snapshot& snapshot, double nearest_static_m) const;
+  double object_speed(const Snapshot& snapshot, std::size_t object) const;  // 0: out of view
+
+ private:
+  // Motion of the camera, in C.
+  struct CameraMotion {
+    Eigen::Isometry3d X_WC;
+    Eigen::Vector3d v_C;  // velocity of the camera's centre [m/s]
+    Eigen::Vector3d w_C;  // angular velocity [rad/s]
+  };
+  CameraMotion camera_motion(const Snapshot& snapshot) const;
+  TimeUs next_sample(TimeUs now_us) const;
+
+  SamplingSpec spec_;
+  Intrinsics intrinsics_;
+  Eigen::Isometry3d X_BC_;
+  std::vector<double> object_radius_m_;
+  std::vector<Eigen::Vector2d> view_grid_;    // normalised image coordinates, corners included
+  std::vector<Eigen::Vector3d> view_planes_;  // unit normals into the enlarged view
+  double max_secant_;                         // 1/cos of the angle of the corners of the view
+  TimeUs max_interval_us_;
+
+  TimeUs last_us_ = 0;               // of the last sample
+  std::vector<TimeUs> required_us_;  // later than the last sample, in order
+  std::vector<double> moved_px_;     // since the last sample: static scene, then each object
+  std::vector<double> speed_pxps_;   // over the current tick
+};
+
+}  // namespace dodgesim
