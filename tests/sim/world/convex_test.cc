@@ -1,0 +1,166 @@
+#include "sim/world/convex.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "sim/base/random.h"
+
+namespace dodgesim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+Isometry3d random_pose(RandomStream& random, double reach_m) {
+  const Eigen::Quaterniond q(random.normal(), random.normal(), random.normal(), random.normal());
+  Isometry3d X = Isometry3d::Identity();
+  X.linear() = q.normalized().toRotationMatrix();
+  for (int k = 0; k < 3; ++k) X.translation()[k] = random.uniform(-reach_m, reach_m);
+  return X;
+}
+
+// Closed forms for the distance from a point to a solid, in the frame of the solid.
+double to_box(const Vector3d& p, const Vector3d& half) {
+  return (p.cwiseAbs() - half).cwiseMax(0).norm();
+}
+double to_cylinder(const Vector3d& p, double radius, double half) {
+  return std::hypot(std::max(0.0, p.head<2>().norm() - radius),
+                    std::max(0.0, std::abs(p.z()) - half));
+}
+double to_segment(const Vector3d& p, double half) {
+  return (p - Vector3d(0, 0, std::clamp(p.z(), -half, half))).norm();
+}
+
+TEST(ConvexTest, DistanceOfASphereAgreesWithTheClosedForms) {
+  RandomStream random(1, 0, "convex");
+  const Vector3d half(0.17, 0.15, 0.05);
+  for (int i = 0; i < 2000; ++i) {
+    const Isometry3d X_AG = random_pose(random, 0.3);
+    const Isometry3d X_AB = random_pose(random, i % 2 ? 2.0 : 0.3);
+    const double radius = random.uniform(0.01, 0.3);
+    const Convex ball = Convex::sphere(Vector3d::Zero(), radius);
+    const Vector3d p_G = X_AG.inverse() * X_AB.translation();
+    EXPECT_NEAR(convex_gap(Convex::box(X_AG, half), ball, X_AB).distance_m,
+                std::max(0.0, to_box(p_G, half) - radius), 1e-6);
+    EXPECT_NEAR(convex_gap(Convex::cylinder(X_AG, 0.12, 0.03), ball, X_AB).distance_m,
+                std::max(0.0, to_cylinder(p_G, 0.12, 0.03) - radius), 1e-6);
+    EXPECT_NEAR(convex_gap(Convex::capsule(X_AG, 0.04, 0.1), ball, X_AB).distance_m,
+                std::max(0.0, to_segment(p_G, 0.1) - 0.04 - radius), 1e-6);
+  }
+}
+
+// Surface points of a solid on a fine grid of its three kinds of coordinates.
+std::vector<Vector3d> box_surface(const Vector3d& half, int n) {
+  std::vector<Vector3d> points;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; j <= n; ++j) {
+        for (int sign = -1; sign <= 1; sign += 2) {
+          Vector3d p;
+          p[axis] = sign * half[axis];
+          p[(axis + 1) % 3] = half[(axis + 1) % 3] * (2.0 * i / n - 1);
+          p[(axis + 2) % 3] = half[(axis + 2) % 3] * (2.0 * j / n - 1);
+          points.push_back(p);
+        }
+      }
+    }
+  }
+  return points;
+}
+
+// The closed-form distance from every sampled point of one solid to the other: brute force.
+double sampled(const std::vector<Vector3d>& points_B, const Isometry3d& X_AB,
+               const std::function<double(const Vector3d&)>& distance_A) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const Vector3d& p_B : points_B) best = std::min(best, distance_A(X_AB * p_B));
+  return best;
+}
+
+TEST(ConvexTest, DistanceBetweenSolidsAgreesWithBruteForceSampling) {
+  RandomStream random(2, 0, "convex");
+  const Vector3d hull(0.17, 0.17, 0.05), half(0.08, 0.05, 0.03);
+  const std::vector<Vector3d> surface = box_surface(half, 80);  // a point every 2 mm
+  const Convex box_a = Convex::box(Isometry3d::Identity(), hull);
+  const Convex cylinder_a = Convex::cylinder(Isometry3d::Identity(), 0.17, 0.02);
+  const Convex box_b = Convex::box(Isometry3d::Identity(), half);
+  for (int i = 0; i < 200; ++i) {
+    const Isometry3d X_AB = random_pose(random, 0.5);
+    EXPECT_NEAR(convex_gap(box_a, box_b, X_AB).distance_m,
+                sampled(surface, X_AB, [&](const Vector3d& p) { return to_box(p, hull); }), 1e-3);
+    EXPECT_NEAR(
+        convex_gap(cylinder_a, box_b, X_AB).distance_m,
+        sampled(surface, X_AB, [](const Vector3d& p) { return to_cylinder(p, 0.17, 0.02); }), 1e-3);
+  }
+}
+
+TEST(ConvexTest, DistanceOfAnEllipsoidAgreesWithBruteForceSampling) {
+  RandomStream random(3, 0, "convex");
+  const Vector3d axes(0.15, 0.10, 0.04), hull(0.17, 0.17, 0.05);
+  std::vector<Vector3d> surface;
+  for (int i = 0; i <= 300; ++i) {
+    for (int j = 0; j < 600; ++j) {
+      const double a = M_PI * i / 300, b = 2 * M_PI * j / 600;
+      surface.push_back(axes.cwiseProduct(
+          Vector3d(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a))));
+    }
+  }
+  const Convex a = Convex::box(Isometry3d::Identity(), hull);
+  const Convex b = Convex::ellipsoid(Isometry3d::Identity(), axes);
+  for (int i = 0; i < 30; ++i) {
+    const Isometry3d X_AB = random_pose(random, 0.5);
+    EXPECT_NEAR(convex_gap(a, b, X_AB).distance_m,
+                sampled(surface, X_AB, [&](const Vector3d& p) { return to_box(p, hull); }), 1e-3);
+  }
+}
+
+TEST(ConvexTest, AHullOfVerticesIsTheSolidTheySpan) {
+  RandomStream random(4, 0, "convex");
+  const Vector3d half(0.1, 0.05, 0.2);
+  std::vector<Vector3d> corners;
+  for (int k = 0; k < 8; ++k) {
+    corners.push_back(half.cwiseProduct(Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+  }
+  const Convex a = Convex::cylinder(Isometry3d::Identity(), 0.1, 0.1);
+  for (int i = 0; i < 200; ++i) {
+    const Isometry3d X_AB = random_pose(random, 0.6);
+    const double expected =
+        convex_gap(a, Convex::box(Isometry3d::Identity(), half), X_AB).distance_m;
+    const Convex hull = Convex::hull(Isometry3d::Identity(), corners);
+    EXPECT_NEAR(convex_gap(a, hull, X_AB).distance_m, expected, 1e-6);
+  }
+}
+
+TEST(ConvexTest, TheNearestPointLiesOnTheFirstBodyAtThatDistanceFromTheSecond) {
+  RandomStream random(5, 0, "convex");
+  const Vector3d half(0.17, 0.15, 0.05);
+  const Convex a = Convex::box(Isometry3d::Identity(), half);
+  const Convex b = Convex::sphere(Vector3d::Zero(), 0.1);
+  for (int i = 0; i < 500; ++i) {
+    const Isometry3d X_AB = random_pose(random, 1.0);
+    const ConvexGap gap = convex_gap(a, b, X_AB);
+    if (gap.distance_m == 0) continue;
+    EXPECT_NEAR(to_box(gap.p_A, half), 0, 1e-6);
+    EXPECT_NEAR((gap.p_A - X_AB.translation()).norm() - 0.1, gap.distance_m, 1e-6);
+  }
+}
+
+TEST(ConvexTest, OverlappingBodiesTouch) {
+  RandomStream random(6, 0, "convex");
+  const Convex a = Convex::box(Isometry3d::Identity(), Vector3d(0.2, 0.2, 0.2));
+  for (int i = 0; i < 200; ++i) {
+    const Isometry3d X_AB = random_pose(random, 0.15);
+    for (const Convex& b : {Convex::box(Isometry3d::Identity(), Vector3d(0.1, 0.02, 0.05)),
+                            Convex::cylinder(Isometry3d::Identity(), 0.1, 0.02),
+                            Convex::ellipsoid(Isometry3d::Identity(), Vector3d(0.1, 0.05, 0.02))}) {
+      EXPECT_EQ(convex_gap(a, b, X_AB).distance_m, 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dodgesim
