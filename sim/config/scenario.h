@@ -9,11 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "dodge/config.h"
 #include "sim/bridge/delay_spec.h"
 #include "sim/bridge/oracle_spec.h"
 #include "sim/config/distribution.h"
 #include "sim/config/parameter_docs.h"
+#include "sim/control/flight_controller.h"
+#include "sim/control/velocity_controller.h"
+#include "sim/events/spec.h"
 #include "sim/motors/motors.h"
+#include "sim/render/luminance_renderer.h"
 #include "sim/sensors/imu.h"
 #include "sim/sensors/range_sensor.h"
 #include "sim/sensors/state_estimator.h"
@@ -36,6 +41,9 @@ struct CameraSpec {
 
 struct SensorsSpec {
   CameraSpec camera;
+  EventCameraSpec events;
+  SamplingSpec sampling;
+  RenderSpec render;
   ImuSpec imu;
   StateEstimateSpec state_estimate;
   RangeSpec range;
@@ -43,6 +51,9 @@ struct SensorsSpec {
   template <class Visitor>
   void visit(Visitor& v) {
     v("camera", camera, "Image size and field of view of both event cameras.");
+    v("events", events, "The event cameras' pixels.");
+    v("sampling", sampling, "How often the luminance is drawn from which events are made.");
+    v("render", render, "How the luminance is drawn.");
     v("imu", imu, "Gyroscope and accelerometer.");
     v("state_estimate", state_estimate, "Pose and velocity as the vehicle's estimator gives them.");
     v("range", range, "The range sensor that looks down.");
@@ -86,7 +97,8 @@ struct ThrowSpec {
       "Mean closing speed over the ground: the object reaches the aim point distance_m / speed_mps "
       "after its launch.");
     v("distance_m", distance_m, 0.5, 20,
-      "Horizontal distance from the launch point to the vehicle at the moment of the launch.");
+      "Distance over the ground from the launch to the aim point, where the vehicle will be on "
+      "arrival.");
     v("bearing_deg", bearing_deg, -180, 180,
       "Where the throw comes from, seen from the vehicle: 0 ahead, positive to the left.");
     v("aim_offset_m", aim_offset_m, -2, 2,
@@ -115,8 +127,13 @@ struct Scenario {
   double duration_s = 10;
   SensorsSpec sensors;
   DelaySpec delays;
-  MotorSpec motors;
+  dodge::Config dodger;
   OracleSpec oracle;
+  ControllerSpec controller;
+  FlightControllerSpec flight_controller;
+  MotorSpec motors;
+
+  std::string models_dir;  // folder of rooms, vehicles and objects; not part of the file
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -139,8 +156,11 @@ struct Scenario {
       "Length of a flight when nobody throws (with a throw, after_s ends it).");
     v("sensors", sensors, "What the vehicle senses, and how badly.");
     v("delays", delays, "The latency chain, in simulated time.");
-    v("motors", motors, "Speed controllers and rotors.");
+    v("dodger", dodger, "The paper's pilot (falanga2020): detection and avoidance.");
     v("oracle", oracle, "What the pilot oracle may see.");
+    v("controller", controller, "From the velocity command to body rates and thrust.");
+    v("flight_controller", flight_controller, "The body-rate loop and the mixer.");
+    v("motors", motors, "Speed controllers and rotors.");
   }
 };
 

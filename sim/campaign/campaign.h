@@ -1,0 +1,47 @@
+// Flies all throws of a scenario and writes a directory of results:
+//   scenario.resolved.yaml  every value spelled out
+//   throws.csv              one row a throw, in throw order       } byte-identical for any number
+//   detections.csv          one row a detection, in throw order   } of workers
+//   table.md, table.csv     success tables                        }
+//   timing.csv              computing time of each throw
+//   manifest.json           commit, versions, machine, command line, throughput; written last, so a
+//                           directory that has it is complete
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sim/campaign/result.h"
+#include "sim/campaign/workers.h"
+#include "sim/config/scenario.h"
+
+namespace dodgesim {
+
+struct CampaignOptions {
+  std::filesystem::path out;
+  int jobs = 1;
+  bool force = false;        // overwrite whatever is in `out`
+  std::string command_line;  // for the manifest
+  std::string gl_renderer;   // for the manifest; empty when nothing was rendered
+  bool show_progress = false;
+};
+
+struct CampaignSummary {
+  std::vector<ThrowResult> results;  // in throw order, without their detections
+  std::string table;                 // Markdown
+  int errors = 0;                    // throws of which a flight failed
+  double wall_s = 0;
+  double real_time_factor = 0;  // simulated time of the flown pilots per computing time, one core
+};
+
+// The result of throw `index` before any flight: its numbers as drawn. Requires a valid scenario.
+ThrowResult blank_result(const Scenario& scenario, int index);
+
+// Throws ScenarioError when `out` holds something else than a campaign of this very scenario and
+// force is not set, or as `fly` does; IoError when a file cannot be written.
+CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& options,
+                             const FlyFunction& fly);
+
+}  // namespace dodgesim

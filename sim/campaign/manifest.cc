@@ -1,0 +1,53 @@
+#include "sim/campaign/manifest.h"
+
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "sim/campaign/build_info.h"
+
+namespace dodgesim {
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  ::gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+std::string manifest_json(const Scenario& scenario, const CampaignOptions& options,
+                          const CampaignSummary& summary, const std::string& started) {
+  const BuildInfo build = build_info();
+  const Machine machine = machine_info();
+  nlohmann::ordered_json manifest;
+  manifest["program"] = {
+      {"name", "dodgesim"},         {"version", build.version},       {"commit", build.commit},
+      {"modified", build.modified}, {"build_type", build.build_type}, {"compiler", build.compiler}};
+  manifest["libraries"] = {{"mujoco", build.mujoco},
+                           {"opencv", build.opencv},
+                           {"eigen", build.eigen},
+                           {"yaml_cpp", build.yaml_cpp},
+                           {"gl_renderer", options.gl_renderer}};
+  manifest["machine"] = {{"cpu", machine.cpu},
+                         {"cpu_flags", machine.cpu_flags},
+                         {"cores", machine.cores},
+                         {"system", machine.system}};
+  manifest["campaign"] = {{"scenario", scenario.name},
+                          {"seed", scenario.seed},
+                          {"throws", scenario.repeats},
+                          {"errors", summary.errors},
+                          {"command_line", options.command_line},
+                          {"jobs", options.jobs}};
+  const double throws_per_minute =
+      summary.wall_s > 0 ? 60.0 * static_cast<double>(summary.results.size()) / summary.wall_s : 0;
+  manifest["time"] = {{"started", started},
+                      {"finished", utc_now()},
+                      {"wall_s", summary.wall_s},
+                      {"throws_per_minute", throws_per_minute},
+                      {"real_time_factor", summary.real_time_factor}};
+  // A command line may hold bytes that are not UTF-8: replace them rather than fail.
+  return manifest.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,132 @@
+// What one throw of a campaign leaves behind. visit() lists the columns of throws.csv and
+// detections.csv; the same list carries a result from a worker process to the campaign.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/base/time.h"
+
+namespace dodgesim {
+
+// One pilot's flight through the throw.
+struct FlightResult {
+  std::string status = "not flown";  // "ok", "error" or "not flown"
+  std::string error;                 // why, when the status is "error"
+  bool hit = false;                  // an object touched the vehicle
+  bool crashed = false;              // the vehicle touched the room
+  std::optional<TimeUs> hit_us;      // of the first touch
+  std::optional<TimeUs> closest_us;
+  std::optional<double> clearance_m;  // smallest distance between the surfaces; empty: nobody threw
+
+  bool ok() const { return status == "ok"; }
+  bool failed() const { return status == "error"; }
+  bool unharmed() const { return ok() && !hit && !crashed; }
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("status", status);
+    v("error", error);
+    v("hit", hit);
+    v("crashed", crashed);
+    v("hit_us", hit_us);
+    v("closest_us", closest_us);
+    v("clearance_m", clearance_m);
+  }
+};
+
+// One detection, beside the truth at its time.
+struct DetectionRow {
+  int throw_index = 0;
+  TimeUs t_us = 0;       // the instant the position speaks of
+  TimeUs output_us = 0;  // when the pilot reported it
+  int obstacle_id = -1;
+  std::array<double, 3> p_W{};  // estimated centre [m]
+  double size_m = 0;
+  double depth_m = 0;  // along the camera's optical axis
+  double depth_sigma_m = 0;
+  std::optional<int> object;  // the true object nearest to the estimate; empty: none in flight
+  std::optional<std::array<double, 3>> true_p_W;
+  std::optional<double> position_error_m;
+  std::optional<double> true_depth_m;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("throw", throw_index);
+    v("t_us", t_us);
+    v("output_us", output_us);
+    v("obstacle_id", obstacle_id);
+    v("p_W", p_W);
+    v("size_m", size_m);
+    v("depth_m", depth_m);
+    v("depth_sigma_m", depth_sigma_m);
+    v("object", object);
+    v("true_p_W", true_p_W);
+    v("position_error_m", position_error_m);
+    v("true_depth_m", true_depth_m);
+  }
+};
+
+struct ThrowResult {
+  int index = 0;
+
+  // The throw, as drawn. Without an object nobody threw.
+  std::string object;
+  double size_m = 0;
+  double speed_mps = 0;
+  double distance_m = 0;
+  double bearing_deg = 0;
+  std::array<double, 2> aim_offset_m{};  // lateral, vertical
+  std::array<double, 3> spin_radps{};
+  double launch_height_m = 0;
+  TimeUs launch_us = 0;
+
+  FlightResult flown;   // the scenario's pilot
+  FlightResult none;    // would it have hit?
+  FlightResult oracle;  // perfect perception, same avoidance and controller
+
+  // Of the flown pilot.
+  std::optional<TimeUs> first_detection_us;          // of the true object
+  std::optional<double> first_detection_distance_m;  // true distance object to camera then
+  std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
+  bool evaded = false;                     // any evasive command
+  int detections = 0;
+  std::array<std::int64_t, 2> events{};  // of the top and bottom camera
+  std::uint64_t events_hash = 0;         // of all events in order
+  TimeUs duration_us = 0;                // simulated
+
+  std::vector<DetectionRow> detection_rows;
+  double wall_s = 0;  // computing time of the flown pilot: in timing.csv, never in throws.csv
+
+  bool thrown() const { return !object.empty(); }
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("throw", index);
+    v("object", object);
+    v("size_m", size_m);
+    v("speed_mps", speed_mps);
+    v("distance_m", distance_m);
+    v("bearing_deg", bearing_deg);
+    v("aim_offset_m", aim_offset_m);
+    v("spin_radps", spin_radps);
+    v("launch_height_m", launch_height_m);
+    v("launch_us", launch_us);
+    v("flown", flown);
+    v("none", none);
+    v("oracle", oracle);
+    v("first_detection_us", first_detection_us);
+    v("first_detection_distance_m", first_detection_distance_m);
+    v("first_command_us", first_command_us);
+    v("evaded", evaded);
+    v("detections", detections);
+    v("events", events);
+    v("events_hash", events_hash);
+    v("duration_us", duration_us);
+  }
+};
+
+}  // namespace dodgesim

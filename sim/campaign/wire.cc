@@ -1,0 +1,126 @@
+#include "sim/campaign/wire.h"
+
+#include <cstring>
+#include <type_traits>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+namespace {
+
+class ByteWriter {
+ public:
+  std::string take() { return std::move(bytes_); }
+
+  void operator()(const char*, std::string& text) {
+    number(static_cast<std::uint64_t>(text.size()));
+    bytes_ += text;
+  }
+
+  template <class T>
+  void operator()(const char*, std::optional<T>& value) {
+    number(static_cast<char>(value.has_value()));
+    if (value) (*this)("", *value);
+  }
+
+  template <class T, std::size_t N>
+  void operator()(const char*, std::array<T, N>& values) {
+    for (T& value : values) number(value);
+  }
+
+  template <class T>
+  void operator()(const char*, T& value) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      number(value);
+    } else {
+      value.visit(*this);
+    }
+  }
+
+ private:
+  template <class T>
+  void number(const T& value) {
+    char raw[sizeof(T)];
+    std::memcpy(raw, &value, sizeof(T));
+    bytes_.append(raw, sizeof(T));
+  }
+
+  std::string bytes_;
+};
+
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+
+  bool at_end() const { return bytes_.empty(); }
+
+  void operator()(const char*, std::string& text) {
+    std::uint64_t size = 0;
+    number(size);
+    text = std::string(take(size));
+  }
+
+  template <class T>
+  void operator()(const char*, std::optional<T>& value) {
+    char present = 0;
+    number(present);
+    if (present != 0) (*this)("", value.emplace());
+  }
+
+  template <class T, std::size_t N>
+  void operator()(const char*, std::array<T, N>& values) {
+    for (T& value : values) number(value);
+  }
+
+  template <class T>
+  void operator()(const char*, T& value) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      number(value);
+    } else {
+      value.visit(*this);
+    }
+  }
+
+ private:
+  std::string_view take(std::uint64_t size) {
+    if (size > bytes_.size()) throw SimulationError("A worker sent an incomplete result.");
+    const std::string_view head = bytes_.substr(0, size);
+    bytes_.remove_prefix(size);
+    return head;
+  }
+
+  template <class T>
+  void number(T& value) {
+    std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
+  }
+
+  std::string_view bytes_;
+};
+
+}  // namespace
+
+std::string to_bytes(const ThrowResult& result) {
+  ThrowResult copy = result;
+  ByteWriter writer;
+  copy.visit(writer);
+  writer("", copy.wall_s);
+  auto rows = static_cast<std::uint64_t>(copy.detection_rows.size());
+  writer("", rows);
+  for (DetectionRow& row : copy.detection_rows) writer("", row);
+  return writer.take();
+}
+
+ThrowResult result_from_bytes(std::string_view bytes) {
+  ThrowResult result;
+  ByteReader reader(bytes);
+  result.visit(reader);
+  reader("", result.wall_s);
+  std::uint64_t rows = 0;
+  reader("", rows);
+  for (std::uint64_t i = 0; i < rows; ++i) reader("", result.detection_rows.emplace_back());
+  if (!reader.at_end()) throw SimulationError("A worker sent more than one result.");
+  return result;
+}
+
+}  // namespace dodgesim
