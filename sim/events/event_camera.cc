@@ -64,6 +64,14 @@ std::uint32_t checked_count(int width, int height) {
   return static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height);
 }
 
+float checked(float luminance) {
+  if (!(luminance >= 0 && luminance <= std::numeric_limits<float>::max())) {
+    throw SimulationError("An event camera was shown a luminance of " + std::to_string(luminance) +
+                          "; it must be finite and not negative.");
+  }
+  return luminance;
+}
+
 }  // namespace
 
 EventCamera::EventCamera(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
@@ -84,6 +92,7 @@ EventCamera::EventCamera(const EventCameraSpec& spec, int width, int height, std
       high_(pixels_.size()),
       previous_(pixels_.size()),
       row_flags_((static_cast<std::size_t>(width) + 7) / 8 * 8) {
+  candidates_.reserve(static_cast<std::size_t>(width));
   const RandomStream device(seed, 0, named(name, "device"));
   for (std::uint32_t i = 0; i < pixels_.size(); ++i) {
     Pixel& pixel = pixels_[i];
@@ -96,16 +105,14 @@ EventCamera::EventCamera(const EventCameraSpec& spec, int width, int height, std
     }
     pixel.threshold_on = std::max(pixel.threshold_on, spec.threshold_min);
     pixel.threshold_off = std::max(pixel.threshold_off, spec.threshold_min);
-    pixel.gain_on = std::exp(pixel.threshold_on);
-    pixel.gain_off = std::exp(-pixel.threshold_off);
   }
 }
 
 void EventCamera::reset(TimeUs t_us, const float* luminance) {
   t_us_ = t_us;
   std::copy_n(luminance, pixels_.size(), previous_.begin());
-  for (std::uint32_t i = 0; i < pixels_.size(); ++i) {
-    pixels_[i].reference = log_luminance(luminance[i]);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    pixels_[i].reference = log_luminance(checked(luminance[i]));
     pixels_[i].held_until_us = kArmed;
     set_bounds(i);
   }
@@ -141,70 +148,83 @@ void EventCamera::update(TimeUs t_us, const float* luminance, std::vector<Event>
 
 void EventCamera::update_row(int y, TimeUs t_us, const float* luminance) {
   const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-  const auto width = static_cast<std::size_t>(width_);
   const float* const now = luminance + begin;
+  const float* const previous = previous_.data() + begin;
+  find_candidates(begin, now);
+  for (Candidate& candidate : candidates_) {
+    candidate.l0 = log_luminance(previous[candidate.x]);
+    candidate.l1 = log_luminance(checked(now[candidate.x]));
+  }
+  for (const Candidate& candidate : candidates_)
+    update_pixel(begin + candidate.x, y, t_us, candidate);
+  std::copy_n(now, width_, previous_.begin() + static_cast<std::ptrdiff_t>(begin));
+}
+
+// Lists the pixels of the row that start at `begin` whose luminance left its bounds or that have a
+// background event.
+void EventCamera::find_candidates(std::size_t begin, const float* now) {
+  const auto width = static_cast<std::size_t>(width_);
   const float* const low = low_.data() + begin;
   const float* const high = high_.data() + begin;
   std::uint8_t* const flags = row_flags_.data();
-  // Written so that a luminance that is not a number gets its closer look, too.
+  // Written so that a luminance that is not a number becomes a candidate, too.
   for (std::size_t x = 0; x < width; ++x) {
     flags[x] = static_cast<std::uint8_t>(!((now[x] > low[x]) & (now[x] < high[x])));
   }
   for (std::size_t n = next_noise_; n < noise_.size() && noise_[n].pixel < begin + width; ++n) {
     flags[noise_[n].pixel - begin] = 1;
   }
+  candidates_.clear();
   for (std::size_t word = 0; word < row_flags_.size(); word += 8) {
     std::uint64_t any = 0;
     std::memcpy(&any, flags + word, sizeof any);
     if (any == 0) continue;
     for (std::size_t x = word; x < std::min(word + 8, width); ++x) {
       if (flags[x] == 0) continue;
-      const auto index = static_cast<std::uint32_t>(begin + x);
-      const std::size_t first = next_noise_;
-      while (next_noise_ < noise_.size() && noise_[next_noise_].pixel == index) ++next_noise_;
-      update_pixel(index, static_cast<int>(x), y, t_us, now[x],
-                   std::span(noise_).subspan(first, next_noise_ - first));
+      candidates_.push_back({static_cast<std::uint32_t>(x), 0, 0});
+      __builtin_prefetch(&pixels_[begin + x], 1);
     }
   }
-  std::copy_n(now, width, previous_.begin() + static_cast<std::ptrdiff_t>(begin));
 }
 
-void EventCamera::update_pixel(std::uint32_t index, int x, int y, TimeUs t_us, float luminance,
-                               std::span<const BackgroundEvent> background) {
+void EventCamera::update_pixel(std::size_t index, int y, TimeUs t_us, const Candidate& candidate) {
   Pixel& pixel = pixels_[index];
-  const Segment line = {static_cast<double>(t_us_), static_cast<double>(t_us),
-                        log_luminance(previous_[index]), log_luminance(luminance)};
-  const std::uint64_t address =
-      static_cast<std::uint64_t>(y) << kRowShift | static_cast<std::uint64_t>(x) << kColumnShift;
-  for (const BackgroundEvent& event : background) {
+  const Line line = {static_cast<double>(t_us_), static_cast<double>(t_us), candidate.l0,
+                     candidate.l1};
+  const std::uint64_t address = static_cast<std::uint64_t>(y) << kRowShift |
+                                static_cast<std::uint64_t>(candidate.x) << kColumnShift;
+  for (; next_noise_ < noise_.size() && noise_[next_noise_].pixel == index; ++next_noise_) {
+    const BackgroundEvent& event = noise_[next_noise_];
     fire_crossings(pixel, line, event.t_us, address);
     if (pixel.held_until_us != kArmed) continue;
-    const auto t_us = static_cast<double>(event.t_us);
+    const auto t = static_cast<double>(event.t_us);
     emit(event.t_us, address, event.on);
-    pixel.reference = line.at(t_us);
-    if (refractory_us_ > 0) pixel.held_until_us = t_us + refractory_us_;
+    pixel.reference = line.at(t);
+    if (refractory_us_ > 0) pixel.held_until_us = t + refractory_us_;
   }
   fire_crossings(pixel, line, t_us, address);
   set_bounds(index);
 }
 
 // Moves the pixel along the line up to until_us, which must not go back from call to call.
-void EventCamera::fire_crossings(Pixel& pixel, const Segment& line, TimeUs until_us,
+void EventCamera::fire_crossings(Pixel& pixel, const Line& line, TimeUs until_us,
                                  std::uint64_t address) {
   const auto until = static_cast<double>(until_us);
   const double l_until = line.at(until);
+  const bool on = line.l1 > line.l0;
+  const double change = on ? pixel.threshold_on : -pixel.threshold_off;
   while (true) {
     if (pixel.held_until_us != kArmed) {
       if (pixel.held_until_us > until) return;
       pixel.reference = line.at(pixel.held_until_us);
       pixel.held_until_us = kArmed;
     }
-    const bool on = l_until >= pixel.reference + pixel.threshold_on;
-    if (!on && l_until > pixel.reference - pixel.threshold_off) return;
-    pixel.reference += on ? pixel.threshold_on : -pixel.threshold_off;
-    const double crossing = line.time_of(pixel.reference);
+    const double level = pixel.reference + change;
+    if (on ? l_until < level : l_until > level) return;
+    pixel.reference = level;
+    const double crossing = line.time_of(level);
     // The stamp is rounded to the clock and kept in (t0, until].
-    const auto t_us = static_cast<TimeUs>(std::floor(crossing + 0.5));
+    const TimeUs t_us = t_us_ + static_cast<TimeUs>(crossing - line.t0_us + 0.5);
     emit(std::clamp(t_us, t_us_ + 1, until_us), address, on);
     if (refractory_us_ > 0) pixel.held_until_us = crossing + refractory_us_;
   }
@@ -220,24 +240,25 @@ void EventCamera::emit(TimeUs t_us, std::uint64_t address, bool on) {
 }
 
 void EventCamera::rebase(const float* luminance) {
-  for (std::uint32_t i = 0; i < pixels_.size(); ++i) {
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
     if (luminance[i] == previous_[i]) continue;
-    pixels_[i].reference += log_luminance(luminance[i]) - log_luminance(previous_[i]);
+    pixels_[i].reference += log_luminance(checked(luminance[i])) - log_luminance(previous_[i]);
     previous_[i] = luminance[i];
     set_bounds(i);
   }
 }
 
-void EventCamera::set_bounds(std::uint32_t index) {
+void EventCamera::set_bounds(std::size_t index) {
   const Pixel& pixel = pixels_[index];
   if (pixel.held_until_us != kArmed) {
     low_[index] = std::numeric_limits<float>::infinity();
     high_[index] = -std::numeric_limits<float>::infinity();
     return;
   }
-  const double level = std::exp(pixel.reference);
-  low_[index] = static_cast<float>(level * pixel.gain_off * (1 + kBoundMargin) - spec_.log_epsilon);
-  high_[index] = static_cast<float>(level * pixel.gain_on * (1 - kBoundMargin) - spec_.log_epsilon);
+  const double low = std::exp(pixel.reference - pixel.threshold_off);
+  const double high = std::exp(pixel.reference + pixel.threshold_on);
+  low_[index] = static_cast<float>(low * (1 + kBoundMargin) - spec_.log_epsilon);
+  high_[index] = static_cast<float>(high * (1 - kBoundMargin) - spec_.log_epsilon);
 }
 
 // keys_ come in (y, x) order: a stable radix sort on the time gives (t, y, x, polarity).
@@ -264,20 +285,16 @@ void EventCamera::sort_events() {
   }
 }
 
-double EventCamera::Segment::at(double t_us) const {
+double EventCamera::Line::at(double t_us) const {
   if (t_us >= t1_us) return l1;
   return l0 + (l1 - l0) * (t_us - t0_us) / (t1_us - t0_us);
 }
 
-double EventCamera::Segment::time_of(double l) const {
+double EventCamera::Line::time_of(double l) const {
   return t0_us + (l - l0) * (t1_us - t0_us) / (l1 - l0);
 }
 
 double EventCamera::log_luminance(float luminance) const {
-  if (!(luminance >= 0 && luminance <= std::numeric_limits<float>::max())) {
-    throw SimulationError("An event camera was shown a luminance of " + std::to_string(luminance) +
-                          "; it must be finite and not negative.");
-  }
   return natural_log(spec_.log_epsilon + static_cast<double>(luminance));
 }
 

@@ -19,7 +19,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -64,7 +63,7 @@ class EventCamera {
   PixelState pixel(int x, int y) const;
 
  private:
-  struct Pixel {
+  struct alignas(32) Pixel {  // half a cache line
     double reference = 0;
     double threshold_on = 0;
     double threshold_off = 0;
@@ -73,19 +72,25 @@ class EventCamera {
     double held_until_us = 0;  // not rounded as the stamps are; kArmed: not held
   };
   // Straight line of L between two samples.
-  struct Segment {
+  struct Line {
     double t0_us, t1_us;
     double l0, l1;
     double at(double t_us) const;
     double time_of(double l) const;
   };
 
+  // A pixel that may fire in this update, with its L at both samples.
+  struct Candidate {
+    std::uint32_t x;
+    double l0, l1;
+  };
+
   void update_row(int y, TimeUs t_us, const float* luminance);
-  void update_pixel(std::uint32_t index, int x, int y, TimeUs t_us, float luminance,
-                    std::span<const BackgroundEvent> background);
-  void fire_crossings(Pixel& pixel, const Segment& line, TimeUs until_us, std::uint64_t address);
+  void find_candidates(std::size_t begin, const float* now);
+  void update_pixel(std::size_t index, int y, TimeUs t_us, const Candidate& candidate);
+  void fire_crossings(Pixel& pixel, const Line& line, TimeUs until_us, std::uint64_t address);
   void emit(TimeUs t_us, std::uint64_t address, bool on);
-  void set_bounds(std::uint32_t index);
+  void set_bounds(std::size_t index);
   void sort_events();
   double log_luminance(float luminance) const;
 
@@ -102,11 +107,12 @@ class EventCamera {
   // event. The bounds are slightly too narrow, never too wide, and empty for a held pixel.
   std::vector<float> low_;
   std::vector<float> high_;
-  std::vector<float> previous_;          // the last picture
-  std::vector<std::uint8_t> row_flags_;  // pixels of the current row that need a closer look
+  std::vector<float> previous_;  // the last picture
 
   // Scratch of one update.
-  std::vector<BackgroundEvent> noise_;  // by (pixel, time)
+  std::vector<std::uint8_t> row_flags_;  // candidates of the current row
+  std::vector<Candidate> candidates_;    // of the current row
+  std::vector<BackgroundEvent> noise_;   // by (pixel, time)
   std::size_t next_noise_ = 0;
   std::vector<std::uint64_t> keys_;  // events as sortable words
   std::vector<std::uint64_t> sorted_keys_;
