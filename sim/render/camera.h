@@ -7,9 +7,9 @@ namespace dodgesim {
 
 // Pixel (0,0) is the centre of the top-left pixel. C: x right, y down, z forward.
 struct Intrinsics {
-  int width = 320;   // [px]
-  int height = 240;  // [px]
-  double f = 190.68; // focal length [px]; square pixels, principal point at the image centre
+  int width = 320;    // [px]
+  int height = 240;   // [px]
+  double f = 190.68;  // focal length [px]; square pixels, principal point at the image centre
 
   double cx() const { return 0.5 * (width - 1); }
   double cy() const { return 0.5 * (height - 1); }

@@ -1,0 +1,192 @@
+#include "sim/render/gl_scene.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include <cstddef>
+#include <string>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+namespace {
+
+void set_floats(GLuint program, const std::string& name, std::initializer_list<double> values) {
+  const GLint location = glGetUniformLocation(program, name.c_str());
+  if (location < 0) return;  // the compiler has removed what has no effect
+  float v[4];
+  std::size_t n = 0;
+  for (const double value : values) v[n++] = static_cast<float>(value);
+  switch (n) {
+    case 1:
+      return glUniform1fv(location, 1, v);
+    case 2:
+      return glUniform2fv(location, 1, v);
+    case 3:
+      return glUniform3fv(location, 1, v);
+    default:
+      return glUniform4fv(location, 1, v);
+  }
+}
+
+void set_lights(GLuint program, const SceneGeometry& scene) {
+  set_floats(program, "u_ambient", {scene.ambient});
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    std::string index = "[";
+    index.append(std::to_string(i)).append("]");
+    set_floats(program, "u_light_position" + index,
+               {light.position.x(), light.position.y(), light.position.z(),
+                light.directional ? 0.0 : 1.0});
+    set_floats(program, "u_light_direction" + index,
+               {light.direction.x(), light.direction.y(), light.direction.z(), light.cos_cutoff});
+    set_floats(
+        program, "u_light_falloff" + index,
+        {light.attenuation.x(), light.attenuation.y(), light.attenuation.z(), light.exponent});
+    set_floats(program, "u_light_intensity" + index, {light.ambient, light.diffuse});
+  }
+}
+
+void set_camera(GLuint program, const Intrinsics& intrinsics) {
+  set_floats(program, "u_camera", {intrinsics.f, intrinsics.cx(), intrinsics.cy()});
+}
+
+GlProgram locate(GLuint name) {
+  const auto at = [name](const char* uniform) { return glGetUniformLocation(name, uniform); };
+  GlProgram p;
+  p.name = name;
+  p.clip_from_G = at("u_clip_from_G");
+  p.X_WG = at("u_X_WG");
+  p.texture_shift = at("u_texture_shift");
+  p.id = at("u_id");
+  p.rectangle = at("u_rectangle");
+  p.R_GC = at("u_R_GC");
+  p.eye_G = at("u_eye_G");
+  p.size = at("u_size");
+  p.texture_scale = at("u_texture_scale");
+  p.texture_offset = at("u_texture_offset");
+  p.albedo_emission = at("u_albedo_emission");
+  p.hard = at("u_hard");
+  p.margin = at("u_margin");
+  p.conic = at("u_conic");
+  p.conic_origin = at("u_conic_origin");
+  p.R_WC = at("u_R_WC");
+  return p;
+}
+
+void attach_texture(GLenum attachment, GLint format, GLenum layout, GLenum type, int width,
+                    int height, GLuint texture) {
+  glBindTexture(GL_TEXTURE_2D, texture);
+  glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, layout, type, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture, 0);
+}
+
+}  // namespace
+
+unsigned upload_texture(const LuminanceTexture& texture) {
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  const GLenum target = texture.cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D;
+  glBindTexture(target, name);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  const GLint wrap = texture.cube ? GL_CLAMP_TO_EDGE : GL_REPEAT;
+  glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
+  glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
+  glTexParameteri(target, GL_TEXTURE_WRAP_R, wrap);
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  const int faces = texture.cube ? 6 : 1;
+  const auto face_texels =
+      static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
+  for (int face = 0; face < faces; ++face) {
+    const GLenum image =
+        texture.cube ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face) : GL_TEXTURE_2D;
+    glTexImage2D(image, 0, GL_R32F, texture.width, texture.height, 0, GL_RED, GL_FLOAT,
+                 texture.texels.data() + static_cast<std::size_t>(face) * face_texels);
+  }
+  glGenerateMipmap(target);
+  return name;
+}
+
+VertexBuffer upload_vertices(const std::vector<Vertex>& vertices) {
+  VertexBuffer vertex_buffer;
+  vertex_buffer.count = static_cast<int>(vertices.size());
+  glGenVertexArrays(1, &vertex_buffer.array);
+  glBindVertexArray(vertex_buffer.array);
+  glGenBuffers(1, &vertex_buffer.buffer);
+  glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer.buffer);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
+               vertices.data(), GL_STATIC_DRAW);
+  const struct {
+    GLint components;
+    std::size_t offset;
+  } attributes[] = {{3, offsetof(Vertex, position)},
+                    {3, offsetof(Vertex, normal)},
+                    {3, offsetof(Vertex, texture)},
+                    {2, offsetof(Vertex, albedo)}};
+  for (GLuint i = 0; i < 4; ++i) {
+    glEnableVertexAttribArray(i);
+    glVertexAttribPointer(i, attributes[i].components, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                          reinterpret_cast<const void*>(attributes[i].offset));
+  }
+  return vertex_buffer;
+}
+
+GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene) {
+  const GLuint name =
+      link_program(triangle_vertex_shader(),
+                   triangle_fragment_shader(texture, static_cast<int>(scene.lights.size())));
+  glUseProgram(name);
+  set_lights(name, scene);
+  return locate(name);
+}
+
+GlProgram make_primitive_program(mjtGeom type, TextureKind texture, const SceneGeometry& scene,
+                                 const Intrinsics& intrinsics, const DepthRange& depth) {
+  const GLuint name =
+      link_program(primitive_vertex_shader(),
+                   primitive_fragment_shader(type, texture, static_cast<int>(scene.lights.size())));
+  glUseProgram(name);
+  set_lights(name, scene);
+  set_camera(name, intrinsics);
+  set_floats(name, "u_depth", {depth.offset(), depth.slope()});
+  return locate(name);
+}
+
+GlProgram make_sky_program(TextureKind texture, const Intrinsics& intrinsics, double luminance) {
+  const GLuint name = link_program(sky_vertex_shader(), sky_fragment_shader(texture));
+  glUseProgram(name);
+  set_camera(name, intrinsics);
+  set_floats(name, "u_sky_luminance", {luminance});
+  return locate(name);
+}
+
+GlTarget make_target(int width, int height) {
+  GlTarget target;
+  GLuint textures[3];
+  glGenTextures(3, textures);
+  glGenFramebuffers(1, &target.without_ids);
+  glGenFramebuffers(1, &target.with_ids);
+  for (const GLuint framebuffer : {target.without_ids, target.with_ids}) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    attach_texture(GL_COLOR_ATTACHMENT0, GL_R32F, GL_RED, GL_FLOAT, width, height, textures[0]);
+    attach_texture(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width,
+                   height, textures[1]);
+    if (framebuffer == target.with_ids) {
+      attach_texture(GL_COLOR_ATTACHMENT1, GL_R32I, GL_RED_INTEGER, GL_INT, width, height,
+                     textures[2]);
+    }
+    const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glDrawBuffers(framebuffer == target.with_ids ? 2 : 1, buffers);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+      throw SimulationError("OpenGL cannot draw into a floating-point image of " +
+                            std::to_string(width) + " x " + std::to_string(height) + " px.");
+    }
+  }
+  return target;
+}
+
+}  // namespace dodgesim

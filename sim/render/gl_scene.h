@@ -1,0 +1,50 @@
+// The OpenGL objects of a scene: textures, vertex buffers, programs with their uniform locations.
+// They live as long as the context that was current when they were made.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "sim/render/camera.h"
+#include "sim/render/scene_geometry.h"
+#include "sim/render/shaders.h"
+
+namespace dodgesim {
+
+// Mapping of depth z_C to the depth buffer: value = offset + slope / z_C.
+struct DepthRange {
+  double near_m, far_m;
+  double offset() const { return far_m / (far_m - near_m); }
+  double slope() const { return -far_m * near_m / (far_m - near_m); }
+};
+
+struct GlProgram {
+  unsigned name = 0;
+  int clip_from_G, X_WG, texture_shift, id;  // triangles (and primitives)
+  int rectangle, R_GC, eye_G, size, texture_scale, texture_offset, albedo_emission, hard, margin;
+  int conic, conic_origin;  // ellipsoids
+  int R_WC;                 // sky
+};
+
+// Uploads. All are GL names.
+unsigned upload_texture(const LuminanceTexture& texture);
+struct VertexBuffer {
+  unsigned array = 0, buffer = 0;
+  int count = 0;
+};
+VertexBuffer upload_vertices(const std::vector<Vertex>& vertices);
+
+// Links a program and sets the uniforms that never change: lights, camera, depth range.
+GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene);
+GlProgram make_primitive_program(mjtGeom type, TextureKind texture, const SceneGeometry& scene,
+                                 const Intrinsics& intrinsics, const DepthRange& depth);
+GlProgram make_sky_program(TextureKind texture, const Intrinsics& intrinsics, double luminance);
+
+// Off-screen image: luminance (R32F), ids (R32I), depth. Binding one of the two framebuffers
+// chooses whether ids are written.
+struct GlTarget {
+  unsigned without_ids = 0, with_ids = 0;
+};
+GlTarget make_target(int width, int height);
+
+}  // namespace dodgesim

@@ -1,0 +1,70 @@
+// Draws what an event camera sees: linear luminance in floating point, from a MuJoCo model, with
+// own shaders on OSMesa. Photometry: scene_geometry.h. Geometry: exactly Intrinsics (camera.h).
+//
+// Edges. A pixel's luminance is the mean over its square aperture at the outlines of ray-cast
+// solids (all spheres, ellipsoids, capsules and cylinders; thrown boxes): analytic for ellipsoids,
+// 64 rays a pixel for the others. Textures are filtered trilinearly.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/render/camera.h"
+#include "sim/world/snapshot.h"
+#include "sim/world/world.h"
+
+namespace dodgesim {
+
+struct RenderSpec {
+  double near_m = 0.02;
+  double far_m = 2000.0;
+  double sky_luminance = 0.5;
+  std::string texel_encoding = "linear";
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("near_m", near_m, 0.001, 0.5, "Nothing nearer to the camera than this depth is drawn.");
+    v("far_m", far_m, 10.0, 100000.0, "Unbounded planes end at this distance, the horizon.");
+    v("sky_luminance", sky_luminance, 0.0, 1000.0,
+      "Luminance of the background where the room has no sky texture; 1 is a white surface under "
+      "full light.");
+    v("texel_encoding", texel_encoding, {"linear", "srgb"},
+      "What a texel's value v of 0 to 255 means: the reflectance v/255 (the rooms of this "
+      "project), "
+      "or a code value of a photograph.");
+  }
+};
+
+class LuminanceRenderer {
+ public:
+  // Body ids of the thrown objects in the order of Snapshot::objects. The model is only read here.
+  // One renderer serves all cameras with these intrinsics, on one thread at a time. Throws
+  // ScenarioError (a geom that cannot be drawn) and SimulationError (OpenGL).
+  LuminanceRenderer(const mjModel& model, const std::vector<int>& object_bodies,
+                    const Intrinsics& intrinsics, const RenderSpec& spec);
+  LuminanceRenderer(const World& world, const Intrinsics& intrinsics, const RenderSpec& spec);
+  ~LuminanceRenderer();
+
+  // Both buffers: width x height, row-major from the top-left pixel; only the pixels of `region`
+  // (clipped to the image) are written, with the values that a full frame has there, bit for bit.
+  // luminance: linear, 1.0 = white under full light.
+  // object_id (may be null): what is at the pixel's centre: -1 sky, 0 static, 1 + i thrown object
+  // i. Objects that are not launched are not drawn. Never allocates after the first call.
+  void render(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
+              float* luminance, std::int32_t* object_id);
+
+  // OpenGL's names for itself, for the manifest of a run.
+  const std::string& gl_renderer() const;
+  const std::string& gl_version() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace dodgesim

@@ -1,0 +1,68 @@
+#include "sim/render/osmesa_context.h"
+
+#include <GL/osmesa.h>
+
+#include <cstdlib>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+namespace {
+
+OSMesaContext create(GlProfile profile) {
+  constexpr int kDepthBits = 24, kStencilBits = 8;
+  if (profile == GlProfile::kCompatibility) {
+    return OSMesaCreateContextExt(OSMESA_RGBA, kDepthBits, kStencilBits, 0, nullptr);
+  }
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            3,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            3,
+                            0,
+                            0};
+  return OSMesaCreateContextAttribs(attributes, nullptr);
+}
+
+std::string gl_string(GLenum name) {
+  const GLubyte* text = glGetString(name);
+  return text ? reinterpret_cast<const char*>(text) : "unknown";
+}
+
+}  // namespace
+
+OsmesaContext::OsmesaContext(GlProfile profile, int width, int height)
+    : context_(nullptr), width_(width), height_(height) {
+  setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
+  framebuffer_.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  context_ = create(profile);
+  if (!context_) {
+    throw SimulationError(
+        "OSMesa cannot make an OpenGL context: is Mesa's llvmpipe (libosmesa6) installed?");
+  }
+  try {
+    make_current();
+  } catch (...) {
+    OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
+    throw;
+  }
+  renderer_ = gl_string(GL_RENDERER);
+  version_ = gl_string(GL_VERSION);
+}
+
+OsmesaContext::~OsmesaContext() { OSMesaDestroyContext(static_cast<OSMesaContext>(context_)); }
+
+void OsmesaContext::make_current() {
+  auto* context = static_cast<OSMesaContext>(context_);
+  if (OSMesaGetCurrentContext() == context) return;
+  if (!OSMesaMakeCurrent(context, framebuffer_.data(), GL_UNSIGNED_BYTE, width_, height_)) {
+    throw SimulationError("OSMesa cannot make its OpenGL context current for an image of " +
+                          std::to_string(width_) + " x " + std::to_string(height_) + " px.");
+  }
+}
+
+}  // namespace dodgesim

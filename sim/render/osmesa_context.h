@@ -1,0 +1,41 @@
+// One OpenGL context of OSMesa (Mesa's software rasteriser), for machines without a GPU or display.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dodgesim {
+
+enum class GlProfile {
+  kCore33,         // own shaders
+  kCompatibility,  // MuJoCo's renderer
+};
+
+// RAII. All GL objects made in the context die with it. A context belongs to one thread at a time.
+// Rendering runs on the calling thread alone: before the first context the environment variable
+// LP_NUM_THREADS is set to 0 unless the user has set it. The images do not depend on it.
+class OsmesaContext {
+ public:
+  // Throws SimulationError when OSMesa cannot make the context. The default framebuffer measures
+  // width x height px, with depth and stencil buffers.
+  OsmesaContext(GlProfile profile, int width, int height);
+  ~OsmesaContext();
+  OsmesaContext(const OsmesaContext&) = delete;
+  OsmesaContext& operator=(const OsmesaContext&) = delete;
+
+  // Cheap when the context is current already. Throws SimulationError.
+  void make_current();
+
+  // For the manifest of a run, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)" and "3.3 (Core Profile)".
+  const std::string& renderer() const { return renderer_; }
+  const std::string& version() const { return version_; }
+
+ private:
+  void* context_;
+  int width_, height_;
+  std::vector<std::uint8_t> framebuffer_;  // RGBA
+  std::string renderer_, version_;
+};
+
+}  // namespace dodgesim

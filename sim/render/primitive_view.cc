@@ -1,0 +1,129 @@
+#include "sim/render/primitive_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace dodgesim {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr int kMarginPx = 2;  // room for partly covered pixels
+
+// Pixels [first, last) of one image axis that a sphere can touch; `across`, `ahead`: its centre.
+void bound_axis(double across, double ahead, double radius, double f, double c, int size,
+                int& first, int& last) {
+  first = 0;
+  last = size;
+  const double distance = std::hypot(across, ahead);
+  if (distance <= radius) return;
+  constexpr double kSteepest = 0.49 * std::numbers::pi;
+  const double direction = std::atan2(across, ahead);
+  const double half_angle = std::asin(radius / distance);
+  const double low = direction - half_angle, high = direction + half_angle;
+  const auto pixel = [&](double angle) {
+    return static_cast<int>(std::floor(f * std::tan(angle) + c));
+  };
+  const double limit = 2.0 * size / f;  // tangent beyond which an angle is surely outside the image
+  if (low > -kSteepest && low < kSteepest) {
+    first = std::tan(low) > limit
+                ? size
+                : std::max(0, pixel(std::max(low, -std::atan(limit))) - kMarginPx);
+  } else if (low >= kSteepest) {
+    first = size;
+  }
+  if (high > -kSteepest && high < kSteepest) {
+    last = std::tan(high) < -limit
+               ? 0
+               : std::min(size, pixel(std::min(high, std::atan(limit))) + 1 + kMarginPx);
+  } else if (high <= -kSteepest) {
+    last = 0;
+  }
+}
+
+// Tighter for long solids: bounds of the corners of the box around it, if all are in front.
+void bound_box(const Vector3d& half, const Eigen::Isometry3d& X_CG, const Intrinsics& intrinsics,
+               double near_m, Rect& bounds) {
+  Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+    const Vector3d p_C = X_CG * sign.cwiseProduct(half);
+    if (p_C.z() < near_m) return;
+    const Eigen::Vector2d pixel = intrinsics.project(p_C);
+    low = low.cwiseMin(pixel);
+    high = high.cwiseMax(pixel);
+  }
+  const auto clamp_to = [](double value, int size) {
+    return static_cast<int>(std::clamp(value, -1.0, size + 1.0));
+  };
+  bounds.x0 = std::max(bounds.x0, clamp_to(std::floor(low.x()), intrinsics.width) - kMarginPx);
+  bounds.y0 = std::max(bounds.y0, clamp_to(std::floor(low.y()), intrinsics.height) - kMarginPx);
+  bounds.x1 = std::min(bounds.x1, clamp_to(std::ceil(high.x()), intrinsics.width) + kMarginPx);
+  bounds.y1 = std::min(bounds.y1, clamp_to(std::ceil(high.y()), intrinsics.height) + kMarginPx);
+}
+
+// Rays d = (x, y, 1) columns hit the unit sphere seen from `eye` where d.d - |eye x d|^2 >= 0.
+Matrix3d outline_conic(const Vector3d& eye, const Matrix3d& ray_of_pixel) {
+  Matrix3d cross;
+  cross << 0, -eye.z(), eye.y(), eye.z(), 0, -eye.x(), -eye.y(), eye.x(), 0;
+  const Matrix3d form = Matrix3d::Identity() - cross.transpose() * cross;
+  const Matrix3d conic = ray_of_pixel.transpose() * form * ray_of_pixel;
+  return conic / conic.cwiseAbs().maxCoeff();
+}
+
+bool camera_inside(const Primitive& primitive, const Vector3d& eye) {
+  const Vector3d& size = primitive.size;
+  switch (primitive.type) {
+    case mjGEOM_ELLIPSOID:
+      return eye.cwiseQuotient(size).norm() <= 1.0;
+    case mjGEOM_CYLINDER:
+      return std::hypot(eye.x(), eye.y()) <= size.x() && std::abs(eye.z()) <= size.z();
+    case mjGEOM_CAPSULE:
+      return (eye - Vector3d(0, 0, std::clamp(eye.z(), -size.z(), size.z()))).norm() <= size.x();
+    default:
+      return (eye.cwiseAbs() - size).maxCoeff() <= 0.0;
+  }
+}
+
+}  // namespace
+
+PrimitiveView view_primitive(const Primitive& primitive, const Eigen::Isometry3d& X_WG,
+                             const Eigen::Isometry3d& X_WC, const Intrinsics& intrinsics,
+                             double near_m) {
+  PrimitiveView view;
+  const Eigen::Isometry3d X_GC = X_WG.inverse() * X_WC;
+  const Vector3d center_C = X_WC.inverse() * X_WG.translation();
+  const double radius = primitive.bounding_radius();
+  view.distance = center_C.norm();
+  view.R_GC = X_GC.linear();
+  view.eye_G = X_GC.translation();
+  view.visible = center_C.z() + radius > near_m && !camera_inside(primitive, view.eye_G);
+  if (!view.visible) return view;
+
+  bound_axis(center_C.x(), center_C.z(), radius, intrinsics.f, intrinsics.cx(), intrinsics.width,
+             view.bounds.x0, view.bounds.x1);
+  bound_axis(center_C.y(), center_C.z(), radius, intrinsics.f, intrinsics.cy(), intrinsics.height,
+             view.bounds.y0, view.bounds.y1);
+  const bool capsule = primitive.type == mjGEOM_CAPSULE;
+  const Vector3d half = primitive.size + Vector3d(0, 0, capsule ? primitive.size.x() : 0.0);
+  bound_box(half, X_GC.inverse(), intrinsics, near_m, view.bounds);
+  // Half a pixel's diagonal, at the far side of the solid.
+  view.margin = 0.75 * (center_C.z() + radius) / intrinsics.f;
+  if (primitive.type == mjGEOM_ELLIPSOID) {
+    view.conic_origin = {intrinsics.cx(), intrinsics.cy()};
+    if (center_C.z() > radius) view.conic_origin = intrinsics.project(center_C);
+    Matrix3d ray_of_pixel = Matrix3d::Identity();
+    ray_of_pixel.diagonal().head<2>().setConstant(1.0 / intrinsics.f);
+    ray_of_pixel(0, 2) = (view.conic_origin.x() - intrinsics.cx()) / intrinsics.f;
+    ray_of_pixel(1, 2) = (view.conic_origin.y() - intrinsics.cy()) / intrinsics.f;
+    const Vector3d inverse_size = primitive.size.cwiseInverse();
+    view.conic = outline_conic(inverse_size.cwiseProduct(view.eye_G),
+                               inverse_size.asDiagonal() * view.R_GC * ray_of_pixel);
+  }
+  return view;
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,28 @@
+// How a ray-cast solid appears to a camera: what its shader needs, computed in double precision.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "sim/render/camera.h"
+#include "sim/render/scene_geometry.h"
+
+namespace dodgesim {
+
+struct PrimitiveView {
+  bool visible;           // in front of the camera, and the camera is not inside it
+  Rect bounds;            // pixels it can touch, clipped to the image
+  double distance;        // of its centre [m], for drawing back to front
+  Eigen::Matrix3d R_GC;   // rotates camera rays into the geom's frame G
+  Eigen::Vector3d eye_G;  // camera centre in G [m]
+  double margin;          // a ray that misses the solid by more leaves its pixel uncovered [m]
+  // Ellipsoids: outline, {(x, y, 1) conic (x, y, 1)^T = 0}, positive inside, where (x, y) are pixel
+  // coordinates relative to conic_origin.
+  Eigen::Matrix3d conic;
+  Eigen::Vector2d conic_origin;
+};
+
+PrimitiveView view_primitive(const Primitive& primitive, const Eigen::Isometry3d& X_WG,
+                             const Eigen::Isometry3d& X_WC, const Intrinsics& intrinsics,
+                             double near_m);
+
+}  // namespace dodgesim

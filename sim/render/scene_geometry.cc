@@ -1,0 +1,270 @@
+#include "sim/render/scene_geometry.h"
+
+#include <cmath>
+#include <string>
+
+#include "sim/base/error.h"
+#include "sim/base/mujoco.h"
+#include "sim/render/tessellation.h"
+
+namespace dodgesim {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// Groups from here on are hidden in MuJoCo's default view; the vehicle's own geoms are there.
+constexpr int kFirstHiddenGroup = 3;
+
+Eigen::Isometry3d pose_of(const mjtNum* position, const mjtNum* rotation) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.translation() = Eigen::Map<const Vector3d>(position);
+  X.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation);
+  return X;
+}
+
+Vector3d rgb_of(const float* rgb) { return {rgb[0], rgb[1], rgb[2]}; }
+
+// The geom's own colour counts unless it is MuJoCo's default and there is a material.
+const float* color_of(const mjModel& m, int geom) {
+  const float* own = m.geom_rgba + 4 * geom;
+  const bool is_default = own[0] == 0.5f && own[1] == 0.5f && own[2] == 0.5f && own[3] == 1.0f;
+  const int material = m.geom_matid[geom];
+  return material >= 0 && is_default ? m.mat_rgba + 4 * material : own;
+}
+
+LuminanceTexture make_texture(const mjModel& m, int id, const Vector3d& tint, bool srgb) {
+  LuminanceTexture texture;
+  texture.model_texture = id;
+  texture.tint = tint;
+  texture.cube = m.tex_type[id] != mjTEXTURE_2D;
+  texture.width = m.tex_width[id];
+  texture.height = texture.cube ? m.tex_width[id] : m.tex_height[id];
+  const int stored_faces = texture.cube ? m.tex_height[id] / m.tex_width[id] : 1;
+  const int faces = texture.cube ? 6 : 1;
+  double linear[256];
+  for (int code = 0; code < 256; ++code)
+    linear[code] = srgb ? srgb_to_linear(code / 255.0) : code / 255.0;
+  const std::size_t face_texels =
+      static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
+  texture.texels.reserve(face_texels * static_cast<std::size_t>(faces));
+  for (int face = 0; face < faces; ++face) {
+    // A cube stored as one square shows it on all faces.
+    const std::size_t first = stored_faces == 6 ? static_cast<std::size_t>(face) * face_texels : 0;
+    const mjtByte* rgb = m.tex_rgb + m.tex_adr[id] + 3 * first;
+    for (std::size_t i = 0; i < face_texels; ++i, rgb += 3) {
+      const Vector3d texel(linear[rgb[0]], linear[rgb[1]], linear[rgb[2]]);
+      texture.texels.push_back(static_cast<float>(luminance_of(texel.cwiseProduct(tint))));
+    }
+  }
+  return texture;
+}
+
+int find_or_add_texture(const mjModel& m, int id, const Vector3d& tint, SceneGeometry& scene) {
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const LuminanceTexture& texture = scene.textures[i];
+    if (texture.model_texture == id && texture.tint == tint) return static_cast<int>(i);
+  }
+  scene.textures.push_back(make_texture(m, id, tint, scene.srgb_texels));
+  return static_cast<int>(scene.textures.size()) - 1;
+}
+
+// MuJoCo's texture coordinates: on shapes scaled from unit size (`size`; meshes keep theirs).
+void set_texture_mapping(const mjModel& m, int geom, const Vector3d& size, Surface& surface,
+                         bool cube) {
+  const int material = m.geom_matid[geom];
+  const bool uniform = m.mat_texuniform[material] != 0;
+  const bool mesh = m.geom_type[geom] == mjGEOM_MESH;
+  Vector3d scale = Vector3d::Ones();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (size[axis] <= 0) continue;  // an unbounded axis of a plane repeats by length
+    if (cube) {
+      scale[axis] = mesh ? (uniform ? size[axis] : 1.0) : (uniform ? 1.0 : 1.0 / size[axis]);
+    } else {
+      scale[axis] = uniform ? 1.0 : 1.0 / size[axis];
+    }
+  }
+  if (cube) {
+    surface.texture_scale = scale;
+    return;
+  }
+  const float* repeat = m.mat_texrepeat + 2 * material;
+  surface.texture_scale = {0.5 * repeat[0] * scale.x(), -0.5 * repeat[1] * scale.y(), 0.0};
+  surface.texture_offset = {-0.5, -0.5, 0.0};
+}
+
+Surface make_surface(const mjModel& m, int geom, const Vector3d& size, SceneGeometry& scene) {
+  Surface surface;
+  const Vector3d color = rgb_of(color_of(m, geom));
+  const int material = m.geom_matid[geom];
+  const int texture = material >= 0 ? m.mat_texid[material] : -1;
+  if (material >= 0) surface.emission = m.mat_emission[material];
+  if (texture < 0) {
+    surface.albedo = luminance_of(color);
+    return surface;
+  }
+  surface.texture = find_or_add_texture(m, texture, color, scene);
+  set_texture_mapping(m, geom, size, surface, m.tex_type[texture] != mjTEXTURE_2D);
+  return surface;
+}
+
+// Half extents along the geom's axes; 0 where a plane is unbounded.
+Vector3d extents(const mjModel& m, int geom) {
+  const mjtNum* size = m.geom_size + 3 * geom;
+  switch (m.geom_type[geom]) {
+    case mjGEOM_SPHERE:
+      return Vector3d::Constant(size[0]);
+    case mjGEOM_CAPSULE:
+    case mjGEOM_CYLINDER:
+      return {size[0], size[0], size[1]};
+    case mjGEOM_PLANE:
+      return {size[0], size[1], 0.0};
+    default:
+      return {size[0], size[1], size[2]};
+  }
+}
+
+TriangleBatch& static_batch(int texture, SceneGeometry& scene) {
+  for (TriangleBatch& batch : scene.static_triangles) {
+    if (batch.texture == texture) return batch;
+  }
+  scene.static_triangles.push_back({texture, {}});
+  return scene.static_triangles.back();
+}
+
+[[noreturn]] void reject(const mjModel& m, int geom) {
+  const char* name = mj_id2name(&m, mjOBJ_GEOM, geom);
+  throw ScenarioError("The geom '" + std::string(name ? name : std::to_string(geom)) +
+                      "' cannot be seen by an event camera: only planes fixed to the world, boxes, "
+                      "spheres, ellipsoids, capsules, cylinders and meshes can. Put it in group 3 "
+                      "or higher to hide it.");
+}
+
+// `pose`: geom in W (object -1) or in the object's frame.
+void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& pose,
+              SceneGeometry& scene) {
+  const Vector3d size = extents(m, geom);
+  const Surface surface = make_surface(m, geom, size, scene);
+  const auto type = static_cast<mjtGeom>(m.geom_type[geom]);
+  switch (type) {
+    case mjGEOM_SPHERE:
+    case mjGEOM_ELLIPSOID:
+      scene.primitives.push_back({mjGEOM_ELLIPSOID, size, surface, object, pose});
+      return;
+    case mjGEOM_CAPSULE:
+    case mjGEOM_CYLINDER:
+      scene.primitives.push_back({type, size, surface, object, pose});
+      return;
+    case mjGEOM_BOX:
+      if (object >= 0) {
+        scene.primitives.push_back({type, size, surface, object, pose});
+      } else {
+        append_box(size, surface, pose, static_batch(surface.texture, scene).vertices);
+      }
+      return;
+    case mjGEOM_PLANE:
+      if (object >= 0) reject(m, geom);
+      if (size.x() > 0 && size.y() > 0) {
+        append_rectangle(size, surface, pose, static_batch(surface.texture, scene).vertices);
+      } else {
+        scene.infinite_planes.push_back({pose, surface});
+      }
+      return;
+    case mjGEOM_MESH:
+      if (object < 0) {
+        append_mesh(m, m.geom_dataid[geom], surface, pose,
+                    static_batch(surface.texture, scene).vertices);
+      } else {
+        scene.moving_triangles.push_back({object, {surface.texture, {}}});
+        append_mesh(m, m.geom_dataid[geom], surface, pose,
+                    scene.moving_triangles.back().batch.vertices);
+      }
+      return;
+    default:
+      reject(m, geom);
+  }
+}
+
+void add_lights(const mjModel& m, const mjData& d, SceneGeometry& scene) {
+  for (int i = 0; i < m.nlight; ++i) {
+    if (!m.light_active[i]) continue;
+    Light light;
+    light.directional = m.light_directional[i] != 0;
+    light.position = Eigen::Map<const Vector3d>(d.light_xpos + 3 * i);
+    light.direction = Eigen::Map<const Vector3d>(d.light_xdir + 3 * i).normalized();
+    light.ambient = luminance_of(rgb_of(m.light_ambient + 3 * i));
+    light.diffuse = luminance_of(rgb_of(m.light_diffuse + 3 * i));
+    // 180 degrees means no cone.
+    const double cutoff_deg = m.light_cutoff[i];
+    light.cos_cutoff = cutoff_deg >= 180.0 ? -2.0 : std::cos(cutoff_deg * mjPI / 180.0);
+    light.exponent = cutoff_deg >= 180.0 ? 0.0 : m.light_exponent[i];
+    light.attenuation =
+        Eigen::Map<const Eigen::Vector3f>(m.light_attenuation + 3 * i).cast<double>();
+    scene.lights.push_back(light);
+  }
+  // The head light would move with the camera: only its ambient part lights the scene.
+  if (m.vis.headlight.active) {
+    scene.ambient = luminance_of(rgb_of(m.vis.headlight.ambient));
+  } else if (scene.lights.empty()) {
+    scene.ambient = 0.3;  // as OpenGL pictures of MuJoCo do without any light
+  }
+}
+
+}  // namespace
+
+double srgb_to_linear(double code) {
+  return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
+
+double luminance_of(const Vector3d& linear_rgb) {
+  return linear_rgb.dot(Vector3d(0.2126, 0.7152, 0.0722));
+}
+
+double Primitive::bounding_radius() const {
+  switch (type) {
+    case mjGEOM_ELLIPSOID:
+      return size.maxCoeff();
+    case mjGEOM_CAPSULE:
+      return size.x() + size.z();
+    case mjGEOM_CYLINDER:
+      return std::hypot(size.x(), size.z());
+    default:
+      return size.norm();
+  }
+}
+
+SceneGeometry collect_scene(const mjModel& model, const std::vector<int>& object_bodies,
+                            bool srgb_texels) {
+  SceneGeometry scene;
+  scene.srgb_texels = srgb_texels;
+  const MjDataPtr data(mj_makeData(&model));
+  mj_kinematics(&model, data.get());
+  mj_comPos(&model, data.get());
+  mj_camlight(&model, data.get());
+  for (int geom = 0; geom < model.ngeom; ++geom) {
+    if (model.geom_group[geom] >= kFirstHiddenGroup || color_of(model, geom)[3] == 0) continue;
+    const int root = model.body_weldid[model.geom_bodyid[geom]];
+    int object = -1;
+    for (std::size_t i = 0; i < object_bodies.size(); ++i) {
+      if (model.body_weldid[object_bodies[i]] == root) object = static_cast<int>(i);
+    }
+    if (object < 0 && root != 0) continue;
+    Eigen::Isometry3d pose = pose_of(data->geom_xpos + 3 * geom, data->geom_xmat + 9 * geom);
+    if (object >= 0) {
+      // The frame of a thrown object has its origin at the centre of mass (Snapshot).
+      Eigen::Isometry3d X_WO = pose_of(data->xpos + 3 * root, data->xmat + 9 * root);
+      X_WO.translation() = Eigen::Map<const Vector3d>(data->xipos + 3 * root);
+      pose = X_WO.inverse() * pose;
+    }
+    add_geom(model, geom, object, pose, scene);
+  }
+  add_lights(model, *data, scene);
+  for (int i = 0; i < model.ntex; ++i) {
+    if (model.tex_type[i] != mjTEXTURE_SKYBOX) continue;
+    scene.sky_texture = find_or_add_texture(model, i, Vector3d::Ones(), scene);
+    break;
+  }
+  return scene;
+}
+
+}  // namespace dodgesim

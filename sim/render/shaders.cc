@@ -1,0 +1,435 @@
+#include "sim/render/shaders.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr const char* kVersion = "#version 330 core\n";
+
+// Diffuse light on a surface point, in units of a white surface under full light.
+constexpr const char* kLighting = R"(
+uniform float u_ambient;
+#if LIGHTS > 0
+uniform vec4 u_light_position[LIGHTS];   // W; w = 1 if positional, 0 if directional
+uniform vec4 u_light_direction[LIGHTS];  // beam in W; w = cosine of the cut-off angle
+uniform vec4 u_light_falloff[LIGHTS];    // attenuation 1, d, d^2; w = spot exponent
+uniform vec2 u_light_intensity[LIGHTS];  // ambient, diffuse
+#endif
+
+float irradiance(vec3 p_W, vec3 n_W) {
+  float sum = u_ambient;
+#if LIGHTS > 0
+  for (int i = 0; i < LIGHTS; ++i) {
+    vec3 beam = u_light_direction[i].xyz;
+    float strength = 1.0;
+    if (u_light_position[i].w != 0.0) {
+      vec3 ray = p_W - u_light_position[i].xyz;
+      float d = length(ray);
+      vec3 axis = beam;
+      beam = ray / d;
+      vec4 falloff = u_light_falloff[i];
+      strength = 1.0 / (falloff.x + d * (falloff.y + d * falloff.z));
+      float c = dot(beam, axis);
+      if (c < u_light_direction[i].w) strength = 0.0;
+      else if (falloff.w != 0.0) strength *= pow(max(c, 0.0), falloff.w);
+    }
+    sum += strength * (u_light_intensity[i].x +
+                       u_light_intensity[i].y * max(0.0, -dot(n_W, beam)));
+  }
+#endif
+  return sum;
+}
+)";
+
+constexpr const char* kTexel = R"(
+#if TEXTURE == 1
+uniform sampler2D u_texture;
+float texel(vec3 t) { return texture(u_texture, t.xy).r; }
+#elif TEXTURE == 2
+uniform samplerCube u_texture;
+float texel(vec3 t) { return texture(u_texture, t).r; }
+#else
+float texel(vec3 t) { return 1.0; }
+#endif
+)";
+
+constexpr const char* kTriangleVertex = R"(
+layout(location = 0) in vec3 position;  // in the frame G of the batch
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec3 texture_coordinate;
+layout(location = 3) in vec2 albedo_emission;
+uniform mat4 u_clip_from_G;
+uniform mat4 u_X_WG;
+uniform vec3 u_texture_shift;
+out vec3 p_W;
+out vec3 n_W;
+out vec3 texture_at;
+flat out vec2 reflect_emit;
+void main() {
+  gl_Position = u_clip_from_G * vec4(position, 1.0);
+  p_W = (u_X_WG * vec4(position, 1.0)).xyz;
+  n_W = mat3(u_X_WG) * normal;
+  texture_at = texture_coordinate + u_texture_shift;
+  reflect_emit = albedo_emission;
+}
+)";
+
+constexpr const char* kTriangleFragment = R"(
+in vec3 p_W;
+in vec3 n_W;
+in vec3 texture_at;
+flat in vec2 reflect_emit;
+uniform int u_id;
+layout(location = 0) out vec4 luminance;
+layout(location = 1) out int id;
+void main() {
+  float light = reflect_emit.x * irradiance(p_W, normalize(n_W)) + reflect_emit.y;
+  luminance = vec4(texel(texture_at) * light, 0.0, 0.0, 1.0);
+  id = u_id;
+}
+)";
+
+// A rectangle of the image.
+constexpr const char* kPrimitiveVertex = R"(
+uniform vec4 u_rectangle;  // clip coordinates x0, y0, x1, y1
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(mix(u_rectangle.xy, u_rectangle.zw, corner), 0.0, 1.0);
+}
+)";
+
+constexpr const char* kPrimitiveCommon = R"(
+uniform vec3 u_camera;      // f, cx, cy [px]
+uniform vec2 u_depth;       // depth buffer value = u_depth.x + u_depth.y / z_C
+uniform mat3 u_R_GC;
+uniform vec3 u_eye_G;       // camera centre in the geom's frame
+uniform mat4 u_X_WG;
+uniform vec3 u_size;
+uniform vec3 u_texture_scale;
+uniform vec3 u_texture_offset;
+uniform vec2 u_albedo_emission;
+uniform int u_id;
+uniform bool u_hard;        // one sample at the pixel centre, for ids and depth
+layout(location = 0) out vec4 luminance;
+layout(location = 1) out int id;
+
+vec3 ray_G(vec2 pixel) { return u_R_GC * vec3((pixel - u_camera.yz) / u_camera.x, 1.0); }
+
+float shade(vec3 p_G, vec3 n_G) {
+  float light = u_albedo_emission.x * irradiance((u_X_WG * vec4(p_G, 1.0)).xyz,
+                                                 mat3(u_X_WG) * n_G) + u_albedo_emission.y;
+  return light * texel(p_G * u_texture_scale + u_texture_offset);
+}
+
+// The ray's parameter is its depth z_C, because ray_G has z_C = 1.
+void write(float value, float coverage, float z_C) {
+  luminance = vec4(value, 0.0, 0.0, coverage);
+  id = u_id;
+  gl_FragDepth = clamp(u_depth.x + u_depth.y / z_C, 0.0, 1.0);
+}
+)";
+
+// The outline of an ellipsoid is a conic: the zero set of a quadratic form in pixel coordinates.
+constexpr const char* kEllipsoid = R"(
+uniform mat3 u_conic;        // quadratic form in (x - origin.x, y - origin.y, 1), positive inside
+uniform vec2 u_conic_origin; // [px]
+
+// Part of the unit square that lies on the inner side of a line at the signed distance s from its
+// centre (positive: centre inside); n: unit normal of the line.
+float half_plane_coverage(float s, vec2 n, float width) {
+  float a = max(abs(n.x), abs(n.y)), b = min(abs(n.x), abs(n.y));
+  float d = abs(s) / width;
+  float h = 0.5 * (a + b);
+  float outside;  // part beyond the line, away from the centre
+  if (d >= h) outside = 0.0;
+  else if (d <= 0.5 * (a - b)) outside = 0.5 - d / a;
+  else outside = (h - d) * (h - d) / (2.0 * a * b);
+  return s >= 0.0 ? 1.0 - outside : outside;
+}
+
+// Distance to the conic along its gradient, exact for the quadratic form; positive inside.
+float conic_distance(vec2 at, out vec2 n) {
+  vec3 q = u_conic * vec3(at, 1.0);
+  float g = dot(q, vec3(at, 1.0));
+  vec2 gradient = 2.0 * q.xy;
+  float steepness = length(gradient);
+  n = steepness > 0.0 ? gradient / steepness : vec2(1.0, 0.0);
+  float curvature = 2.0 * dot(n, mat2(u_conic) * n);
+  float root = sqrt(max(steepness * steepness - 2.0 * curvature * g, 0.0));
+  return 2.0 * g / max(steepness + root, 1e-30);
+}
+
+float ellipse_coverage(vec2 at) {
+  vec2 n;
+  float s = conic_distance(at, n);
+  const float kFar = 1.0;  // [px], more than half a pixel's diagonal
+  if (abs(s) > kFar) return s > 0.0 ? 1.0 : 0.0;
+  // Straight pieces a quarter of a pixel long follow also a small, strongly bent outline.
+  const int kParts = 4;
+  float sum = 0.0;
+  for (int i = 0; i < kParts * kParts; ++i) {
+    vec2 offset = (vec2(i % kParts, i / kParts) + 0.5) / float(kParts) - 0.5;
+    s = conic_distance(at + offset, n);
+    sum += half_plane_coverage(s, n, 1.0 / float(kParts));
+  }
+  return sum / float(kParts * kParts);
+}
+
+void main() {
+  vec2 pixel = gl_FragCoord.xy - 0.5;
+  vec3 d = ray_G(pixel) / u_size;
+  vec3 eye = u_eye_G / u_size;
+  float a = dot(d, d), b = dot(eye, d);
+  vec3 moment = cross(eye, d);
+  float discriminant = a - dot(moment, moment);  // well conditioned far away
+  float coverage = ellipse_coverage(pixel - u_conic_origin);
+  if (u_hard) coverage = discriminant >= 0.0 ? 1.0 : 0.0;
+  float t = (-b - sqrt(max(discriminant, 0.0))) / a;  // a ray that misses: its closest approach
+  vec3 on_unit = eye + t * d;
+  float value = shade(on_unit * u_size, normalize(on_unit / u_size));
+  if (coverage == 0.0 || t <= 0.0) discard;
+  write(value, coverage, t);
+}
+)";
+
+// Solids with several faces. intersect(): whether a ray hits the solid of the given size, where and
+// on which face. Part of the pixel covered by each face: all of it if centre and corners hit one
+// face, none if the ray misses a slightly larger solid, else counted with 64 rays, no two of which
+// share a column or a row.
+constexpr const char* kSampled = R"(
+uniform float u_margin;  // [m]
+
+vec3 face_coverage(vec2 pixel, inout float t) {
+  vec3 count = vec3(0.0);
+  float t_ray;
+  int face, face_ray;
+  if (!intersect(ray_G(pixel), u_size + u_margin, t_ray, face)) return count;
+  bool center_hit = intersect(ray_G(pixel), u_size, t_ray, face);
+  if (center_hit) {
+    t = t_ray;
+    bool same = true;
+    for (int i = 0; i < 4; ++i) {
+      vec2 corner = vec2(i & 1, i >> 1) - 0.5;
+      same = intersect(ray_G(pixel + corner), u_size, t_ray, face_ray) && face_ray == face && same;
+    }
+    if (same) {
+      count[face] = 1.0;
+      return count;
+    }
+  }
+  const int kRays = 64;
+  for (int i = 0; i < kRays; ++i) {
+    int r = ((i & 1) << 5) | ((i & 2) << 3) | ((i & 4) << 1) | ((i & 8) >> 1) | ((i & 16) >> 3) |
+            ((i & 32) >> 5);
+    vec2 offset = (vec2(i, r) + 0.5) / float(kRays) - 0.5;
+    if (intersect(ray_G(pixel + offset), u_size, t_ray, face)) {
+      count[face] += 1.0 / float(kRays);
+      if (!center_hit) t = t_ray;
+    }
+  }
+  return count;
+}
+
+void main() {
+  vec2 pixel = gl_FragCoord.xy - 0.5;
+  vec3 center = ray_G(pixel);
+  float t = 1.0;
+  vec3 count = vec3(0.0);
+  if (u_hard) {
+    int face;
+    if (intersect(center, u_size, t, face)) count[face] = 1.0;
+  } else {
+    count = face_coverage(pixel, t);
+  }
+  float coverage = count.x + count.y + count.z;
+  float value = 0.0;
+  for (int k = 0; k < FACES; ++k) value += count[k] * shade_face(center, k);
+  if (coverage == 0.0) discard;
+  write(value / coverage, coverage, t);
+}
+)";
+
+constexpr const char* kBox = R"(
+#define FACES 3
+bool intersect(vec3 d, vec3 size, out float t, out int face) {
+  vec3 entry = (-sign(d) * size - u_eye_G) / d;
+  vec3 leave = (sign(d) * size - u_eye_G) / d;
+  t = max(entry.x, max(entry.y, entry.z));
+  face = t == entry.x ? 0 : (t == entry.y ? 1 : 2);
+  return t > 0.0 && t <= min(leave.x, min(leave.y, leave.z));
+}
+// The face seen across axis k; its plane is extended beyond its edges.
+float shade_face(vec3 d, int k) {
+  float side = sign(u_eye_G[k]);
+  vec3 p = u_eye_G + (side * u_size[k] - u_eye_G[k]) / d[k] * d;
+  vec3 n = vec3(0.0);
+  n[k] = side;
+  return shade(clamp(p, -u_size, u_size), n);
+}
+)";
+
+// Squared sine of the angle between ray and axis, times |d|^2; never 0.
+constexpr const char* kAroundAxis = R"(
+float across(vec3 d) { return max(dot(d.xy, d.xy), 1e-12 * dot(d, d)); }
+// Positive where the ray hits the endless cylinder of that radius around z.
+float reach(vec3 d, float radius) {
+  float moment = u_eye_G.x * d.y - u_eye_G.y * d.x;
+  return radius * radius * across(d) - moment * moment;
+}
+)";
+
+constexpr const char* kCylinder = R"(
+#define FACES 2
+bool intersect(vec3 d, vec3 size, out float t, out int face) {
+  float a = across(d), b = dot(u_eye_G.xy, d.xy), square = reach(d, size.x);
+  t = 0.0;
+  face = 0;
+  if (square < 0.0) return false;
+  float root = sqrt(square);
+  float cap_entry = (-sign(d.z) * size.z - u_eye_G.z) / d.z;
+  float cap_leave = (sign(d.z) * size.z - u_eye_G.z) / d.z;
+  t = max((-b - root) / a, cap_entry);
+  face = t == cap_entry ? 1 : 0;
+  return t > 0.0 && t <= min((-b + root) / a, cap_leave);
+}
+// The side or the cap towards the camera, extended beyond its edge.
+float shade_face(vec3 d, int k) {
+  if (k == 1) {
+    float side = sign(u_eye_G.z);
+    vec3 p = u_eye_G + (side * u_size.z - u_eye_G.z) / d.z * d;
+    return shade(p, vec3(0.0, 0.0, side));
+  }
+  float root = sqrt(max(reach(d, u_size.x), 0.0));
+  vec3 p = u_eye_G + (-dot(u_eye_G.xy, d.xy) - root) / across(d) * d;
+  p.z = clamp(p.z, -u_size.z, u_size.z);
+  return shade(p, vec3(normalize(p.xy), 0.0));
+}
+)";
+
+constexpr const char* kCapsule = R"(
+#define FACES 1
+bool sphere_entry(vec3 d, float height, float radius, out float t) {
+  vec3 e = u_eye_G - vec3(0.0, 0.0, height);
+  vec3 m = cross(e, d);
+  float a = dot(d, d), square = radius * radius * a - dot(m, m);
+  t = (-dot(e, d) - sqrt(max(square, 0.0))) / a;
+  return square >= 0.0;
+}
+// Also for a ray that passes close by: then at its closest approach.
+bool entry(vec3 d, vec3 size, out float t) {
+  float square = reach(d, size.x);
+  t = (-dot(u_eye_G.xy, d.xy) - sqrt(max(square, 0.0))) / across(d);
+  float z = u_eye_G.z + t * d.z;
+  // The margin of a larger solid is in its radius alone.
+  if (abs(z) > u_size.z) return sphere_entry(d, sign(z) * u_size.z, size.x, t);
+  return square >= 0.0;
+}
+bool intersect(vec3 d, vec3 size, out float t, out int face) {
+  face = 0;
+  return entry(d, size, t) && t > 0.0;
+}
+float shade_face(vec3 d, int k) {
+  float t;
+  entry(d, u_size, t);
+  vec3 p = u_eye_G + t * d;
+  return shade(p, normalize(p - vec3(0.0, 0.0, clamp(p.z, -u_size.z, u_size.z))));
+}
+)";
+
+constexpr const char* kSkyVertex = R"(
+void main() {
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(2.0 * corner - 1.0, 1.0, 1.0);  // on the far plane
+}
+)";
+
+// MuJoCo turns the sky by 90 degrees about x, so that the cube's +y face is overhead.
+constexpr const char* kSkyFragment = R"(
+uniform vec3 u_camera;  // f, cx, cy [px]
+uniform mat3 u_R_WC;
+uniform float u_sky_luminance;
+layout(location = 0) out vec4 luminance;
+layout(location = 1) out int id;
+void main() {
+  vec2 pixel = gl_FragCoord.xy - 0.5;
+  vec3 d = u_R_WC * vec3((pixel - u_camera.yz) / u_camera.x, 1.0);
+  luminance = vec4(u_sky_luminance * texel(vec3(d.x, d.z, -d.y)), 0.0, 0.0, 1.0);
+  id = -1;
+}
+)";
+
+std::string header(TextureKind texture, int light_count) {
+  return std::string(kVersion) + "#define TEXTURE " + std::to_string(static_cast<int>(texture)) +
+         "\n#define LIGHTS " + std::to_string(light_count) + "\n";
+}
+
+GLuint compile(GLenum stage, const std::string& source) {
+  const GLuint shader = glCreateShader(stage);
+  const char* text = source.c_str();
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  GLint good = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+  if (!good) {
+    char message[2000] = "";
+    glGetShaderInfoLog(shader, sizeof message, nullptr, message);
+    throw SimulationError(std::string("A shader of the renderer does not compile: ") + message);
+  }
+  return shader;
+}
+
+}  // namespace
+
+std::string triangle_vertex_shader() { return std::string(kVersion) + kTriangleVertex; }
+
+std::string triangle_fragment_shader(TextureKind texture, int light_count) {
+  return header(texture, light_count) + kLighting + kTexel + kTriangleFragment;
+}
+
+std::string primitive_vertex_shader() { return std::string(kVersion) + kPrimitiveVertex; }
+
+std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, int light_count) {
+  const std::string common = header(texture, light_count) + kLighting + kTexel + kPrimitiveCommon;
+  switch (type) {
+    case mjGEOM_ELLIPSOID:
+      return common + kEllipsoid;
+    case mjGEOM_CAPSULE:
+      return common + kAroundAxis + kCapsule + kSampled;
+    case mjGEOM_CYLINDER:
+      return common + kAroundAxis + kCylinder + kSampled;
+    default:
+      return common + kBox + kSampled;
+  }
+}
+
+std::string sky_vertex_shader() { return std::string(kVersion) + kSkyVertex; }
+
+std::string sky_fragment_shader(TextureKind texture) {
+  return header(texture, 0) + kTexel + kSkyFragment;
+}
+
+unsigned link_program(const std::string& vertex, const std::string& fragment) {
+  const GLuint program = glCreateProgram();
+  const GLuint shaders[] = {compile(GL_VERTEX_SHADER, vertex),
+                            compile(GL_FRAGMENT_SHADER, fragment)};
+  for (const GLuint shader : shaders) {
+    glAttachShader(program, shader);
+    glDeleteShader(shader);  // lives on with the program
+  }
+  glLinkProgram(program);
+  GLint good = 0;
+  glGetProgramiv(program, GL_LINK_STATUS, &good);
+  if (!good) {
+    char message[2000] = "";
+    glGetProgramInfoLog(program, sizeof message, nullptr, message);
+    throw SimulationError(std::string("A shader of the renderer does not link: ") + message);
+  }
+  return program;
+}
+
+}  // namespace dodgesim

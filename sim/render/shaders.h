@@ -1,0 +1,25 @@
+// GLSL sources of the luminance renderer, and their compilation.
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <string>
+
+namespace dodgesim {
+
+enum class TextureKind { kNone, k2d, kCube };
+
+// The sources assume that GL's window rows run from the top of the image down: gl_FragCoord.xy is
+// the pixel position plus (0.5, 0.5). Output 0: luminance (and coverage as alpha), output 1: id.
+std::string triangle_vertex_shader();
+std::string triangle_fragment_shader(TextureKind texture, int light_count);
+std::string primitive_vertex_shader();
+// type: mjGEOM_ELLIPSOID, mjGEOM_CAPSULE, mjGEOM_CYLINDER or mjGEOM_BOX.
+std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, int light_count);
+std::string sky_vertex_shader();
+std::string sky_fragment_shader(TextureKind texture);
+
+// Returns the GL name of the linked program. Throws SimulationError with the compiler's message.
+unsigned link_program(const std::string& vertex, const std::string& fragment);
+
+}  // namespace dodgesim
