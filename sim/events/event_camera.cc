@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,6 +15,8 @@
 #include "sim/events/logarithm.h"
 
 namespace dodgesim {
+
+static_assert(std::endian::native == std::endian::little);
 
 namespace {
 
@@ -178,9 +181,9 @@ void EventCamera::find_candidates(std::size_t begin, const float* now) {
   for (std::size_t word = 0; word < row_flags_.size(); word += 8) {
     std::uint64_t any = 0;
     std::memcpy(&any, flags + word, sizeof any);
-    if (any == 0) continue;
-    for (std::size_t x = word; x < std::min(word + 8, width); ++x) {
-      if (flags[x] == 0) continue;
+    // Eight flags at once, each 0 or 1; the lowest byte is the leftmost pixel.
+    for (; any != 0; any &= any - 1) {
+      const std::size_t x = word + static_cast<std::size_t>(std::countr_zero(any)) / 8;
       candidates_.push_back({static_cast<std::uint32_t>(x), 0, 0});
       __builtin_prefetch(&pixels_[begin + x], 1);
     }
