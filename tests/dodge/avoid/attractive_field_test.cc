@@ -1,0 +1,57 @@
+#include "dodge/avoid/attractive_field.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace dodge {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(AttractiveForce, IsTheDesiredSpeedBeyondTheCrossover) {
+  const AttractiveConfig config;  // e_0 = 0.2 m, gamma_a = 2
+  EXPECT_TRUE(attractive_force(config, 1.5, {3, 0, 4}).isApprox(Vector3d(0.9, 0, 1.2)));
+  EXPECT_TRUE(attractive_force(config, 1.5, {0, 0.2, 0}).isApprox(Vector3d(0, 1.5, 0)));
+}
+
+TEST(AttractiveForce, FallsToZeroAtTheGoal) {
+  const AttractiveConfig config;
+  EXPECT_TRUE(attractive_force(config, 1.5, {0.1, 0, 0}).isApprox(Vector3d(0.375, 0, 0)));
+  EXPECT_EQ(attractive_force(config, 1.5, Vector3d::Zero()), Vector3d::Zero());
+  EXPECT_TRUE(attractive_force(config, 1.5, {1e-300, 0, 0}).allFinite());
+  EXPECT_NEAR(attractive_force(config, 1.5, {0.2 - 1e-9, 0, 0}).x(), 1.5, 1e-6);
+}
+
+TEST(AttractiveForce, HasAConstantMagnitudeForAnExponentOfZero) {
+  const AttractiveConfig config{0.2, 0.0};
+  EXPECT_TRUE(attractive_force(config, 1.5, {0, 1e-3, 0}).isApprox(Vector3d(0, 1.5, 0)));
+  EXPECT_EQ(attractive_force(config, 1.5, Vector3d::Zero()), Vector3d::Zero());
+}
+
+TEST(AttractivePotential, IsContinuousAtTheCrossover) {
+  const AttractiveConfig config;
+  EXPECT_NEAR(attractive_potential(config, 1.5, {0.2, 0, 0}), 0.3, 1e-12);
+  EXPECT_NEAR(attractive_potential(config, 1.5, {0.2 - 1e-12, 0, 0}), 0.3, 1e-9);
+}
+
+TEST(AttractivePotential, HasTheForceAsItsSlope) {
+  const AttractiveConfig config;
+  for (const double distance : {0.01, 0.1, 0.199, 0.201, 0.5, 3.0}) {
+    const Vector3d e = distance * Vector3d(2, -1, 2) / 3, step = 1e-6 * Vector3d(2, -1, 2) / 3;
+    const double slope = (attractive_potential(config, 1.5, e + step) -
+                          attractive_potential(config, 1.5, e - step)) /
+                         2e-6;
+    EXPECT_NEAR(attractive_force(config, 1.5, e).norm(), slope, 1e-6) << distance;
+  }
+}
+
+TEST(AttractiveConfig, RefusesANegativeCrossoverOrExponent) {
+  EXPECT_THROW(validate(AttractiveConfig{0, 2}), std::invalid_argument);
+  EXPECT_THROW(validate(AttractiveConfig{0.2, -1}), std::invalid_argument);
+  EXPECT_THROW(validate(AttractiveConfig{std::nan(""), 2}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace dodge
