@@ -5,12 +5,14 @@
 namespace dodgesim {
 
 struct DelaySpec {
-  int pixel_us = 100;              // photoreceptor and change detector
-  int transport_us = 1000;         // readout and USB, from the end of a packet to the computer
-  int imu_us = 500;                // IMU sample to the computer
-  int state_estimate_us = 2000;    // age of the state estimate when the computer receives it
+  int pixel_us = 100;            // photoreceptor and change detector
+  int transport_us = 1000;       // readout and USB, from the end of a packet to the computer
+  int imu_us = 500;              // IMU sample to the computer
+  int state_estimate_us = 2000;  // age of the state estimate when the computer receives it
   int range_us = 2000;
+  int cycle_us = 4000;             // from the start of one cycle of the pilot to the next
   int compute_us = 3500;           // one cycle of the pilot
+  int packet_us = 1000;            // USB packets of events end at multiples of this
   int command_us = 3000;           // serial link to the flight controller
   int flight_controller_us = 250;  // from a received command to the rotor commands
 
@@ -24,8 +26,15 @@ struct DelaySpec {
     v("state_estimate_us", state_estimate_us, 0, 100000,
       "Age of a state estimate when the computer receives it.");
     v("range_us", range_us, 0, 100000, "Age of a range reading when the computer receives it.");
+    v("packet_us", packet_us, 125, 100000,
+      "USB packets of events end at multiples of this (1 ms: a USB frame).");
+    v("cycle_us", cycle_us, 250, 1000000,
+      "The pilot starts a cycle this often, or as soon as it has finished the last one (250 Hz, "
+      "the "
+      "rate of the state estimate).");
     v("compute_us", compute_us, 0, 1000000,
-      "One cycle of the pilot, from its newest data to its command (3.5 ms in the paper's Table 3).");
+      "One cycle of the pilot, from its newest data to its command (3.5 ms in the paper's Table "
+      "3).");
     v("command_us", command_us, 0, 100000,
       "Serial link from the computer to the flight controller (3.0 ms measured by the authors).");
     v("flight_controller_us", flight_controller_us, 0, 100000,

@@ -11,18 +11,18 @@ TimeUs ceil_to_tick(TimeUs t_us) { return (t_us + kTickUs - 1) / kTickUs * kTick
 
 }  // namespace
 
-OnboardComputer::OnboardComputer(const DelaySpec& delays, TimeUs cycle_us,
-                                 std::unique_ptr<dodge::Pilot> pilot)
+OnboardComputer::OnboardComputer(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot)
     : pilot_(std::move(pilot)),
-      cycle_us_(ceil_to_tick(std::max<TimeUs>(cycle_us, delays.compute_us))),
+      cycle_us_(ceil_to_tick(std::max(delays.cycle_us, delays.compute_us))),
       event_delay_us_(delays.pixel_us + delays.transport_us),
+      next_cycle_us_(cycle_us_),
       packets_(event_delay_us_),
       imu_(delays.imu_us),
       states_(delays.state_estimate_us),
       ranges_(delays.range_us),
       commands_(delays.compute_us) {}
 
-void OnboardComputer::send_events(int camera, TimeUs packet_end_us, std::vector<Event> packet) {
+void OnboardComputer::send_events(int camera, TimeUs packet_end_us, std::span<const Event> packet) {
   Packet out{camera, {}};
   out.events.reserve(packet.size());
   for (const Event& e : packet) out.events.push_back({e.t_us, e.x, e.y, e.polarity});
@@ -34,8 +34,7 @@ void OnboardComputer::send_imu(const ImuReading& reading) {
 }
 
 void OnboardComputer::send_state(const StateReading& reading) {
-  states_.push(reading.t_us,
-               {reading.t_us, reading.p_W, reading.q_W, reading.v_W, reading.w_B});
+  states_.push(reading.t_us, {reading.t_us, reading.p_W, reading.q_W, reading.v_W, reading.w_B});
 }
 
 void OnboardComputer::send_range(const RangeReading& reading) {
@@ -48,9 +47,8 @@ bool OnboardComputer::run_cycle(TimeUs now_us) {
   imu_.deliver(now_us, [&](const dodge::ImuSample& sample) { pilot_->add_imu(sample); });
   states_.deliver(now_us, [&](const dodge::StateEstimate& state) { pilot_->add_state(state); });
   ranges_.deliver(now_us, [&](const dodge::RangeReading& reading) { pilot_->add_range(reading); });
-  packets_.deliver(now_us, [&](const Packet& packet) {
-    pilot_->add_events(packet.camera, packet.events);
-  });
+  packets_.deliver(now_us,
+                   [&](const Packet& packet) { pilot_->add_events(packet.camera, packet.events); });
   commands_.push(now_us, pilot_->update(now_us));
   return true;
 }

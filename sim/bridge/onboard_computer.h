@@ -1,9 +1,10 @@
-// The computer that carries the pilot: sensor data reach it late, it works in cycles, and each cycle
-// takes time. The one place where the simulator's values become the flight core's.
+// The computer that carries the pilot: sensor data reach it late, it works in cycles, and each
+// cycle takes time. The one place where the simulator's values become the flight core's.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "dodge/pilot.h"
@@ -16,13 +17,14 @@ namespace dodgesim {
 
 class OnboardComputer {
  public:
-  // A cycle starts every cycle_us, or as soon as the previous one has ended if that takes longer.
-  OnboardComputer(const DelaySpec& delays, TimeUs cycle_us, std::unique_ptr<dodge::Pilot> pilot);
+  // A cycle starts every delays.cycle_us, or as soon as the previous one has ended if that takes
+  // longer; the first after one period.
+  OnboardComputer(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot);
 
   void set_goal(const dodge::Goal& goal) { pilot_->set_goal(goal); }
 
   // Each at the instant at which the sensor has it. An event packet may be empty.
-  void send_events(int camera, TimeUs packet_end_us, std::vector<Event> packet);
+  void send_events(int camera, TimeUs packet_end_us, std::span<const Event> packet);
   void send_imu(const ImuReading& reading);
   void send_state(const StateReading& reading);
   void send_range(const RangeReading& reading);
@@ -48,7 +50,7 @@ class OnboardComputer {
   std::unique_ptr<dodge::Pilot> pilot_;
   TimeUs cycle_us_;
   TimeUs event_delay_us_;
-  TimeUs next_cycle_us_ = 0;
+  TimeUs next_cycle_us_;
   DelayLine<Packet> packets_;
   DelayLine<dodge::ImuSample> imu_;
   DelayLine<dodge::StateEstimate> states_;

@@ -4,8 +4,8 @@
 namespace dodgesim {
 
 struct OracleSpec {
-  double range_cap_m = 0;         // 0: no cap
-  bool field_of_view = false;     // see only what the reference camera has in its image
+  double range_cap_m = 0;      // 0: no cap
+  bool field_of_view = false;  // see only what the reference camera has in its image
 
   template <class Visitor>
   void visit(Visitor& v) {

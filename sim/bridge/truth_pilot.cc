@@ -28,9 +28,8 @@ void TruthPilot::see(const Snapshot& truth) {
   for (std::size_t i = 0; i < truth.objects.size(); ++i) {
     if (!sees(truth, i)) continue;
     const int id = static_cast<int>(i);
-    const auto known =
-        dodge::known_obstacle(id, truth.t_us, truth.objects[i].p_W, truth.objects[i].v_W,
-                              setup_.sizes_m[i]);
+    const auto known = dodge::known_obstacle(id, truth.t_us, truth.objects[i].p_W,
+                                             truth.objects[i].v_W, setup_.sizes_m[i]);
     const auto old = std::find_if(obstacles_.begin(), obstacles_.end(),
                                   [&](const auto& o) { return o.obstacle.id == id; });
     if (old == obstacles_.end()) {

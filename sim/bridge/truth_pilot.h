@@ -18,10 +18,10 @@ class TruthPilot : public dodge::Pilot {
  public:
   struct Setup {
     OracleSpec oracle;
-    bool blind = false;               // the pilot `none`
-    TimeUs delay_us = 0;              // from an object's motion to the computer
-    double lifetime_s = 1;            // of an object after it was last seen
-    std::vector<double> sizes_m;      // diameters of the objects
+    bool blind = false;           // the pilot `none`
+    TimeUs delay_us = 0;          // from an object's motion to the computer
+    double lifetime_s = 1;        // of an object after it was last seen
+    std::vector<double> sizes_m;  // diameters of the objects
     Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();  // the reference camera
     Intrinsics intrinsics;
   };

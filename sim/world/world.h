@@ -13,25 +13,11 @@
 #include "sim/base/mujoco.h"
 #include "sim/world/compose.h"
 #include "sim/world/snapshot.h"
+#include "sim/world/vehicle_parameters.h"
 
 namespace dodgesim {
 
 inline constexpr double kAirDensityKgpm3 = 1.2;  // dry air at 20 degrees C, 1013 hPa
-
-// The vehicle's constants, read from its MJCF.
-struct VehicleParameters {
-  double mass_kg = 0;
-  Eigen::Vector3d inertia_kgm2 = Eigen::Vector3d::Zero();  // diagonal in B
-  std::array<Eigen::Vector3d, 4> rotor_p_B;  // front left, front right, rear right, rear left
-  std::array<double, 4> rotor_spin{};        // sign of the drag torque about +z_B per thrust
-  double kappa_m = 0;                        // drag torque per thrust
-  double max_thrust_n = 0;                   // of one rotor
-  // Rotor drag, mass-normalised: a_B = -drag_1ps * v_B + (0, 0, drag_kh_1pm (v_x^2 + v_y^2)).
-  Eigen::Vector3d drag_1ps = Eigen::Vector3d::Zero();
-  double drag_kh_1pm = 0;
-  std::vector<Eigen::Isometry3d> X_BC;                     // cameras: 0 top, 1 bottom
-  Eigen::Isometry3d X_BR = Eigen::Isometry3d::Identity();  // range sensor, looking along z
-};
 
 // A thrown object's constants at its size.
 struct ObjectPhysics {

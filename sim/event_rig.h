@@ -1,0 +1,77 @@
+// The vehicle's event cameras: decides when each looks, draws what it sees, turns that into events
+// and packs them for the USB link.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "sim/events/event_camera.h"
+#include "sim/events/packetizer.h"
+#include "sim/events/sampler.h"
+#include "sim/render/luminance_renderer.h"
+#include "sim/world/world.h"
+
+namespace dodgesim {
+
+struct EventRigSetup {
+  Intrinsics intrinsics;
+  RenderSpec render;
+  EventCameraSpec events;
+  SamplingSpec sampling;
+  TimeUs packet_us = 1000;
+  int cameras = 2;  // the first of the vehicle's
+  std::uint64_t seed = 1;
+  std::uint64_t throw_index = 0;
+};
+
+class EventRig {
+ public:
+  // What is done with a packet of events, at the instant at which it is complete.
+  using Sink = std::function<void(int camera, const Packet& packet)>;
+
+  // The world must outlive the rig.
+  EventRig(const World& world, const EventRigSetup& setup);
+  ~EventRig();
+
+  // The first picture, of the world as it is: references are set, no events.
+  void start();
+
+  // The world has changed at the instant of the last sample without any motion (a thrown object has
+  // come into existence): no events either.
+  void rebase();
+
+  // Asks for a sample of every camera at t_us, which lies in the future.
+  void require(TimeUs t_us);
+
+  // Everything that the cameras see from `a` to `b`, one tick later.
+  void advance(const Snapshot& a, const Snapshot& b, const Sink& sink);
+
+  std::int64_t event_count(int camera) const;
+  std::uint64_t events_hash() const;  // of all events of all cameras
+  std::int64_t frames() const { return frames_; }
+  double render_s() const { return render_s_; }    // wall clock, for reports only
+  double emulate_s() const { return emulate_s_; }  // wall clock, for reports only
+
+  // The last picture of a camera: width x height, linear luminance.
+  const std::vector<float>& luminance(int camera) const;
+  const LuminanceRenderer& renderer() const { return renderer_; }
+
+ private:
+  struct Eye;
+
+  void draw(Eye& eye, const Snapshot& snapshot);
+
+  const World& world_;
+  EventRigSetup setup_;
+  LuminanceRenderer renderer_;
+  std::vector<std::unique_ptr<Eye>> eyes_;
+  std::vector<TimeUs> sample_times_;
+  std::vector<Event> events_;
+  std::int64_t frames_ = 0;
+  double render_s_ = 0;
+  double emulate_s_ = 0;
+};
+
+}  // namespace dodgesim

@@ -1,0 +1,278 @@
+#include "sim/flight.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "dodge/dodger.h"
+
+namespace dodgesim {
+
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+constexpr TimeUs kTruthEveryUs = 1000;   // how often the pilot that knows the truth looks
+constexpr double kTrueDetectionM = 0.5;  // a detection this near to an object is one of it
+constexpr TimeUs kHistoryUs = 1000000;   // longer than any sensing delay that makes sense
+
+double seconds_since(WallClock::time_point start) {
+  return std::chrono::duration<double>(WallClock::now() - start).count();
+}
+
+WorldSpec world_spec(const Scenario& scenario, const FlightPlan& plan) {
+  WorldSpec spec{scenario.models_dir, scenario.room, scenario.vehicle, {}};
+  for (const auto& launch : plan.launches) spec.objects.push_back(launch.toss.object);
+  return spec;
+}
+
+ImuSpec every_tick(ImuSpec spec) {
+  spec.rate_hz = static_cast<int>(1000000 / kTickUs);
+  return spec;
+}
+
+std::array<double, 3> to_array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace
+
+Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer)
+    : scenario_(scenario),
+      plan_(plan),
+      observer_(observer),
+      world_(world_spec(scenario, plan)),
+      referee_(world_),
+      motors_(scenario.motors, world_.vehicle().max_thrust_n),
+      flight_controller_(scenario.flight_controller, world_.vehicle(), scenario.motors),
+      controller_(scenario.controller, world_.vehicle()),
+      imu_(scenario.sensors.imu, scenario.seed, index(), "imu"),
+      flight_controller_imu_(every_tick(scenario.sensors.imu), scenario.seed, index(),
+                             "flight_controller_imu"),
+      state_estimator_(scenario.sensors.state_estimate, scenario.seed, index()),
+      range_sensor_(scenario.sensors.range, scenario.seed, index()),
+      computer_(scenario.delays, make_pilot()),
+      rig_(make_rig()),
+      controller_states_(scenario.delays.state_estimate_us),
+      rate_commands_(scenario.delays.command_us + scenario.delays.flight_controller_us) {
+  const MissionSpec& mission = scenario.mission;
+  const VehicleParameters& vehicle = world_.vehicle();
+  world_.reset(mission.start_m, mission.heading_deg * std::numbers::pi / 180,
+               Eigen::Vector3d::Zero());
+  const double hover_n = 0.25 * vehicle.mass_kg * kGravityMps2;
+  motors_.reset(0, {hover_n, hover_n, hover_n, hover_n});
+  flight_controller_.reset({hover_n, hover_n, hover_n, hover_n});
+  rate_command_.thrust_mps2 = kGravityMps2;
+  computer_.set_goal({mission.goal_m.value_or(mission.start_m), mission.speed_mps});
+  referee_.reset();
+  if (!rig_) return;
+  rig_->start();
+  for (const auto& launch : plan_.launches) rig_->require(launch.toss.launch_us);
+}
+
+std::uint64_t Flight::index() const { return static_cast<std::uint64_t>(plan_.throw_index); }
+
+Intrinsics Flight::intrinsics() const {
+  const CameraSpec& camera = scenario_.sensors.camera;
+  return {camera.width, camera.height, focal_length_px(camera.width, camera.horizontal_fov_deg)};
+}
+
+std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
+  if (plan_.pilot == "falanga2020") return make_dodger();
+  const dodge::Config& core = scenario_.dodger;
+  TruthPilot::Setup setup;
+  setup.oracle = scenario_.oracle;
+  setup.blind = plan_.pilot == "none";
+  setup.delay_us = scenario_.delays.pixel_us + scenario_.delays.transport_us;
+  setup.lifetime_s = dodge::decay_lifetime_s(core.repulsive);
+  for (const auto& launch : plan_.launches) setup.sizes_m.push_back(launch.toss.object.size_m);
+  setup.X_BC = world_.vehicle().X_BC.front();
+  setup.intrinsics = intrinsics();
+  auto pilot = std::make_unique<TruthPilot>(
+      std::move(setup), dodge::Avoider(core.repulsive, core.attractive, core.velocity_limit));
+  truth_pilot_ = pilot.get();
+  return pilot;
+}
+
+std::unique_ptr<dodge::Pilot> Flight::make_dodger() const {
+  dodge::Config config = scenario_.dodger;
+  const Intrinsics camera = intrinsics();
+  config.cameras.clear();
+  for (const Eigen::Isometry3d& X_BC : world_.vehicle().X_BC) {
+    dodge::CameraModel model;
+    model.width = camera.width;
+    model.height = camera.height;
+    model.fx = model.fy = camera.f;
+    model.cx = camera.cx();
+    model.cy = camera.cy();
+    model.X_BC = X_BC;
+    config.cameras.push_back(model);
+  }
+  return std::make_unique<dodge::Dodger>(config);
+}
+
+std::unique_ptr<EventRig> Flight::make_rig() const {
+  if (truth_pilot_ != nullptr) return nullptr;
+  EventRigSetup setup;
+  setup.intrinsics = intrinsics();
+  setup.render = scenario_.sensors.render;
+  setup.events = scenario_.sensors.events;
+  setup.sampling = scenario_.sensors.sampling;
+  setup.packet_us = scenario_.delays.packet_us;
+  setup.cameras = scenario_.dodger.position.depth == "stereo" ? 2 : 1;
+  setup.seed = scenario_.seed;
+  setup.throw_index = index();
+  return std::make_unique<EventRig>(world_, setup);
+}
+
+bool Flight::over() const {
+  const Verdict& verdict = referee_.verdict();
+  return now_us() >= plan_.end_us || verdict.nearest.hit || verdict.crashed;
+}
+
+void Flight::move() {
+  const TimeUs start_us = now_us();
+  bool launched = false;
+  for (std::size_t i = 0; i < plan_.launches.size(); ++i) {
+    if (plan_.launches[i].toss.launch_us != start_us) continue;
+    world_.launch(static_cast<int>(i), plan_.launches[i].state);
+    launched = true;
+  }
+  if (launched && rig_) rig_->rebase();
+  before_ = world_.snapshot();
+  world_.step(motors_.step(start_us));
+  if (observer_ != nullptr) observer_->on_tick(world_);
+}
+
+void Flight::sense() {
+  const Snapshot& now = world_.snapshot();
+  gyro_B_radps_ = flight_controller_imu_.sample(now).w_B_radps;
+  if (imu_.due(now.t_us)) computer_.send_imu(imu_.sample(now));
+  if (state_estimator_.due(now.t_us)) {
+    const StateReading state = state_estimator_.sample(now);
+    computer_.send_state(state);
+    controller_states_.push(now.t_us, state);
+  }
+  if (range_sensor_.due(now.t_us)) {
+    if (const auto reading = range_sensor_.sample(now.t_us, true_range_m())) {
+      computer_.send_range(*reading);
+    }
+  }
+}
+
+void Flight::see() {
+  const Snapshot& now = world_.snapshot();
+  if (truth_pilot_ != nullptr && now.t_us % kTruthEveryUs == 0) truth_pilot_->observe(now);
+  if (!rig_) return;
+  // The last packet that the pilot's next cycle will have must be complete by then.
+  const TimeUs read_us = computer_.newest_packet_end_us(computer_.next_cycle_us());
+  const TimeUs packet_end_us = read_us / scenario_.delays.packet_us * scenario_.delays.packet_us;
+  if (packet_end_us > before_.t_us && packet_end_us <= now.t_us) rig_->require(packet_end_us);
+  rig_->advance(before_, now, [this](int camera, const Packet& packet) {
+    computer_.send_events(camera, packet.end_us, packet.events);
+    if (observer_ != nullptr) observer_->on_events(camera, packet);
+  });
+  history_.push_back(now);
+  while (history_.front().t_us < now.t_us - kHistoryUs) history_.pop_front();
+}
+
+void Flight::decide() {
+  const auto start = WallClock::now();
+  if (computer_.run_cycle(now_us())) {
+    log_detections();
+    if (observer_ != nullptr) observer_->on_cycle(now_us(), computer_.pilot());
+  }
+  if (const auto command = computer_.take_command(now_us())) {
+    reference_ = {command->v_W, command->evading};
+  }
+  timing_.pilot_s += seconds_since(start);
+}
+
+void Flight::control() {
+  const TimeUs now = now_us();
+  controller_states_.deliver(now, [&](const StateReading& state) {
+    rate_commands_.push(now, {controller_.update(state, reference_), reference_.evading});
+  });
+  rate_commands_.deliver(now, [&](const SentCommand& sent) {
+    rate_command_ = sent.command;
+    if (sent.evading && !record_.first_command_us) record_.first_command_us = now;
+  });
+  motors_.set_command(now, flight_controller_.step(now, rate_command_, gyro_B_radps_));
+}
+
+void Flight::judge() { referee_.observe(world_); }
+
+double Flight::true_range_m() const {
+  const Eigen::Isometry3d X_WR = world_.snapshot().vehicle.pose() * world_.vehicle().X_BR;
+  const Eigen::Vector3d down_W = X_WR.linear() * Eigen::Vector3d::UnitZ();
+  constexpr mjtByte kRoomOnly[mjNGROUP] = {1, 0, 0, 0, 0, 0};
+  int geom = -1;
+  const double distance_m = mj_ray(&world_.model(), &world_.data(), X_WR.translation().data(),
+                                   down_W.data(), kRoomOnly, 1, -1, &geom);
+  return geom >= 0 ? distance_m : std::numeric_limits<double>::infinity();
+}
+
+const Snapshot* Flight::truth_at(TimeUs t_us) const {
+  const auto after = std::lower_bound(history_.begin(), history_.end(), t_us,
+                                      [](const Snapshot& s, TimeUs t) { return s.t_us < t; });
+  return after == history_.end() ? nullptr : &*after;
+}
+
+void Flight::log_detections() {
+  const TimeUs output_us = now_us() + scenario_.delays.compute_us;
+  for (const dodge::Detection& detection : computer_.pilot().detections()) {
+    ++record_.detections;
+    DetectionRow row;
+    row.t_us = detection.t_us;
+    row.output_us = output_us;
+    row.obstacle_id = detection.obstacle_id;
+    row.p_W = to_array(detection.centre_W);
+    row.size_m = detection.size_m;
+    row.depth_m = detection.depth_m;
+    row.depth_sigma_m = detection.depth_sigma_m;
+    if (const Snapshot* truth = truth_at(detection.t_us)) add_truth(*truth, detection, row);
+    record_.rows.push_back(row);
+  }
+}
+
+void Flight::add_truth(const Snapshot& truth, const dodge::Detection& detection,
+                       DetectionRow& row) {
+  const Eigen::Isometry3d X_WC = truth.vehicle.pose() * world_.vehicle().X_BC.front();
+  for (std::size_t i = 0; i < truth.objects.size(); ++i) {
+    if (!truth.launched[i]) continue;
+    const Eigen::Vector3d& p_W = truth.objects[i].p_W;
+    const double error_m = (detection.centre_W - p_W).norm();
+    if (row.position_error_m && error_m >= *row.position_error_m) continue;
+    row.object = static_cast<int>(i);
+    row.true_p_W = to_array(p_W);
+    row.position_error_m = error_m;
+    row.true_depth_m = (X_WC.inverse() * p_W).z();
+    if (error_m < kTrueDetectionM && !record_.first_detection_us) {
+      record_.first_detection_us = row.output_us;
+      record_.first_detection_distance_m = (p_W - X_WC.translation()).norm();
+    }
+  }
+}
+
+FlightRecord Flight::record() const {
+  FlightRecord record = record_;
+  record.verdict = referee_.verdict();
+  record.last = world_.snapshot();
+  if (rig_) {
+    record.events = {rig_->event_count(0), rig_->event_count(1)};
+    record.events_hash = rig_->events_hash();
+  }
+  return record;
+}
+
+FlightTiming Flight::timing() const {
+  FlightTiming timing = timing_;
+  timing.total_s = seconds_since(constructed_);
+  if (rig_) {
+    timing.render_s = rig_->render_s();
+    timing.emulate_s = rig_->emulate_s();
+    timing.frames = rig_->frames();
+  }
+  return timing;
+}
+
+}  // namespace dodgesim

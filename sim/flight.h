@@ -1,0 +1,136 @@
+// Everything that takes part in one throw flown by one pilot. loop.h says in which order it acts.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/bridge/onboard_computer.h"
+#include "sim/bridge/truth_pilot.h"
+#include "sim/campaign/result.h"
+#include "sim/config/scenario.h"
+#include "sim/control/flight_controller.h"
+#include "sim/control/velocity_controller.h"
+#include "sim/event_rig.h"
+#include "sim/motors/motors.h"
+#include "sim/sensors/imu.h"
+#include "sim/sensors/range_sensor.h"
+#include "sim/sensors/state_estimator.h"
+#include "sim/world/referee.h"
+#include "sim/world/throw.h"
+#include "sim/world/world.h"
+
+namespace dodgesim {
+
+// Which throw is flown, how, and until when.
+struct FlightPlan {
+  int throw_index = 0;
+  std::string pilot = "falanga2020";  // or oracle, none
+  struct Launch {
+    Throw toss;
+    BodyState state;  // at toss.launch_us
+  };
+  std::vector<Launch> launches;  // object i of the world is launch i
+  TimeUs end_us = 0;
+};
+
+// Looks on, for pictures and logs. Nothing that it does changes the flight.
+class FlightObserver {
+ public:
+  virtual ~FlightObserver() = default;
+  virtual void on_tick(const World& /*world*/) {}
+  virtual void on_events(int /*camera*/, const Packet& /*packet*/) {}
+  virtual void on_cycle(TimeUs /*now_us*/, const dodge::Pilot& /*pilot*/) {}
+};
+
+// What a flight leaves behind.
+struct FlightRecord {
+  Verdict verdict;
+  Snapshot last;
+  std::optional<TimeUs> first_detection_us;  // output of the first detection of a true object
+  std::optional<double> first_detection_distance_m;
+  std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
+  int detections = 0;
+  std::vector<DetectionRow> rows;
+  std::array<std::int64_t, 2> events{};
+  std::uint64_t events_hash = 0;
+};
+
+// Wall-clock time by stage [s], for reports only.
+struct FlightTiming {
+  double total_s = 0;
+  double render_s = 0;
+  double emulate_s = 0;
+  double pilot_s = 0;
+  std::int64_t frames = 0;
+};
+
+class Flight {
+ public:
+  // The observer may be null. Throws ScenarioError (models) and SimulationError.
+  Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer);
+
+  TimeUs now_us() const { return world_.snapshot().t_us; }
+  // The end is reached, or the vehicle was hit or has crashed.
+  bool over() const;
+
+  // The stages of one tick, in this order.
+  void move();     // rotors push, objects are launched, everything moves by one tick
+  void sense();    // IMU, state estimate, range sensor
+  void see();      // pictures, events, packets
+  void decide();   // the pilot's cycle: a velocity command
+  void control();  // velocity -> attitude and thrust -> body rates -> rotor commands
+  void judge();    // the referee
+
+  FlightRecord record() const;
+  FlightTiming timing() const;
+  const World& world() const { return world_; }
+
+ private:
+  struct SentCommand {
+    RateThrustCommand command;
+    bool evading;
+  };
+
+  std::uint64_t index() const;
+  std::unique_ptr<dodge::Pilot> make_pilot();
+  std::unique_ptr<dodge::Pilot> make_dodger() const;
+  std::unique_ptr<EventRig> make_rig() const;
+  Intrinsics intrinsics() const;
+  double true_range_m() const;
+  const Snapshot* truth_at(TimeUs t_us) const;
+  void log_detections();
+  void add_truth(const Snapshot& truth, const dodge::Detection& detection, DetectionRow& row);
+
+  Scenario scenario_;
+  FlightPlan plan_;
+  FlightObserver* observer_;
+  World world_;
+  Referee referee_;
+  Motors motors_;
+  FlightController flight_controller_;
+  VelocityController controller_;
+  Imu imu_;
+  Imu flight_controller_imu_;
+  StateEstimator state_estimator_;
+  RangeSensor range_sensor_;
+  TruthPilot* truth_pilot_ = nullptr;  // owned by computer_, when the pilot knows the truth
+  OnboardComputer computer_;
+  std::unique_ptr<EventRig> rig_;  // none for pilots that need no eyes
+
+  Snapshot before_;  // the tick's start
+  Eigen::Vector3d gyro_B_radps_ = Eigen::Vector3d::Zero();
+  DelayLine<StateReading> controller_states_;
+  DelayLine<SentCommand> rate_commands_;
+  VelocityReference reference_;
+  RateThrustCommand rate_command_;
+  std::deque<Snapshot> history_;  // for the truth at the instant of a detection
+  FlightRecord record_;
+  FlightTiming timing_;
+  std::chrono::steady_clock::time_point constructed_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace dodgesim

@@ -1,0 +1,134 @@
+#include "sim/loop.h"
+
+#include <chrono>
+
+#include "sim/base/error.h"
+#include "sim/config/resolve_throw.h"
+
+namespace dodgesim {
+
+FlightRecord fly(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer,
+                 FlightTiming* timing) {
+  Flight flight(scenario, plan, observer);
+  while (!flight.over()) {
+    flight.move();
+    flight.sense();
+    flight.see();
+    flight.decide();
+    flight.control();
+    flight.judge();
+  }
+  if (timing != nullptr) *timing = flight.timing();
+  return flight.record();
+}
+
+namespace {
+
+TimeUs microseconds(double seconds) { return static_cast<TimeUs>(seconds * 1e6 + 0.5); }
+
+TimeUs round_to_tick(TimeUs t_us) { return (t_us + kTickUs / 2) / kTickUs * kTickUs; }
+
+// Where the vehicle's centre is at t_us if nobody throws and nobody dodges.
+BodyState undisturbed_vehicle(const Scenario& scenario, int throw_index, TimeUs t_us) {
+  FlightPlan quiet;
+  quiet.throw_index = throw_index;
+  quiet.pilot = "none";
+  quiet.end_us = t_us;
+  return fly(scenario, quiet).last.vehicle;
+}
+
+FlightResult summary(const FlightRecord& record, bool thrown) {
+  FlightResult result;
+  result.status = "ok";
+  result.crashed = record.verdict.crashed;
+  if (!thrown) return result;
+  const Approach& nearest = record.verdict.nearest;
+  result.hit = nearest.hit;
+  if (nearest.hit) result.hit_us = nearest.hit_us;
+  if (nearest.closest_us >= 0) {
+    result.closest_us = nearest.closest_us;
+    result.clearance_m = nearest.clearance_m;
+  }
+  return result;
+}
+
+// Flies one pilot; a failed simulation costs this flight only and is recorded with its reason.
+FlightResult attempt(const Scenario& scenario, FlightPlan plan, const std::string& pilot,
+                     FlightRecord* record = nullptr, FlightTiming* timing = nullptr) {
+  plan.pilot = pilot;
+  try {
+    const FlightRecord flown = fly(scenario, plan, nullptr, timing);
+    if (record != nullptr) *record = flown;
+    return summary(flown, !plan.launches.empty());
+  } catch (const SimulationError& error) {
+    FlightResult result;
+    result.status = "error";
+    result.error = error.what();
+    return result;
+  }
+}
+
+void copy_throw(const Throw& toss, ThrowResult& result) {
+  result.object = toss.object.kind;
+  result.size_m = toss.object.size_m;
+  result.speed_mps = toss.speed_mps;
+  result.distance_m = toss.distance_m;
+  result.bearing_deg = toss.bearing_deg;
+  result.aim_offset_m = {toss.aim_offset_m.x(), toss.aim_offset_m.y()};
+  result.spin_radps = {toss.spin_radps.x(), toss.spin_radps.y(), toss.spin_radps.z()};
+  result.launch_height_m = toss.launch_height_m;
+  result.launch_us = toss.launch_us;
+}
+
+void copy_record(FlightRecord&& record, ThrowResult& result) {
+  result.first_detection_us = record.first_detection_us;
+  result.first_detection_distance_m = record.first_detection_distance_m;
+  result.first_command_us = record.first_command_us;
+  result.evaded = record.first_command_us.has_value();
+  result.detections = record.detections;
+  result.events = record.events;
+  result.events_hash = record.events_hash;
+  result.duration_us = record.last.t_us;
+  result.detection_rows = std::move(record.rows);
+}
+
+}  // namespace
+
+FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
+  FlightPlan plan;
+  plan.throw_index = throw_index;
+  plan.pilot = scenario.pilot;
+  if (!scenario.toss) {
+    plan.end_us = round_to_tick(microseconds(scenario.duration_s));
+    return plan;
+  }
+  Throw toss = resolve_throw(scenario, throw_index);
+  toss.launch_us = round_to_tick(toss.launch_us);
+  const BodyState vehicle = undisturbed_vehicle(scenario, throw_index, toss.arrival_us());
+  const World world({scenario.models_dir, scenario.room, scenario.vehicle, {toss.object}});
+  const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
+  const double heading_rad = std::atan2(x_W.y(), x_W.x());
+  plan.launches.push_back({toss, solve_throw(toss, world.object(0), vehicle.p_W, heading_rad)});
+  plan.end_us = round_to_tick(toss.arrival_us() + microseconds(scenario.after_s));
+  return plan;
+}
+
+ThrowResult fly_throw(const Scenario& scenario, int throw_index) {
+  ThrowResult result;
+  result.index = throw_index;
+  const FlightPlan plan = plan_throw(scenario, throw_index);
+  if (!plan.launches.empty()) {
+    copy_throw(plan.launches.front().toss, result);
+    result.none = attempt(scenario, plan, "none");
+    if (scenario.fly_oracle) result.oracle = attempt(scenario, plan, "oracle");
+  }
+  FlightRecord record;
+  FlightTiming timing;
+  result.flown = attempt(scenario, plan, scenario.pilot, &record, &timing);
+  for (DetectionRow& row : record.rows) row.throw_index = throw_index;
+  copy_record(std::move(record), result);
+  result.wall_s = timing.total_s;
+  return result;
+}
+
+}  // namespace dodgesim

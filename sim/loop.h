@@ -1,0 +1,20 @@
+// One throw.
+#pragma once
+
+#include "sim/flight.h"
+
+namespace dodgesim {
+
+// Flies the plan, tick by tick.
+FlightRecord fly(const Scenario& scenario, const FlightPlan& plan,
+                 FlightObserver* observer = nullptr, FlightTiming* timing = nullptr);
+
+// The plan of a throw: draws its numbers, finds out where the vehicle will be when the object
+// arrives if nobody dodges, and solves the throw for that place.
+FlightPlan plan_throw(const Scenario& scenario, int throw_index);
+
+// A throw with all its pilots: the scenario's own, `none` (would it have hit?) and, when the
+// scenario asks for it, `oracle`. A pure function of its arguments, up to wall-clock times.
+ThrowResult fly_throw(const Scenario& scenario, int throw_index);
+
+}  // namespace dodgesim
