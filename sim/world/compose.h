@@ -16,7 +16,8 @@ struct ObjectSpec {
   template <class Visitor>
   void visit(Visitor& v) {
     v("kind", kind, "Kind of object: the name of a file in models/objects, without .xml.");
-    v("size_m", size_m, 0.01, 1.0, "Size of the object: a ball's diameter, the longest edge of a box.");
+    v("size_m", size_m, 0.01, 1.0,
+      "Size of the object: a ball's diameter, the longest edge of a box.");
   }
 };
 
@@ -25,6 +26,7 @@ struct WorldSpec {
   std::string room = "room";        // models/rooms/<room>.xml
   std::string vehicle = "qav_rxl";  // models/vehicles/<vehicle>.xml
   std::vector<ObjectSpec> objects;
+  bool air_drag = true;  // of thrown objects; off only to compare with the parabola
 };
 
 // Conventions of the model files. Contact bits: room geoms have contype 1 and conaffinity 6, the

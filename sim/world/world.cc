@@ -43,6 +43,7 @@ World::World(const WorldSpec& spec)
     label_ =
         spec.models_dir + "/objects/" + spec.objects[static_cast<std::size_t>(i)].kind + ".xml";
     read_object(i);
+    if (!spec.air_drag) objects_.back().drag_area_m2 = 0;
   }
   snapshot_.objects.resize(objects_.size());
   snapshot_.launched.resize(objects_.size());

@@ -1,0 +1,189 @@
+#include "sim/world/compose.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "sim/base/error.h"
+#include "sim/world/mjcf.h"
+#include "tests/sim/world/test_world.h"
+
+namespace dodgesim {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string message_of(const WorldSpec& spec) {
+  try {
+    compose_model(spec);
+  } catch (const ScenarioError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// A copy of the models in which a test may put files of its own.
+class OwnModels : public testing::Test {
+ protected:
+  void SetUp() override {
+    directory_ = std::filesystem::path(testing::TempDir()) /
+                 testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::remove_all(directory_);
+    std::filesystem::copy(test_spec().models_dir, directory_,
+                          std::filesystem::copy_options::recursive);
+    spec_ = test_spec({{"own", 0.2}});
+    spec_.models_dir = directory_.string();
+  }
+  void TearDown() override { std::filesystem::remove_all(directory_); }
+
+  void write_object(const std::string& text) {
+    std::ofstream(directory_ / "objects" / "own.xml") << text;
+  }
+
+  static std::string object(const std::string& geom, const std::string& more = "") {
+    return "<mujoco><custom><numeric name='reference_size_m' data='0.1'/>"
+           "<numeric name='mass_exponent' data='3'/><numeric name='drag_coefficient' data='1'/>"
+           "<numeric name='frontal_area_m2' data='0.01'/></custom>" +
+           more +
+           "<worldbody><body name='body'><freejoint/>"
+           "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>" +
+           geom + "</body></worldbody></mujoco>";
+  }
+
+  std::filesystem::path directory_;
+  WorldSpec spec_;
+};
+
+TEST(ComposeTest, BothRoomsCompileWithEveryObject) {
+  for (const char* room : {"room", "field"}) {
+    WorldSpec spec = test_spec({{"ball", 0.1}, {"box", 0.2}, {"ball", 0.3}});
+    spec.room = room;
+    const MjModelPtr model = compose_model(spec);
+    EXPECT_EQ(model->nv, 6 * 4);
+    EXPECT_GE(mj_name2id(model.get(), mjOBJ_BODY, "object2/body"), 0);
+    EXPECT_EQ(model->opt.timestep, 250e-6);
+    EXPECT_EQ(model->opt.gravity[2], -9.81);
+    EXPECT_EQ(model->opt.density, 0);
+  }
+}
+
+TEST(ComposeTest, AMissingModelIsNamed) {
+  EXPECT_THAT(message_of(test_spec({{"teapot", 0.2}})),
+              AllOf(HasSubstr("objects/teapot.xml"), HasSubstr("does not exist")));
+  WorldSpec spec = test_spec();
+  spec.room = "palace";
+  EXPECT_THAT(message_of(spec), HasSubstr("rooms/palace.xml does not exist"));
+  spec = test_spec();
+  spec.vehicle = "zeppelin";
+  EXPECT_THAT(message_of(spec), HasSubstr("vehicles/zeppelin.xml does not exist"));
+}
+
+TEST(ComposeTest, NamesThatLeaveTheModelsFolderAreRefused) {
+  for (const char* kind : {"../ball", "/etc/passwd", "a/b", "", ".", "ball.xml", "ba ll"}) {
+    EXPECT_THAT(message_of(test_spec({{kind, 0.2}})), HasSubstr("must consist of letters"));
+  }
+  WorldSpec spec = test_spec();
+  spec.room = "../rooms/room";
+  EXPECT_THAT(message_of(spec), HasSubstr("must consist of letters"));
+}
+
+TEST(ComposeTest, SizesOutOfRangeAreRefused) {
+  for (const double size_m : {-1.0, 0.0, 0.001, 5.0, std::nan("")}) {
+    EXPECT_THAT(message_of(test_spec({{"ball", size_m}})), HasSubstr("size_m"));
+  }
+}
+
+TEST_F(OwnModels, GeometryMassAndInertiaScaleWithTheSize) {
+  write_object(
+      object("<geom type='box' pos='0 0 0.02' size='0.05 0.02 0.01' group='1' "
+             "contype='4' conaffinity='7'/>"
+             "<geom type='capsule' fromto='0 0 0 0.03 0 0' size='0.005' group='1'/>"));
+  World world(spec_);  // twice the reference size
+  const mjModel& model = world.model();
+  const int body = world.object_body(0), geom = model.body_geomadr[body];
+  EXPECT_DOUBLE_EQ(model.geom_size[3 * geom], 0.1);
+  EXPECT_DOUBLE_EQ(model.geom_pos[3 * geom + 2], 0.04);
+  EXPECT_DOUBLE_EQ(model.geom_size[3 * geom + 3], 0.01);
+  EXPECT_NEAR(model.geom_size[3 * geom + 4], 0.03, 1e-12);  // half the capsule's length
+  EXPECT_DOUBLE_EQ(world.object(0).mass_kg, 8);
+  EXPECT_DOUBLE_EQ(model.body_inertia[3 * body], 32);
+  EXPECT_DOUBLE_EQ(world.object(0).drag_area_m2, 0.04);
+}
+
+TEST_F(OwnModels, AssetsOutsideTheFolderAreRefused) {
+  for (const char* file : {"../../secret.png", "/etc/passwd", "textures/../../x.png"}) {
+    write_object(object("<geom size='0.1'/>",
+                        "<asset><texture type='2d' file='" + std::string(file) + "'/></asset>"));
+    EXPECT_THAT(message_of(spec_), AllOf(HasSubstr("own.xml"), HasSubstr("leaves the models")));
+  }
+  write_object(object("<geom size='0.1'/>", "<include file='ball.xml'/>"));
+  EXPECT_THAT(message_of(spec_), HasSubstr("must not include"));
+}
+
+TEST_F(OwnModels, ObjectsMustNotChangeTheWorldAroundThem) {
+  for (const char* element : {"<option gravity='0 0 0'/>", "<compiler angle='radian'/>",
+                              "<size njmax='1'/>", "<default/>"}) {
+    write_object(object("<geom size='0.1'/>", element));
+    EXPECT_THAT(message_of(spec_), HasSubstr("must not use"));
+  }
+}
+
+TEST_F(OwnModels, BrokenFilesGiveOneSentenceWithTheFile) {
+  const std::vector<std::string> broken = {
+      "",
+      "not xml",
+      "<mujoco>",
+      "<mujoco><worldbody></mujoco>",
+      "<mujoco><!-- no end </mujoco>",
+      "<mujoco a='1></mujoco>",
+      "<!DOCTYPE x [<!ENTITY a 'b'>]><mujoco></mujoco>",
+      object("<geom type='blob' size='0.1'/>"),
+      object("<geom type='mesh' mesh='none'/>"),
+      object("<geom size='nan'/>"),
+      object("<geom size='1e999'/>"),
+      object("<geom size='0.1' name='&quot;'/>"),
+      object("</body>"),
+      "<mujoco><custom><numeric name='reference_size_m' data='0'/></custom></mujoco>",
+  };
+  for (const std::string& text : broken) {
+    write_object(text);
+    EXPECT_THAT(message_of(spec_), AllOf(HasSubstr("own.xml"), testing::EndsWith("."))) << text;
+  }
+}
+
+TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
+  const auto world_message = [&] {
+    try {
+      World world(spec_);
+    } catch (const ScenarioError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const std::string good = object("<geom size='0.1'/>");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    write_object(text);
+    return world_message();
+  };
+  EXPECT_THAT(with("name='body'", "name='other'"), HasSubstr("no body named 'body'"));
+  EXPECT_THAT(with("<freejoint/>", "<joint type='hinge'/>"), HasSubstr("free joint"));
+  EXPECT_THAT(with("inertial pos='0 0 0'", "inertial pos='0 0.1 0'"), HasSubstr("centre of mass"));
+  EXPECT_THAT(with("drag_coefficient", "drag"), HasSubstr("drag_coefficient"));
+}
+
+TEST(MjcfTest, PrintsWhatItParsed) {
+  const std::string text = "<a x=\"1\">\n<b/>\n</a>\n";
+  EXPECT_EQ(print_mjcf(parse_mjcf(text, "test")), text);
+  EXPECT_EQ(
+      print_mjcf(parse_mjcf("<?xml version='1.0'?><!-- < -->\n<a  x = '1' ><b /></a>", "test")),
+      text);
+}
+
+}  // namespace
+}  // namespace dodgesim
