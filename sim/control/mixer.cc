@@ -54,8 +54,9 @@ Wrench Mixer::wrench(const std::array<double, 4>& rotor_thrust_n) const {
   return {w[0], w.tail<3>()};
 }
 
-// The yaw torque nearest to the wanted one that keeps every rotor within its limits, but no less
-// than the assured amount of it.
+// The yaw torque nearest to the wanted one that pushes no rotor beyond its limits, but no less than
+// the assured amount of it. Rotors that are beyond them without yaw do not count when yaw brings
+// them back: less yaw would cost more thrust there.
 double Mixer::feasible_yaw(const Eigen::Vector4d& without_yaw, double wanted_nm) const {
   const double sign = wanted_nm < 0 ? -1 : 1;
   double magnitude = std::abs(wanted_nm);

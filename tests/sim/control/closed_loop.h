@@ -102,8 +102,8 @@ struct FlightSetup {
   FlightControllerSpec flight_controller;
   MotorSpec motors;
   TimeUs state_period_us = 4000;
-  TimeUs command_delay_us = 0;                      // estimate to flight controller
-  std::optional<StateEstimateSpec> state_error;     // none: the controller sees the truth
+  TimeUs command_delay_us = 0;                   // estimate to flight controller
+  std::optional<StateEstimateSpec> state_error;  // none: the controller sees the truth
   double gyro_sigma_radps = 0;
 };
 
@@ -124,13 +124,13 @@ class Flight {
   }
 
   // Flies until `until_us`. `pilot` sees the estimate; `watch` is called after each tick.
-  void fly(TimeUs until_us, const std::function<VelocityReference(const StateReading&)>& pilot,
-           const std::function<void()>& watch = [] {}) {
+  void fly(
+      TimeUs until_us, const std::function<VelocityReference(const StateReading&)>& pilot,
+      const std::function<void()>& watch = [] {}) {
     for (; t_us < until_us; t_us += kTickUs) {
       if (t_us % setup_.state_period_us == 0) {
         const StateReading state = estimate();
-        sent_.push_back(
-            {t_us + setup_.command_delay_us, controller.update(state, pilot(state))});
+        sent_.push_back({t_us + setup_.command_delay_us, controller.update(state, pilot(state))});
       }
       while (!sent_.empty() && sent_.front().first <= t_us) {
         command_ = sent_.front().second;

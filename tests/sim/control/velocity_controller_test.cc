@@ -1,0 +1,372 @@
+#include "sim/control/velocity_controller.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tests/sim/control/closed_loop.h"
+
+namespace dodgesim {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr TimeUs kSecondUs = 1000000;
+
+FlightSetup ideal_setup() {
+  FlightSetup setup;
+  setup.state_period_us = kTickUs;
+  setup.motors.esc_delay_us = 0;
+  setup.flight_controller.gyro_filter_s = 0;
+  return setup;
+}
+
+// The chain linearised about hover, along y: commanded velocity -> filter -> position loop or
+// evading gain -> attitude -> body rate -> torque -> motors. Integrated in fine Euler steps.
+class LinearChain {
+ public:
+  explicit LinearChain(const FlightSetup& setup) : s_(setup) {}
+
+  void advance_normal(double v_command_mps, double dt_s) {
+    const ControllerSpec& c = s_.controller;
+    const double a_ref = (v_command_mps - v_ref_) / c.velocity_filter_s;
+    v_ref_ += dt_s * a_ref;
+    p_ref_ += dt_s * v_ref_;
+    advance(a_ref + c.position_gain_xy_1ps2 * (p_ref_ - p) + c.velocity_gain_xy_1ps * (v_ref_ - v),
+            v_ref_, dt_s);
+  }
+
+  void advance_evading(double v_command_mps, double dt_s) {
+    advance(s_.controller.evading_velocity_gain_1ps * (v_command_mps - v), v_command_mps, dt_s);
+  }
+
+  double p = 0;
+  double v = 0;
+
+ private:
+  void advance(double feedback_mps2, double v_ref_mps, double dt_s) {
+    const double drag_1ps = s_.vehicle.drag_1ps.y();
+    const double tilt_wanted = (feedback_mps2 + drag_1ps * v_ref_mps) / kGravityMps2;
+    const double rate_wanted = s_.controller.attitude_gain_xy_1ps * (tilt_wanted - tilt_);
+    const double wanted = s_.flight_controller.rate_gain_xy_1ps * (rate_wanted - rate_) -
+                          s_.flight_controller.torque_gain_xy * torque_;
+    p += dt_s * v;
+    v += dt_s * (kGravityMps2 * tilt_ - drag_1ps * v);
+    tilt_ += dt_s * rate_;
+    rate_ += dt_s * torque_;
+    torque_ += dt_s * (wanted - torque_) / s_.motors.time_constant_up_s;
+  }
+
+  FlightSetup s_;
+  double v_ref_ = 0, p_ref_ = 0, tilt_ = 0, rate_ = 0, torque_ = 0;
+};
+
+// The attractive field of the flight core near its goal (Falanga et al. 2020, eq. 36).
+Vector3d attraction(const Vector3d& p_W, const Vector3d& goal_W, double speed_mps) {
+  constexpr double kInnerM = 0.2;
+  const Vector3d e = goal_W - p_W;
+  const double distance = e.norm();
+  if (distance == 0) return Vector3d::Zero();
+  const double share = distance < kInnerM ? std::pow(distance / kInnerM, 2) : 1.0;
+  return speed_mps * share * e / distance;
+}
+
+TEST(VelocityController, HoversLevelWithHoverThrustAtAnyHeading) {
+  for (double yaw : {-3.0, 0.0, 1.2}) {
+    VelocityController controller(ControllerSpec(), nominal_vehicle());
+    StateReading state;
+    state.q_W = Eigen::AngleAxisd(yaw, Vector3d::UnitZ());
+    for (bool evading : {false, true}) {
+      const RateThrustCommand command = controller.update(state, {Vector3d::Zero(), evading});
+      EXPECT_NEAR(command.thrust_mps2, kGravityMps2, 1e-12);
+      EXPECT_NEAR(command.w_B_radps.norm(), 0, 1e-9);
+      state.t_us += 4000;
+    }
+  }
+}
+
+TEST(VelocityController, BodyRatesTurnTheShortWayTowardsTheDesiredAttitude) {
+  VelocityController controller(ControllerSpec(), nominal_vehicle());
+  StateReading state;
+  controller.update(state, normal(Vector3d::Zero()));
+  const double roll = 0.2;
+  state.q_W = Eigen::AngleAxisd(roll, Vector3d::UnitX());
+  const RateThrustCommand command = controller.update(state, normal(Vector3d::Zero()));
+  EXPECT_NEAR(command.w_B_radps.x(), -2 * 12 * std::sin(roll / 2), 1e-9);
+  EXPECT_NEAR(command.w_B_radps.tail<2>().norm(), 0, 1e-9);
+  EXPECT_NEAR(command.thrust_mps2, kGravityMps2 * std::cos(roll), 1e-9);
+  state.q_W.coeffs() *= -1;  // the same attitude
+  EXPECT_TRUE(controller.update(state, normal(Vector3d::Zero()))
+                  .w_B_radps.isApprox(command.w_B_radps, 1e-9));
+}
+
+TEST(VelocityController, SmallEvadingStepFollowsTheLinearPrediction) {
+  const FlightSetup setup = ideal_setup();
+  constexpr double kStepMps = 0.3;
+  Flight flight(setup);
+  LinearChain linear(setup);
+  double worst = 0;
+  flight.fly(
+      kSecondUs,
+      [&](const StateReading&) {
+        return evade({0, kStepMps, 0});
+      },
+      [&] {
+        linear.advance_evading(kStepMps, seconds(kTickUs));
+        worst = std::max(worst, std::abs(flight.body.v_W.y() - linear.v));
+      });
+  EXPECT_LT(worst, 0.03 * kStepMps);
+  EXPECT_NEAR(flight.body.v_W.y(), kStepMps, 0.01 * kStepMps);
+}
+
+// The step that normal flight makes: 10 m/s^2 at first, so the nonlinearity shows, but little.
+TEST(VelocityController, StepOfTwoMetresPerSecondFollowsTheLinearPrediction) {
+  const FlightSetup setup = ideal_setup();
+  constexpr double kStepMps = 2;
+  Flight flight(setup);
+  LinearChain linear(setup);
+  double worst_v = 0, worst_p = 0, highest = 0, height = 0;
+  flight.fly(
+      2 * kSecondUs,
+      [&](const StateReading&) {
+        return normal({0, kStepMps, 0});
+      },
+      [&] {
+        linear.advance_normal(kStepMps, seconds(kTickUs));
+        worst_v = std::max(worst_v, std::abs(flight.body.v_W.y() - linear.v));
+        worst_p = std::max(worst_p, std::abs(flight.body.p_W.y() - linear.p));
+        highest = std::max(highest, flight.body.v_W.y());
+        height = std::max(height, std::abs(flight.body.p_W.z()));
+      });
+  EXPECT_LT(worst_v, 0.07 * kStepMps);
+  EXPECT_LT(worst_p, 0.05);
+  EXPECT_LT(highest, 1.15 * kStepMps);
+  EXPECT_LT(height, 0.05);
+  EXPECT_NEAR(flight.body.v_W.y(), kStepMps, 0.01 * kStepMps);
+}
+
+TEST(VelocityController, EvadingBypassesFilterAndClips) {
+  ControllerSpec spec;
+  VelocityController controller(spec, nominal_vehicle());
+  StateReading state;
+  controller.update(state, normal(Vector3d::Zero()));
+  state.t_us = 4000;
+  controller.update(state, evade({0, 3, 0}));
+  const double drag_mps2 = 3 * nominal_vehicle().drag_1ps.y();
+  EXPECT_NEAR(controller.desired_a_W().y(), 3 * spec.evading_velocity_gain_1ps + drag_mps2, 1e-9);
+  EXPECT_NEAR(controller.desired_a_W().z(), kGravityMps2, 1e-9);
+}
+
+TEST(VelocityController, CommandedSpeedIsLimitedWhileEvading) {
+  ControllerSpec spec;
+  VelocityController limited(spec, nominal_vehicle());
+  VelocityController within(spec, nominal_vehicle());
+  const Vector3d direction = Vector3d(1, 2, 2) / 3;
+  limited.update(StateReading(), evade(40 * direction));
+  within.update(StateReading(), evade(spec.evading_speed_limit_mps * direction));
+  EXPECT_TRUE(limited.desired_a_W().isApprox(within.desired_a_W(), 1e-12));
+}
+
+TEST(VelocityController, WithoutThrustToSpareHeightComesFirstAndTheDirectionIsKept) {
+  const ControllerSpec spec;
+  const VelocityController controller(spec, nominal_vehicle());
+  const double most_mps2 = spec.max_thrust_fraction * 4 * 9.5 / 1.0;
+  const Vector3d hover(0, 0, kGravityMps2);
+  const Vector3d extra(30, 40, 20);
+  const Vector3d a = controller.limited(hover + extra);
+  EXPECT_NEAR(a.norm(), most_mps2, 1e-9);
+  EXPECT_NEAR((a - hover).normalized().dot(extra.normalized()), 1, 1e-12);
+
+  const Vector3d lateral = controller.limited(hover + Vector3d(100, 0, 0));
+  EXPECT_NEAR(lateral.z(), kGravityMps2, 1e-9);
+  EXPECT_NEAR(lateral.x(), std::sqrt(most_mps2 * most_mps2 - kGravityMps2 * kGravityMps2), 1e-9);
+}
+
+TEST(VelocityController, DescentGivesWayBeforeLateralAccelerationAtTheTiltLimit) {
+  ControllerSpec spec;
+  spec.max_tilt_deg = 60;
+  const VelocityController controller(spec, nominal_vehicle());
+  const double tan_tilt = std::tan(spec.max_tilt_deg * std::numbers::pi / 180);
+  const Vector3d within = controller.limited({10, 0, -20});
+  EXPECT_NEAR(within.x(), 10, 1e-9);
+  EXPECT_NEAR(within.z(), 10 / tan_tilt, 1e-9);
+  const Vector3d beyond = controller.limited({25, 0, -20});
+  EXPECT_NEAR(beyond.z(), kGravityMps2, 1e-9);
+  EXPECT_NEAR(beyond.x(), kGravityMps2 * tan_tilt, 1e-9);
+  const Vector3d down = controller.limited({0, 0, -20});
+  EXPECT_NEAR(down.z(), spec.min_thrust_mps2, 1e-9);
+}
+
+TEST(VelocityController, LimitsHoldForAnyStateAndCommand) {
+  const ControllerSpec spec;
+  VelocityController controller(spec, nominal_vehicle());
+  const double most_mps2 = spec.max_thrust_fraction * 4 * nominal_vehicle().max_thrust_n;
+  const double least_cos = std::cos(spec.max_tilt_deg * std::numbers::pi / 180);
+  RandomStream random(1, 0, "test");
+  StateReading state;
+  for (int n = 0; n < 20000; ++n) {
+    state.t_us += 4000;
+    state.p_W += normal_vector<3>(random);
+    state.v_W = 6 * normal_vector<3>(random);
+    state.q_W.coeffs() = normal_vector<4>(random).normalized();
+    const RateThrustCommand command =
+        controller.update(state, {8 * normal_vector<3>(random), random.uniform() < 0.5});
+    EXPECT_TRUE(command.w_B_radps.allFinite());
+    EXPECT_GE(command.thrust_mps2, 0);
+    EXPECT_LE(command.thrust_mps2, most_mps2 + 1e-9);
+    EXPECT_LE(command.w_B_radps.head<2>().cwiseAbs().maxCoeff(), spec.max_rate_xy_radps);
+    EXPECT_LE(std::abs(command.w_B_radps.z()), spec.max_rate_z_radps);
+    const Vector3d& a = controller.desired_a_W();
+    EXPECT_LE(a.norm(), most_mps2 + 1e-9);
+    EXPECT_GE(a.z() / a.norm(), least_cos - 1e-9);
+    const Vector3d e_p = (controller.reference_p_W() - state.p_W).cwiseAbs();
+    EXPECT_LE(e_p.head<2>().maxCoeff(), spec.position_clip_xy_m + 1e-9);
+    EXPECT_LE(e_p.z(), spec.position_clip_z_m + 1e-9);
+  }
+}
+
+TEST(VelocityController, HoldsItsPlaceWithinFiveCentimetresUnderStateNoise) {
+  FlightSetup setup;
+  setup.command_delay_us = 6500;
+  setup.state_error = StateEstimateSpec();
+  setup.gyro_sigma_radps = 0.03;
+  Flight flight(setup);
+  double farthest = 0;
+  flight.fly(
+      60 * kSecondUs,
+      [](const StateReading& state) {
+        return normal(attraction(state.p_W, {0, 0, 0}, 1.5));
+      },
+      [&] { farthest = std::max(farthest, flight.body.p_W.norm()); });
+  EXPECT_LT(farthest, 0.05);
+}
+
+TEST(VelocityController, ReturnsToItsPlaceAfterAPush) {
+  const auto stay = [](const StateReading&) { return normal(Vector3d::Zero()); };
+  Flight flight{FlightSetup()};
+  flight.fly(100000, stay);
+  flight.body.v_W = Vector3d(0.5, -0.5, 0.3);
+  flight.fly(5 * kSecondUs, stay);
+  EXPECT_LT(flight.body.p_W.norm(), 0.02);
+  EXPECT_LT(flight.body.v_W.norm(), 0.01);
+}
+
+TEST(VelocityController, SettlesAtAGoalWithoutCircling) {
+  FlightSetup setup;
+  setup.command_delay_us = 6500;
+  Flight flight(setup);
+  const Vector3d goal(4, 0, 0.5);
+  double beyond = 0, fastest = 0, late = 0;
+  flight.fly(
+      10 * kSecondUs,
+      [&](const StateReading& state) { return normal(attraction(state.p_W, goal, 1.5)); },
+      [&] {
+        beyond = std::max(beyond, flight.body.p_W.x() - goal.x());
+        fastest = std::max(fastest, flight.body.v_W.norm());
+        if (flight.t_us > 5 * kSecondUs) late = std::max(late, (flight.body.p_W - goal).norm());
+      });
+  EXPECT_LT(beyond, 0.25);
+  EXPECT_LT(fastest, 1.15 * 1.5);
+  EXPECT_LT(late, 0.05);
+}
+
+// An evasion of 5 m/s for 0.3 s: the height is kept, and afterwards the position loop closes again
+// where the vehicle is, without pulling it back to where it was.
+TEST(VelocityController, EvadesKeepingHeightAndReengagesWhereItIs) {
+  FlightSetup setup;
+  setup.command_delay_us = 6500;
+  Flight flight(setup);
+  constexpr TimeUs kEvasionUs = 300000;
+  double height = 0, backwards = 0, y_end = 0;
+  flight.fly(
+      4 * kSecondUs,
+      [&](const StateReading& state) {
+        return state.t_us < kEvasionUs ? evade({0, 5, 0}) : normal(Vector3d::Zero());
+      },
+      [&] {
+        height = std::max(height, std::abs(flight.body.p_W.z()));
+        backwards = std::min(backwards, flight.body.v_W.y());
+        if (flight.t_us < kEvasionUs) y_end = flight.body.p_W.y();
+      });
+  EXPECT_GT(y_end, 0.35);
+  EXPECT_LT(height, 0.12);
+  EXPECT_GT(backwards, -1.5);
+  EXPECT_LT(flight.body.v_W.norm(), 0.02);
+  EXPECT_LT(flight.body.p_W.y(), y_end + 2);
+}
+
+TEST(VelocityController, MirroredCommandsGiveMirroredFlights) {
+  Flight left{FlightSetup()};
+  Flight right{FlightSetup()};
+  const auto command = [](double side) {
+    return [side](const StateReading& state) {
+      const Vector3d v_W(1, 4 * side, 0.5);
+      return state.t_us < 400000 ? evade(v_W) : normal(0.3 * v_W);
+    };
+  };
+  left.fly(kSecondUs, command(1));
+  right.fly(kSecondUs, command(-1));
+  const Vector3d mirror(1, -1, 1);
+  EXPECT_LT((left.body.p_W - mirror.cwiseProduct(right.body.p_W)).norm(), 1e-6);
+  EXPECT_LT((left.body.v_W - mirror.cwiseProduct(right.body.v_W)).norm(), 1e-6);
+}
+
+TEST(VelocityController, HoldsTheHeadingItStartedWithWhileEvadingAnywhere) {
+  for (double yaw : {0.0, 1.0, -2.5}) {
+    for (double bearing = 0; bearing < 6.2; bearing += 0.7) {
+      FlightSetup setup;
+      setup.command_delay_us = 6500;
+      Flight flight(setup);
+      flight.body.q_W = Eigen::AngleAxisd(yaw, Vector3d::UnitZ());
+      double worst = 0;
+      flight.fly(
+          700000,
+          [&](const StateReading& state) {
+            const Vector3d v_W(5 * std::cos(bearing), 5 * std::sin(bearing), 0);
+            return state.t_us < 350000 ? evade(v_W) : normal(Vector3d::Zero());
+          },
+          [&] {
+            worst = std::max(
+                worst, std::abs(std::remainder(flight.body.yaw_rad() - yaw, 2 * std::numbers::pi)));
+          });
+      // Heading of x_B projected on the ground; at 75 deg of tilt it is ill-conditioned.
+      EXPECT_LT(worst, 0.6) << "yaw " << yaw << " bearing " << bearing;
+      EXPECT_LT(std::abs(std::remainder(flight.body.yaw_rad() - yaw, 2 * std::numbers::pi)), 0.1);
+    }
+  }
+}
+
+// The controller must hold over the spread of the real vehicle's unknown mass and motors.
+TEST(VelocityController, StaysStableForHeavierWeakerAndSlowerVehicles) {
+  for (double mass_kg : {0.85, 1.2}) {
+    for (double lag_s : {0.03, 0.06}) {
+      for (double inertia : {0.75, 1.25}) {
+        FlightSetup setup;
+        setup.command_delay_us = 6500;
+        setup.motors.time_constant_up_s = setup.motors.time_constant_down_s = lag_s;
+        Flight nominal(setup);
+        VehicleParameters actual = nominal_vehicle();
+        actual.mass_kg = mass_kg;
+        actual.inertia_kgm2 *= inertia;
+        nominal.body = RigidBody(actual);
+        double late = 0;
+        nominal.fly(
+            6 * kSecondUs,
+            [](const StateReading& state) {
+              return state.t_us < 300000 ? evade({3, 4, 0}) : normal(Vector3d::Zero());
+            },
+            [&] {
+              if (nominal.t_us > 4 * kSecondUs) {
+                late = std::max(late, nominal.body.w_B.norm());
+              }
+            });
+        EXPECT_LT(late, 0.05) << mass_kg << " kg, lag " << lag_s << ", inertia " << inertia;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dodgesim
