@@ -15,6 +15,15 @@ void throw_error(const char* message) {
 
 void ignore_warning(const char*) {}
 
+// MuJoCo's messages run over several lines and end without a full stop.
+std::string one_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;) {
+    text.replace(at, 1, ", ");
+  }
+  return text;
+}
+
 }  // namespace
 
 void install_mujoco_handlers() {
@@ -41,7 +50,9 @@ MjModelPtr compile_model(const std::string& xml, const std::string& directory,
     throw ScenarioError(label + ": " + error.what());
   }
   mj_deleteVFS(vfs.get());
-  if (!model) throw ScenarioError(label + ": the model does not compile: " + message);
+  if (!model) {
+    throw ScenarioError(label + ": the model does not compile: " + one_line(message) + ".");
+  }
   return model;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/base/error.h"
+#include "sim/base/gravity.h"
 #include "sim/base/time.h"
 #include "sim/world/mjcf.h"
 
@@ -24,10 +25,11 @@ void check_model_name(const std::string& name, const std::string& folder) {
 
 // Files that bring global settings would change the other models in the world.
 void check_elements(const std::vector<MjcfTag>& tags, const std::string& label) {
-  constexpr const char* kGlobal[] = {"compiler", "option", "size", "default", "contact"};
+  constexpr const char* kGlobal[] = {"option", "size", "default", "contact"};
   for (const MjcfTag& tag : tags) {
     if (std::find(std::begin(kGlobal), std::end(kGlobal), tag.name) != std::end(kGlobal)) {
-      throw ScenarioError(label + ": the model of an object must not use <" + tag.name + ">.");
+      throw ScenarioError(label + ":" + std::to_string(tag.line) +
+                          ": The model of an object must not use <" + tag.name + ">.");
     }
   }
 }
@@ -52,12 +54,23 @@ std::vector<MjcfTag> scaled_object(const std::string& models_dir, const ObjectSp
   return tags;
 }
 
+// One of the files that make up the world.
+struct Part {
+  std::string label;
+  std::string xml;
+};
+
 // Air drag is computed by World: MuJoCo's own fluid model stays off (density 0). The constraint
 // buffers are small because only a few contacts ever coexist; the defaults cost 14 MB each world.
-std::string globals() {
-  return "<compiler angle=\"degree\"/>"
-         "<option gravity=\"0 0 -9.81\" density=\"0\" viscosity=\"0\" timestep=\"" +
-         std::to_string(seconds(kTickUs)) + "\"/>" + "<size nconmax=\"50\" njmax=\"250\"/>";
+MjModelPtr compile(const std::string& inner_xml, const std::string& models_dir,
+                   const std::string& label) {
+  return compile_model(
+      "<mujoco model=\"dodgesim\"><compiler angle=\"degree\"/>"
+      "<option gravity=\"0 0 " +
+          std::to_string(-kGravityMps2) + "\" density=\"0\" viscosity=\"0\" timestep=\"" +
+          std::to_string(seconds(kTickUs)) + "\"/><size nconmax=\"50\" njmax=\"250\"/>" +
+          inner_xml + "</mujoco>",
+      models_dir, label);
 }
 
 }  // namespace
@@ -67,19 +80,26 @@ std::string object_prefix(int i) { return "object" + std::to_string(i) + "/"; }
 MjModelPtr compose_model(const WorldSpec& spec) {
   check_model_name(spec.room, "models/rooms");
   check_model_name(spec.vehicle, "models/vehicles");
-  std::string xml = "<mujoco model=\"dodgesim\">\n" + globals();
-  xml += print_mjcf(read_model_file(spec.models_dir, "rooms/" + spec.room + ".xml"));
-  xml += print_mjcf(read_model_file(spec.models_dir, "vehicles/" + spec.vehicle + ".xml"));
-  std::string label =
-      spec.models_dir + ": rooms/" + spec.room + ".xml with vehicles/" + spec.vehicle + ".xml";
-  for (std::size_t i = 0; i < spec.objects.size(); ++i) {
-    xml += print_mjcf(scaled_object(spec.models_dir, spec.objects[i], static_cast<int>(i)));
-    if (label.find("objects/" + spec.objects[i].kind + ".xml") == std::string::npos) {
-      label += " and objects/" + spec.objects[i].kind + ".xml";
-    }
+  std::vector<Part> parts;
+  for (const std::string& file :
+       {"rooms/" + spec.room + ".xml", "vehicles/" + spec.vehicle + ".xml"}) {
+    parts.push_back(
+        {spec.models_dir + "/" + file, print_mjcf(read_model_file(spec.models_dir, file))});
   }
-  xml += "</mujoco>\n";
-  return compile_model(xml, spec.models_dir, label);
+  for (std::size_t i = 0; i < spec.objects.size(); ++i) {
+    parts.push_back(
+        {spec.models_dir + "/objects/" + spec.objects[i].kind + ".xml",
+         print_mjcf(scaled_object(spec.models_dir, spec.objects[i], static_cast<int>(i)))});
+  }
+  std::string xml;
+  for (const Part& part : parts) xml += part.xml;
+  try {
+    return compile(xml, spec.models_dir, "The models in " + spec.models_dir);
+  } catch (const ScenarioError&) {
+    // Which file is it? Each compiles on its own unless it is the culprit.
+    for (const Part& part : parts) compile(part.xml, spec.models_dir, part.label);
+    throw;
+  }
 }
 
 }  // namespace dodgesim

@@ -47,9 +47,15 @@ class Reader {
   bool starts_with(std::string_view s) const { return text_.compare(at_, s.size(), s) == 0; }
 
   [[noreturn]] void fail(const std::string& what) const {
-    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(at_, text_.size()));
-    const auto line = 1 + std::count(text_.begin(), end, '\n');
-    throw ScenarioError(label_ + ":" + std::to_string(line) + ": " + what);
+    throw ScenarioError(label_ + ":" + std::to_string(line()) + ": " + what);
+  }
+
+  // Counted on from where it was asked last.
+  int line() const {
+    for (const std::size_t end = std::min(at_, text_.size()); counted_ < end; ++counted_) {
+      if (text_[counted_] == '\n') ++line_;
+    }
+    return line_;
   }
 
   void expect(char c) {
@@ -96,6 +102,7 @@ class Reader {
 
   MjcfTag read_tag() {
     MjcfTag tag;
+    tag.line = line();
     expect('<');
     if (starts_with("/")) {
       ++at_;
@@ -116,6 +123,8 @@ class Reader {
   const std::string& text_;
   const std::string& label_;
   std::size_t at_ = 0;
+  mutable std::size_t counted_ = 0;
+  mutable int line_ = 1;
 };
 
 // A path stays inside the models folder if it is relative and never goes up.
@@ -125,18 +134,22 @@ bool leaves_folder(const std::string& path) {
          std::find(p.begin(), p.end(), std::filesystem::path("..")) != p.end();
 }
 
-void check_paths(const std::vector<MjcfTag>& tags, const std::string& label) {
-  constexpr std::array<const char*, 4> kPathAttributes = {"meshdir", "texturedir", "assetdir",
-                                                          "content_type"};
+// <compiler> could move the folders of assets, and change the meaning of angles in other files.
+void check_paths(const std::vector<MjcfTag>& tags, const std::string& directory,
+                 const std::string& label) {
   for (const MjcfTag& tag : tags) {
-    if (tag.name == "include")
-      throw ScenarioError(label + ": a model file must not include others.");
+    const std::string where = label + ":" + std::to_string(tag.line) + ": ";
+    if (tag.name == "include" || tag.name == "compiler") {
+      throw ScenarioError(where + "A model file must not use <" + tag.name + ">.");
+    }
     for (const auto& [name, value] : tag.attributes) {
-      const bool is_file = name.compare(0, 4, "file") == 0;
-      const bool is_folder =
-          std::find(kPathAttributes.begin(), kPathAttributes.end(), name) != kPathAttributes.end();
-      if ((is_file || is_folder) && leaves_folder(value)) {
-        throw ScenarioError(label + ": the path '" + value + "' leaves the models folder.");
+      if (name.compare(0, 4, "file") != 0) continue;
+      if (leaves_folder(value)) {
+        throw ScenarioError(where + "The path '" + value + "' leaves the models folder.");
+      }
+      std::error_code error;
+      if (!std::filesystem::is_regular_file(directory + "/" + value, error)) {
+        throw ScenarioError(where + "The file " + directory + "/" + value + " does not exist.");
       }
     }
   }
@@ -169,11 +182,13 @@ std::vector<MjcfTag> parse_mjcf(const std::string& text, const std::string& labe
 
 std::string print_mjcf(const std::vector<MjcfTag>& tags) {
   std::string out;
+  int line = 1;
   for (const MjcfTag& tag : tags) {
+    for (; line < tag.line; ++line) out += '\n';
     out += tag.kind == MjcfTag::Kind::kClose ? "</" : "<";
     out += tag.name;
     for (const auto& [name, value] : tag.attributes) out += " " + name + "=\"" + value + "\"";
-    out += tag.kind == MjcfTag::Kind::kSelfClose ? "/>\n" : ">\n";
+    out += tag.kind == MjcfTag::Kind::kSelfClose ? "/>" : ">";
   }
   return out;
 }
@@ -210,7 +225,7 @@ std::vector<MjcfTag> read_model_file(const std::string& directory, const std::st
       tags.front().kind != MjcfTag::Kind::kOpen || tags.back().kind != MjcfTag::Kind::kClose) {
     throw ScenarioError(path + ": the model file must hold one <mujoco> element.");
   }
-  check_paths(tags, path);
+  check_paths(tags, directory, path);
   return {tags.begin() + 1, tags.end() - 1};
 }
 

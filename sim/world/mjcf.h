@@ -12,6 +12,7 @@ namespace dodgesim {
 struct MjcfTag {
   enum class Kind { kOpen, kClose, kSelfClose };
   Kind kind = Kind::kOpen;
+  int line = 1;  // in its file
   std::string name;
   std::vector<std::pair<std::string, std::string>> attributes;
 
@@ -21,14 +22,16 @@ struct MjcfTag {
 // The tags of `text` in order, without comments and the XML declaration. `label` names the file in
 // errors. Throws ScenarioError when the text is not made of tags.
 std::vector<MjcfTag> parse_mjcf(const std::string& text, const std::string& label);
+// Tags come out on the lines that they had, so that MuJoCo's messages name lines of the file.
 std::string print_mjcf(const std::vector<MjcfTag>& tags);
 
 // Numbers separated by blanks. Throws ScenarioError if one is not a finite number.
 std::vector<double> parse_numbers(const std::string& text, const std::string& label);
 
 // Reads the model file `directory`/`file` and returns what is inside its <mujoco> element.
-// Throws ScenarioError, naming the file, when it is missing, too large, not MJCF, includes another
-// file, or names an asset outside `directory` (absolute path or "..").
+// Asset paths are relative to `directory`. Throws ScenarioError, naming the file, when it is
+// missing, too large, not MJCF, uses <include> or <compiler>, or names an asset that does not exist
+// or lies outside `directory`.
 std::vector<MjcfTag> read_model_file(const std::string& directory, const std::string& file);
 
 // Value of <numeric name=`name`>. Throws ScenarioError, naming `label`, when it is absent.

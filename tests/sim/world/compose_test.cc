@@ -121,7 +121,7 @@ TEST_F(OwnModels, AssetsOutsideTheFolderAreRefused) {
     EXPECT_THAT(message_of(spec_), AllOf(HasSubstr("own.xml"), HasSubstr("leaves the models")));
   }
   write_object(object("<geom size='0.1'/>", "<include file='ball.xml'/>"));
-  EXPECT_THAT(message_of(spec_), HasSubstr("must not include"));
+  EXPECT_THAT(message_of(spec_), HasSubstr("must not use <include>"));
 }
 
 TEST_F(OwnModels, ObjectsMustNotChangeTheWorldAroundThem) {
@@ -155,6 +155,19 @@ TEST_F(OwnModels, BrokenFilesGiveOneSentenceWithTheFile) {
   }
 }
 
+TEST_F(OwnModels, ErrorsOfMujocoNameFileAndLine) {
+  write_object("<mujoco>\n<!-- a\ncomment -->\n" + object("<geom\n type='blob'/>").substr(8));
+  EXPECT_THAT(message_of(spec_), AllOf(HasSubstr("objects/own.xml: "), HasSubstr("line 4")));
+  write_object("<mujoco>\n\n<custom");
+  EXPECT_THAT(message_of(spec_), HasSubstr("objects/own.xml:3: "));
+}
+
+TEST_F(OwnModels, AMissingTextureIsNamed) {
+  write_object(object("<geom size='0.1'/>",
+                      "<asset><texture name='t' type='2d' file='textures/none.png'/></asset>"));
+  EXPECT_THAT(message_of(spec_), AllOf(HasSubstr("own.xml"), HasSubstr("none.png")));
+}
+
 TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
   const auto world_message = [&] {
     try {
@@ -178,10 +191,10 @@ TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
 }
 
 TEST(MjcfTest, PrintsWhatItParsed) {
-  const std::string text = "<a x=\"1\">\n<b/>\n</a>\n";
+  const std::string text = "<a x=\"1\">\n<b/>\n\n</a>";
   EXPECT_EQ(print_mjcf(parse_mjcf(text, "test")), text);
   EXPECT_EQ(
-      print_mjcf(parse_mjcf("<?xml version='1.0'?><!-- < -->\n<a  x = '1' ><b /></a>", "test")),
+      print_mjcf(parse_mjcf("<?xml version='1.0'?><!-- < --><a  x = '1' >\n<b />\n\n</a>", "test")),
       text);
 }
 
