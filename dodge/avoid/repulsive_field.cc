@@ -23,8 +23,7 @@ bool one_of(const std::string& value, Names... names) {
 void validate(const RepulsiveConfig& config) {
   if (!one_of(config.field, "falanga", "khosla") ||
       !one_of(config.obstacle_velocity, "world", "relative") ||
-      !one_of(config.direction, "cross", "away") ||
-      !one_of(config.vertical, "absolute", "flip", "signed")) {
+      !one_of(config.direction, "cross", "away")) {
     throw std::invalid_argument("The repulsive field has an option with an unknown name.");
   }
   if (!(config.k_r0 >= 0) || !(config.eta_0_m > 0) || !(config.gamma > 0) ||
@@ -50,8 +49,6 @@ RepulsiveField::RepulsiveField(const RepulsiveConfig& config)
       khosla_(config.field == "khosla"),
       relative_(config.obstacle_velocity == "relative"),
       cross_(config.direction == "cross"),
-      absolute_(config.vertical == "absolute"),
-      flip_(config.vertical == "flip"),
       steep_sine_(std::sin(config.steep_deg * std::numbers::pi / 180)) {
   validate(config);
 }
@@ -110,8 +107,7 @@ Eigen::Vector3d RepulsiveField::force(const VehicleMotion& vehicle, const Ellips
   const double speed_factor = config_.scale_by_speed ? v_W.norm() : 1.0;
   Eigen::Vector3d force = speed_factor * magnitude(eta, k_r(since_detection_s)) *
                           direction(surface.gradient_W, v_W, vehicle.heading_W);
-  if (absolute_) force.z() = std::abs(force.z());
-  if (flip_ && force.z() < 0) force = -force;
+  if (config_.upward) force.z() = std::abs(force.z());
   return force;
 }
 

@@ -21,7 +21,7 @@ struct RepulsiveConfig {
   bool scale_by_speed = true;
   std::string obstacle_velocity = "world";
   std::string direction = "cross";
-  std::string vertical = "absolute";
+  bool upward = true;
   double head_on_sine = 0.05;
   double steep_deg = 45.0;
   bool ignore_receding = false;
@@ -51,9 +51,9 @@ struct RepulsiveConfig {
     v("direction", direction, {"cross", "away"},
       "Escape direction of the falanga field: the cross product (29), or away from the obstacle's "
       "line of flight, within the plane of approach.");
-    v("vertical", vertical, {"absolute", "flip", "signed"},
-      "How the force's z component becomes positive: its absolute value as the paper writes, by "
-      "turning the whole force around, or not at all.");
+    v("upward", upward,
+      "Whether the z component of each obstacle's force is replaced by its absolute value, as the "
+      "paper does because a quadrotor accelerates upward best.");
     v("head_on_sine", head_on_sine, 0.0, 1.0,
       "Below this sine of the angle between distance gradient and velocity (29) is undefined in "
       "practice, and the escape is upward. An estimated velocity's direction is no better than 3 "
@@ -110,7 +110,7 @@ class RepulsiveField {
                                  const Eigen::Vector3d& heading_W) const;
 
   RepulsiveConfig config_;
-  bool khosla_, relative_, cross_, absolute_, flip_;
+  bool khosla_, relative_, cross_;
   double steep_sine_;
 };
 

@@ -86,7 +86,7 @@ TEST(RepulsiveConstant, BelowTheRemovalThresholdGivesNoLifetime) {
 
 TEST(RepulsiveDirection, IsOrthogonalToObstacleVelocityAndGradient) {
   RepulsiveConfig config;
-  config.vertical = "signed";
+  config.upward = false;
   const RepulsiveField field(config);
   // Obstacle above the line of flight: gradient (-3, 0, -0.4) x velocity (-5, 0, 0) = (0, 2, 0).
   EXPECT_TRUE(field.direction(Vector3d(-3, 0, -0.4).normalized(), {-5, 0, 0}, kForward)
@@ -159,18 +159,16 @@ TEST(RepulsiveForce, IsMagnitudeTimesSpeedAlongTheDirection) {
       force_of_ball(config, {3, 0, 4}, {-5, 0, 0}).isApprox(magnitude * Vector3d::UnitY(), 1e-9));
 }
 
-TEST(RepulsiveForce, HasAPositiveVerticalComponentUnlessItIsSigned) {
+TEST(RepulsiveForce, HasAPositiveVerticalComponentWhereAsked) {
   RepulsiveConfig config;
-  config.vertical = "signed";
+  config.upward = false;
   // Up and to the left of the line of sight, in the quadrant where (29) points left and down.
   const Vector3d p(2, 0.2, 0.2), v(-5, 0, 0);
   const Vector3d as_is = force_of_ball(config, p, v);
   EXPECT_GT(as_is.y(), 0.1);
   EXPECT_LT(as_is.z(), -0.1);
-  config.vertical = "absolute";
+  config.upward = true;
   EXPECT_TRUE(force_of_ball(config, p, v).isApprox(Vector3d(as_is.x(), as_is.y(), -as_is.z())));
-  config.vertical = "flip";
-  EXPECT_TRUE(force_of_ball(config, p, v).isApprox(-as_is));
 }
 
 TEST(RepulsiveForce, UsesTheRelativeVelocityWhereAsked) {
@@ -212,7 +210,6 @@ TEST(RepulsiveField, RefusesWhatHasNoMeaning) {
   };
   refused([](RepulsiveConfig& c) { c.field = "magnetic"; });
   refused([](RepulsiveConfig& c) { c.direction = ""; });
-  refused([](RepulsiveConfig& c) { c.vertical = "down"; });
   refused([](RepulsiveConfig& c) { c.obstacle_velocity = "body"; });
   refused([](RepulsiveConfig& c) { c.gamma = -1.5; });
   refused([](RepulsiveConfig& c) { c.gamma = std::nan(""); });
