@@ -24,7 +24,9 @@ struct CampaignOptions {
   int jobs = 1;
   bool force = false;        // overwrite whatever is in `out`
   std::string command_line;  // for the manifest
-  std::string gl_renderer;   // for the manifest; empty when nothing was rendered
+  // Name of the OpenGL renderer, for the manifest. Asked for after the workers have ended, because
+  // no GL context may exist when they are forked; may be empty.
+  std::function<std::string()> gl_renderer;
   bool show_progress = false;
 };
 

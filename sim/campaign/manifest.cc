@@ -28,7 +28,7 @@ std::string manifest_json(const Scenario& scenario, const CampaignOptions& optio
                            {"opencv", build.opencv},
                            {"eigen", build.eigen},
                            {"yaml_cpp", build.yaml_cpp},
-                           {"gl_renderer", options.gl_renderer}};
+                           {"gl_renderer", options.gl_renderer ? options.gl_renderer() : ""}};
   manifest["machine"] = {{"cpu", machine.cpu},
                          {"cpu_flags", machine.cpu_flags},
                          {"cores", machine.cores},

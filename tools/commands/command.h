@@ -1,0 +1,30 @@
+// What the subcommands of dodgesim share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "sim/config/scenario.h"
+
+namespace dodgesim {
+
+// Exit codes of the program.
+inline constexpr int kOk = 0;
+inline constexpr int kBelowBar = 1;    // below the baseline, or not what was flown before
+inline constexpr int kUsageError = 2;  // bad command line or scenario
+inline constexpr int kIncomplete = 3;  // some throws could not be flown
+inline constexpr int kIoError = 4;     // a file could not be read or written
+
+// Each adds its subcommand, which sets `exit_code` when it is run. Errors leave as exceptions.
+void add_run_command(CLI::App& program, const std::string& command_line, int& exit_code);
+void add_replay_command(CLI::App& program, int& exit_code);
+void add_validate_command(CLI::App& program, int& exit_code);
+void add_explain_command(CLI::App& program, int& exit_code);
+
+// Adds --models: where rooms, vehicles and objects are.
+void add_models_option(CLI::App& command, std::string& models_dir);
+
+// The text "n throws" with the right plural.
+std::string count_of_throws(int n);
+
+}  // namespace dodgesim

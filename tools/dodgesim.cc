@@ -1,0 +1,75 @@
+// The program `dodgesim`: a closed-loop simulator of a quadrotor that dodges thrown objects with
+// event cameras.
+#include <iostream>
+#include <string>
+
+#include "sim/base/error.h"
+#include "tools/commands/command.h"
+
+namespace {
+
+using namespace dodgesim;
+
+std::string joined(int argc, char** argv) {
+  std::string line = "dodgesim";
+  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  return line;
+}
+
+// Output that never reached its reader (a full disk behind a redirection) is no success.
+int flushed(int exit_code) {
+  std::cout.flush();
+  const bool written = std::cout.good() && std::fflush(stdout) == 0;
+  if (written) return exit_code;
+  std::cerr << "dodgesim: the standard output could not be written.\n";
+  return kIoError;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App program(
+      "dodgesim throws objects at a simulated quadrotor that sees them with event cameras, and\n"
+      "counts how often it dodges. A scenario (YAML) says who throws what; see "
+      "scenarios/README.md.",
+      "dodgesim");
+  program.footer(
+      "A first flight:\n"
+      "  dodgesim run scenarios/demo.yaml --out out/demo          fly 40 throws, print the table\n"
+      "  dodgesim replay out/demo --throw 3 --video throw3.mp4    watch one of them\n"
+      "Your own scenario:\n"
+      "  cp scenarios/demo.yaml mine.yaml                         start from one that works\n"
+      "  dodgesim explain throw                                   what can be thrown, and how\n"
+      "  dodgesim validate mine.yaml                              every mistake, with its line\n\n"
+      "Exit codes: 0 ok, 1 below the baseline, 2 usage or scenario error, 3 incomplete,\n"
+      "4 input/output error. \"dodgesim COMMAND --help\" says more.");
+  program.require_subcommand(1);
+  program.set_version_flag("--version", DODGESIM_VERSION);
+
+  int exit_code = kOk;
+  add_run_command(program, joined(argc, argv), exit_code);
+  add_replay_command(program, exit_code);
+  add_validate_command(program, exit_code);
+  add_explain_command(program, exit_code);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? kOk : kUsageError;
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return flushed(run_program(argc, argv));
+  } catch (const ScenarioError& error) {
+    std::cerr << error.what() << "\n";
+    return kUsageError;
+  } catch (const IoError& error) {
+    std::cerr << error.what() << "\n";
+    return kIoError;
+  } catch (const std::exception& error) {
+    std::cerr << "dodgesim: " << error.what() << "\n";
+    return kIncomplete;
+  }
+}
