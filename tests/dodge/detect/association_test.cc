@@ -1,0 +1,131 @@
+#include "dodge/detect/association.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "tests/dodge/generator.h"
+
+namespace dodge {
+namespace {
+
+using Eigen::Vector3d;
+using testing::ElementsAre;
+
+Detection at(double x, double y = 0, double z = 0) {
+  Detection detection;
+  detection.centre_W = Vector3d(x, y, z);
+  return detection;
+}
+
+PredictedObstacle obstacle(double x, int detections = 5) {
+  PredictedObstacle predicted;
+  predicted.p_W = Vector3d(x, 0, 0);
+  predicted.detections = detections;
+  return predicted;
+}
+
+std::vector<int> associate(const AssociationConfig& config,
+                           const std::vector<Detection>& detections,
+                           const std::vector<PredictedObstacle>& obstacles) {
+  Associator associator(config);
+  const auto result = associator.associate(detections, obstacles);
+  return {result.begin(), result.end()};
+}
+
+TEST(Associator, TakesTheClosestObstacleWithinTheSphere) {
+  EXPECT_THAT(associate({}, {at(1.0), at(3.0)}, {obstacle(0.7), obstacle(1.2), obstacle(2.0)}),
+              ElementsAre(1, -1));
+}
+
+TEST(Associator, LooksFartherForAnObstacleThatWasSeenOnce) {
+  EXPECT_THAT(associate({}, {at(0.38)}, {obstacle(0, 1)}), ElementsAre(0));
+  EXPECT_THAT(associate({}, {at(0.38)}, {obstacle(0, 2)}), ElementsAre(-1));
+  EXPECT_THAT(associate({}, {at(0.42)}, {obstacle(0, 1)}), ElementsAre(-1));
+}
+
+TEST(Associator, GivesEachObstacleToTheClosestDetectionOnly) {
+  // Both detections are closest to obstacle 1; the nearer one gets it, the other takes what is
+  // left.
+  EXPECT_THAT(associate({}, {at(1.2), at(1.05)}, {obstacle(1.4), obstacle(1.0)}),
+              ElementsAre(0, 1));
+  EXPECT_THAT(associate({}, {at(1.2), at(1.05)}, {obstacle(1.0)}), ElementsAre(-1, 0));
+}
+
+TEST(Associator, BreaksTiesByTheLowerIndex) {
+  EXPECT_THAT(associate({}, {at(0.1), at(0.1)}, {obstacle(0)}), ElementsAre(0, -1));
+  EXPECT_THAT(associate({}, {at(0)}, {obstacle(0.25), obstacle(-0.25)}), ElementsAre(0));
+}
+
+TEST(Associator, WidensTheSphereByTheUncertaintyTowardsTheDetection) {
+  PredictedObstacle uncertain = obstacle(0);
+  uncertain.P_W = Vector3d(0.3 * 0.3, 0.01 * 0.01, 0).asDiagonal();
+  AssociationConfig config;
+  EXPECT_THAT(associate(config, {at(0.6)}, {uncertain}), ElementsAre(-1));
+  config.widen_sigmas = 1;  // 0.65 m along x, 0.36 m along y
+  EXPECT_THAT(associate(config, {at(0.6)}, {uncertain}), ElementsAre(0));
+  EXPECT_THAT(associate(config, {at(0, 0.6)}, {uncertain}), ElementsAre(-1));
+}
+
+TEST(Associator, HasNothingToSayWithoutDetectionsOrObstacles) {
+  EXPECT_THAT(associate({}, {}, {obstacle(0)}), ElementsAre());
+  EXPECT_THAT(associate({}, {at(0), at(1)}, {}), ElementsAre(-1, -1));
+}
+
+TEST(Associator, IgnoresADetectionWithoutAPosition) {
+  EXPECT_THAT(associate({}, {at(std::nan("")), at(0.1)}, {obstacle(0)}), ElementsAre(-1, 0));
+}
+
+TEST(Associator, IsOneToOneAndLeavesNoPairThatWouldBothRatherHaveEachOther) {
+  Generator random(1);
+  const AssociationConfig config;
+  for (int k = 0; k < 300; ++k) {
+    std::vector<Detection> detections(random.bits() % 6);
+    std::vector<PredictedObstacle> obstacles(random.bits() % 6);
+    for (Detection& d : detections) d.centre_W = random.uniform_vector(-0.4, 0.4);
+    for (PredictedObstacle& o : obstacles) {
+      o.p_W = random.uniform_vector(-0.4, 0.4);
+      o.detections = 5;
+    }
+    const std::vector<int> result = associate(config, detections, obstacles);
+    const auto distance = [&](std::size_t d, std::size_t o) {
+      return (detections[d].centre_W - obstacles[o].p_W).norm();
+    };
+    std::vector<double> detection_has(detections.size(), 1e9), obstacle_has(obstacles.size(), 1e9);
+    std::multiset<int> used;
+    for (std::size_t d = 0; d < result.size(); ++d) {
+      if (result[d] < 0) continue;
+      const auto o = static_cast<std::size_t>(result[d]);
+      EXPECT_LE(distance(d, o), config.radius_m);
+      detection_has[d] = obstacle_has[o] = distance(d, o);
+      used.insert(result[d]);
+    }
+    EXPECT_EQ(used.size(), std::set<int>(used.begin(), used.end()).size());
+    for (std::size_t d = 0; d < detections.size(); ++d) {
+      for (std::size_t o = 0; o < obstacles.size(); ++o) {
+        if (distance(d, o) > config.radius_m) continue;
+        EXPECT_GE(distance(d, o), std::min(detection_has[d], obstacle_has[o]));
+      }
+    }
+  }
+}
+
+TEST(AssociationConfig, RefusesRadiiOfZero) {
+  const auto refused = [](auto change) {
+    AssociationConfig config;
+    change(config);
+    EXPECT_THROW(Associator{config}, std::invalid_argument);
+  };
+  refused([](AssociationConfig& c) { c.radius_m = 0; });
+  refused([](AssociationConfig& c) { c.first_radius_m = std::nan(""); });
+  refused([](AssociationConfig& c) { c.min_detections = 0; });
+  refused([](AssociationConfig& c) { c.widen_sigmas = -1; });
+}
+
+}  // namespace
+}  // namespace dodge
