@@ -30,21 +30,31 @@ void set_floats(GLuint program, const std::string& name, std::initializer_list<d
   }
 }
 
+LightCount count_lights(const SceneGeometry& scene) {
+  LightCount count;
+  for (const Light& light : scene.lights) ++(light.directional ? count.directional : count.lamps);
+  return count;
+}
+
 void set_lights(GLuint program, const SceneGeometry& scene) {
   set_floats(program, "u_ambient", {scene.ambient});
-  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    const Light& light = scene.lights[i];
+  int directional = 0, lamps = 0;
+  for (const Light& light : scene.lights) {
     std::string index = "[";
-    index.append(std::to_string(i)).append("]");
-    set_floats(program, "u_light_position" + index,
-               {light.position.x(), light.position.y(), light.position.z(),
-                light.directional ? 0.0 : 1.0});
-    set_floats(program, "u_light_direction" + index,
-               {light.direction.x(), light.direction.y(), light.direction.z(), light.cos_cutoff});
-    set_floats(
-        program, "u_light_falloff" + index,
-        {light.attenuation.x(), light.attenuation.y(), light.attenuation.z(), light.exponent});
-    set_floats(program, "u_light_intensity" + index, {light.ambient, light.diffuse});
+    index.append(std::to_string(light.directional ? directional++ : lamps++)).append("]");
+    const Eigen::Vector3d& beam = light.direction;
+    if (light.directional) {
+      set_floats(program, "u_beam" + index, {beam.x(), beam.y(), beam.z()});
+      set_floats(program, "u_intensity" + index, {light.ambient, light.diffuse});
+      continue;
+    }
+    const Eigen::Vector3d& p = light.position;
+    const Eigen::Vector3d& attenuation = light.attenuation;
+    set_floats(program, "u_lamp_position" + index, {p.x(), p.y(), p.z()});
+    set_floats(program, "u_lamp_axis" + index, {beam.x(), beam.y(), beam.z(), light.cos_cutoff});
+    set_floats(program, "u_lamp_falloff" + index,
+               {attenuation.x(), attenuation.y(), attenuation.z(), light.exponent});
+    set_floats(program, "u_lamp_intensity" + index, {light.ambient, light.diffuse});
   }
 }
 
@@ -136,9 +146,8 @@ VertexBuffer upload_vertices(const std::vector<Vertex>& vertices) {
 }
 
 GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene) {
-  const GLuint name =
-      link_program(triangle_vertex_shader(),
-                   triangle_fragment_shader(texture, static_cast<int>(scene.lights.size())));
+  const GLuint name = link_program(triangle_vertex_shader(count_lights(scene)),
+                                   triangle_fragment_shader(texture, count_lights(scene)));
   glUseProgram(name);
   set_lights(name, scene);
   return locate(name);
@@ -146,9 +155,8 @@ GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene)
 
 GlProgram make_primitive_program(mjtGeom type, TextureKind texture, const SceneGeometry& scene,
                                  const Intrinsics& intrinsics, const DepthRange& depth) {
-  const GLuint name =
-      link_program(primitive_vertex_shader(),
-                   primitive_fragment_shader(type, texture, static_cast<int>(scene.lights.size())));
+  const GLuint name = link_program(primitive_vertex_shader(),
+                                   primitive_fragment_shader(type, texture, count_lights(scene)));
   glUseProgram(name);
   set_lights(name, scene);
   set_camera(name, intrinsics);

@@ -252,7 +252,7 @@ void LuminanceRenderer::Impl::draw_primitive(std::size_t index) {
               static_cast<float>(surface.albedo * surface.emission));
   glUniform1i(program.id, primitive.object + 1);
   glUniform1f(program.margin, static_cast<float>(view.margin));
-  if (primitive.type == mjGEOM_ELLIPSOID) {
+  if (primitive.type != mjGEOM_BOX) {
     set_matrix(program.conic, view.conic);
     glUniform2f(program.conic_origin, static_cast<float>(view.conic_origin.x()),
                 static_cast<float>(view.conic_origin.y()));

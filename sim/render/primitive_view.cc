@@ -65,13 +65,21 @@ void bound_box(const Vector3d& half, const Eigen::Isometry3d& X_CG, const Intrin
   bounds.y1 = std::min(bounds.y1, clamp_to(std::ceil(high.y()), intrinsics.height) + kMarginPx);
 }
 
-// Rays d = (x, y, 1) columns hit the unit sphere seen from `eye` where d.d - |eye x d|^2 >= 0.
-Matrix3d outline_conic(const Vector3d& eye, const Matrix3d& ray_of_pixel) {
-  Matrix3d cross;
-  cross << 0, -eye.z(), eye.y(), eye.z(), 0, -eye.x(), -eye.y(), eye.x(), 0;
-  const Matrix3d form = Matrix3d::Identity() - cross.transpose() * cross;
-  const Matrix3d conic = ray_of_pixel.transpose() * form * ray_of_pixel;
-  return conic / conic.cwiseAbs().maxCoeff();
+// Quadratic form in the ray d that is positive where the ray hits: an ellipsoid, d.d - |eye x d|^2
+// in coordinates in which it is the unit sphere; a cylinder, the same across its axis.
+Matrix3d outline_form(const Primitive& primitive, const Vector3d& eye) {
+  if (primitive.type == mjGEOM_ELLIPSOID) {
+    const Vector3d scale = primitive.size.cwiseInverse();
+    const Vector3d e = scale.cwiseProduct(eye);
+    Matrix3d cross;
+    cross << 0, -e.z(), e.y(), e.z(), 0, -e.x(), -e.y(), e.x(), 0;
+    const Matrix3d form = Matrix3d::Identity() - cross.transpose() * cross;
+    return scale.asDiagonal() * form * scale.asDiagonal();
+  }
+  const double radius = primitive.size.x();
+  const Vector3d moment(-eye.y(), eye.x(), 0);
+  return Vector3d(radius * radius, radius * radius, 0).asDiagonal().toDenseMatrix() -
+         moment * moment.transpose();
 }
 
 bool camera_inside(const Primitive& primitive, const Vector3d& eye) {
@@ -112,17 +120,17 @@ PrimitiveView view_primitive(const Primitive& primitive, const Eigen::Isometry3d
   bound_box(half, X_GC.inverse(), intrinsics, near_m, view.bounds);
   // Half a pixel's diagonal, at the far side of the solid.
   view.margin = 0.75 * (center_C.z() + radius) / intrinsics.f;
-  if (primitive.type == mjGEOM_ELLIPSOID) {
-    view.conic_origin = {intrinsics.cx(), intrinsics.cy()};
-    if (center_C.z() > radius) view.conic_origin = intrinsics.project(center_C);
-    Matrix3d ray_of_pixel = Matrix3d::Identity();
-    ray_of_pixel.diagonal().head<2>().setConstant(1.0 / intrinsics.f);
-    ray_of_pixel(0, 2) = (view.conic_origin.x() - intrinsics.cx()) / intrinsics.f;
-    ray_of_pixel(1, 2) = (view.conic_origin.y() - intrinsics.cy()) / intrinsics.f;
-    const Vector3d inverse_size = primitive.size.cwiseInverse();
-    view.conic = outline_conic(inverse_size.cwiseProduct(view.eye_G),
-                               inverse_size.asDiagonal() * view.R_GC * ray_of_pixel);
-  }
+  if (primitive.type == mjGEOM_BOX) return view;
+
+  view.conic_origin = {intrinsics.cx(), intrinsics.cy()};
+  if (center_C.z() > radius) view.conic_origin = intrinsics.project(center_C);
+  Matrix3d ray_of_pixel = Matrix3d::Identity();
+  ray_of_pixel.diagonal().head<2>().setConstant(1.0 / intrinsics.f);
+  ray_of_pixel(0, 2) = (view.conic_origin.x() - intrinsics.cx()) / intrinsics.f;
+  ray_of_pixel(1, 2) = (view.conic_origin.y() - intrinsics.cy()) / intrinsics.f;
+  const Matrix3d ray_G = view.R_GC * ray_of_pixel;
+  view.conic = ray_G.transpose() * outline_form(primitive, view.eye_G) * ray_G;
+  view.conic /= view.conic.cwiseAbs().maxCoeff();
   return view;
 }
 

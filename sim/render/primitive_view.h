@@ -15,8 +15,9 @@ struct PrimitiveView {
   Eigen::Matrix3d R_GC;   // rotates camera rays into the geom's frame G
   Eigen::Vector3d eye_G;  // camera centre in G [m]
   double margin;          // a ray that misses the solid by more leaves its pixel uncovered [m]
-  // Ellipsoids: outline, {(x, y, 1) conic (x, y, 1)^T = 0}, positive inside, where (x, y) are pixel
-  // coordinates relative to conic_origin.
+  // Outline of an ellipsoid or of the endless cylinder around a cylinder's or capsule's side: {(x,
+  // y, 1) conic (x, y, 1)^T = 0}, positive inside, where (x, y) are pixel coordinates relative to
+  // conic_origin.
   Eigen::Matrix3d conic;
   Eigen::Vector2d conic_origin;
 };

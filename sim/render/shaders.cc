@@ -11,39 +11,49 @@ namespace {
 
 constexpr const char* kVersion = "#version 330 core\n";
 
-// Diffuse light on a surface point, in units of a white surface under full light.
-constexpr const char* kLighting = R"(
+// Diffuse light on a surface point, in units of a white surface under full light. Directional
+// lights and the ambient depend on the normal alone: flat faces get them once per vertex.
+constexpr const char* kDistantLight = R"(
 uniform float u_ambient;
-#if LIGHTS > 0
-uniform vec4 u_light_position[LIGHTS];   // W; w = 1 if positional, 0 if directional
-uniform vec4 u_light_direction[LIGHTS];  // beam in W; w = cosine of the cut-off angle
-uniform vec4 u_light_falloff[LIGHTS];    // attenuation 1, d, d^2; w = spot exponent
-uniform vec2 u_light_intensity[LIGHTS];  // ambient, diffuse
+#if DIRECTIONAL > 0
+uniform vec3 u_beam[DIRECTIONAL];       // unit vector in W
+uniform vec2 u_intensity[DIRECTIONAL];  // ambient, diffuse
 #endif
-
-float irradiance(vec3 p_W, vec3 n_W) {
+float distant_light(vec3 n_W) {
   float sum = u_ambient;
-#if LIGHTS > 0
-  for (int i = 0; i < LIGHTS; ++i) {
-    vec3 beam = u_light_direction[i].xyz;
-    float strength = 1.0;
-    if (u_light_position[i].w != 0.0) {
-      vec3 ray = p_W - u_light_position[i].xyz;
-      float d = length(ray);
-      vec3 axis = beam;
-      beam = ray / d;
-      vec4 falloff = u_light_falloff[i];
-      strength = 1.0 / (falloff.x + d * (falloff.y + d * falloff.z));
-      float c = dot(beam, axis);
-      if (c < u_light_direction[i].w) strength = 0.0;
-      else if (falloff.w != 0.0) strength *= pow(max(c, 0.0), falloff.w);
-    }
-    sum += strength * (u_light_intensity[i].x +
-                       u_light_intensity[i].y * max(0.0, -dot(n_W, beam)));
+#if DIRECTIONAL > 0
+  for (int i = 0; i < DIRECTIONAL; ++i) {
+    sum += u_intensity[i].x + u_intensity[i].y * max(0.0, -dot(n_W, u_beam[i]));
   }
 #endif
   return sum;
 }
+)";
+
+constexpr const char* kLamps = R"(
+#if LAMPS > 0
+uniform vec3 u_lamp_position[LAMPS];   // W
+uniform vec4 u_lamp_axis[LAMPS];       // beam in W; w = cosine of the cut-off angle
+uniform vec4 u_lamp_falloff[LAMPS];    // attenuation 1, d, d^2; w = spot exponent
+uniform vec2 u_lamp_intensity[LAMPS];  // ambient, diffuse
+float lamp_light(vec3 p_W, vec3 n_W) {
+  float sum = 0.0;
+  for (int i = 0; i < LAMPS; ++i) {
+    vec3 ray = p_W - u_lamp_position[i];
+    float d = length(ray);
+    ray /= d;
+    vec4 falloff = u_lamp_falloff[i];
+    float strength = 1.0 / (falloff.x + d * (falloff.y + d * falloff.z));
+    float c = dot(ray, u_lamp_axis[i].xyz);
+    if (c < u_lamp_axis[i].w) strength = 0.0;
+    else if (falloff.w != 0.0) strength *= pow(max(c, 0.0), falloff.w);
+    sum += strength * (u_lamp_intensity[i].x + u_lamp_intensity[i].y * max(0.0, -dot(n_W, ray)));
+  }
+  return sum;
+}
+#else
+float lamp_light(vec3 p_W, vec3 n_W) { return 0.0; }
+#endif
 )";
 
 constexpr const char* kTexel = R"(
@@ -66,29 +76,42 @@ layout(location = 3) in vec2 albedo_emission;
 uniform mat4 u_clip_from_G;
 uniform mat4 u_X_WG;
 uniform vec3 u_texture_shift;
+out vec3 texture_at;
+out float lit;  // under ambient and distant lights
+#if LAMPS > 0
 out vec3 p_W;
 out vec3 n_W;
-out vec3 texture_at;
-flat out vec2 reflect_emit;
+flat out float albedo;
+#endif
 void main() {
   gl_Position = u_clip_from_G * vec4(position, 1.0);
-  p_W = (u_X_WG * vec4(position, 1.0)).xyz;
-  n_W = mat3(u_X_WG) * normal;
+  vec3 normal_W = mat3(u_X_WG) * normal;
+  lit = albedo_emission.x * distant_light(normal_W) + albedo_emission.y;
   texture_at = texture_coordinate + u_texture_shift;
-  reflect_emit = albedo_emission;
+#if LAMPS > 0
+  p_W = (u_X_WG * vec4(position, 1.0)).xyz;
+  n_W = normal_W;
+  albedo = albedo_emission.x;
+#endif
 }
 )";
 
 constexpr const char* kTriangleFragment = R"(
+in vec3 texture_at;
+in float lit;
+#if LAMPS > 0
 in vec3 p_W;
 in vec3 n_W;
-in vec3 texture_at;
-flat in vec2 reflect_emit;
+flat in float albedo;
+#endif
 uniform int u_id;
 layout(location = 0) out vec4 luminance;
 layout(location = 1) out int id;
 void main() {
-  float light = reflect_emit.x * irradiance(p_W, normalize(n_W)) + reflect_emit.y;
+  float light = lit;
+#if LAMPS > 0
+  light += albedo * lamp_light(p_W, normalize(n_W));
+#endif
   luminance = vec4(texel(texture_at) * light, 0.0, 0.0, 1.0);
   id = u_id;
 }
@@ -121,8 +144,10 @@ layout(location = 1) out int id;
 vec3 ray_G(vec2 pixel) { return u_R_GC * vec3((pixel - u_camera.yz) / u_camera.x, 1.0); }
 
 float shade(vec3 p_G, vec3 n_G) {
-  float light = u_albedo_emission.x * irradiance((u_X_WG * vec4(p_G, 1.0)).xyz,
-                                                 mat3(u_X_WG) * n_G) + u_albedo_emission.y;
+  vec3 n_W = mat3(u_X_WG) * n_G;
+  float light = u_albedo_emission.x *
+                (distant_light(n_W) + lamp_light((u_X_WG * vec4(p_G, 1.0)).xyz, n_W)) +
+                u_albedo_emission.y;
   return light * texel(p_G * u_texture_scale + u_texture_offset);
 }
 
@@ -134,13 +159,14 @@ void write(float value, float coverage, float z_C) {
 }
 )";
 
-// The outline of an ellipsoid is a conic: the zero set of a quadratic form in pixel coordinates.
-constexpr const char* kEllipsoid = R"(
+// The outline of an ellipsoid, and that of an endless cylinder, is a conic: the zero set of a
+// quadratic form in pixel coordinates.
+constexpr const char* kConic = R"(
 uniform mat3 u_conic;        // quadratic form in (x - origin.x, y - origin.y, 1), positive inside
 uniform vec2 u_conic_origin; // [px]
 
-// Part of the unit square that lies on the inner side of a line at the signed distance s from its
-// centre (positive: centre inside); n: unit normal of the line.
+// Part of a square of the given width that lies on the inner side of a line at the signed distance
+// s from its centre (positive: centre inside); n: unit normal of the line.
 float half_plane_coverage(float s, vec2 n, float width) {
   float a = max(abs(n.x), abs(n.y)), b = min(abs(n.x), abs(n.y));
   float d = abs(s) / width;
@@ -164,7 +190,8 @@ float conic_distance(vec2 at, out vec2 n) {
   return 2.0 * g / max(steepness + root, 1e-30);
 }
 
-float ellipse_coverage(vec2 at) {
+// Of the pixel at `at`, relative to the origin of the conic.
+float conic_coverage(vec2 at) {
   vec2 n;
   float s = conic_distance(at, n);
   const float kFar = 1.0;  // [px], more than half a pixel's diagonal
@@ -179,7 +206,9 @@ float ellipse_coverage(vec2 at) {
   }
   return sum / float(kParts * kParts);
 }
+)";
 
+constexpr const char* kEllipsoid = R"(
 void main() {
   vec2 pixel = gl_FragCoord.xy - 0.5;
   vec3 d = ray_G(pixel) / u_size;
@@ -187,7 +216,7 @@ void main() {
   float a = dot(d, d), b = dot(eye, d);
   vec3 moment = cross(eye, d);
   float discriminant = a - dot(moment, moment);  // well conditioned far away
-  float coverage = ellipse_coverage(pixel - u_conic_origin);
+  float coverage = conic_coverage(pixel - u_conic_origin);
   if (u_hard) coverage = discriminant >= 0.0 ? 1.0 : 0.0;
   float t = (-b - sqrt(max(discriminant, 0.0))) / a;  // a ray that misses: its closest approach
   vec3 on_unit = eye + t * d;
@@ -199,8 +228,8 @@ void main() {
 
 // Solids with several faces. intersect(): whether a ray hits the solid of the given size, where and
 // on which face. Part of the pixel covered by each face: all of it if centre and corners hit one
-// face, none if the ray misses a slightly larger solid, else counted with 64 rays, no two of which
-// share a column or a row.
+// face, none if the ray misses a slightly larger solid, else analytic where the pixel sees only the
+// round side of the solid, else counted with 64 rays, no two of which share a column or a row.
 constexpr const char* kSampled = R"(
 uniform float u_margin;  // [m]
 
@@ -208,6 +237,20 @@ vec3 face_coverage(vec2 pixel, inout float t) {
   vec3 count = vec3(0.0);
   float t_ray;
   int face, face_ray;
+#ifdef ROUND_SIDE
+  // All of it lies within the outline of its endless cylinder; far inside that and far from the
+  // ends, one look is enough.
+  on_side(ray_G(pixel), t);
+  float z = u_eye_G.z + t * ray_G(pixel).z;
+  float z_change = fwidth(z);
+  vec2 n;
+  float s = conic_distance(pixel - u_conic_origin, n);
+  if (s < -1.0) return count;
+  if (s > 1.0 && t > 0.0 && abs(z) + z_change < u_size.z) {
+    count[0] = 1.0;
+    return count;
+  }
+#endif
   if (!intersect(ray_G(pixel), u_size + u_margin, t_ray, face)) return count;
   bool center_hit = intersect(ray_G(pixel), u_size, t_ray, face);
   if (center_hit) {
@@ -222,6 +265,17 @@ vec3 face_coverage(vec2 pixel, inout float t) {
       return count;
     }
   }
+#ifdef ROUND_SIDE
+  bool side_only = true;
+  for (int i = 0; i < 4; ++i) {
+    side_only = on_side(ray_G(pixel + vec2(i & 1, i >> 1) - 0.5), t_ray) && side_only;
+  }
+  if (side_only) {
+    if (!center_hit) on_side(ray_G(pixel), t);
+    count[0] = conic_coverage(pixel - u_conic_origin);
+    return count;
+  }
+#endif
   const int kRays = 64;
   for (int i = 0; i < kRays; ++i) {
     int r = ((i & 1) << 5) | ((i & 2) << 3) | ((i & 4) << 1) | ((i & 8) >> 1) | ((i & 16) >> 3) |
@@ -274,12 +328,18 @@ float shade_face(vec3 d, int k) {
 )";
 
 // Squared sine of the angle between ray and axis, times |d|^2; never 0.
-constexpr const char* kAroundAxis = R"(
+constexpr const char* kRoundSide = R"(
+#define ROUND_SIDE
 float across(vec3 d) { return max(dot(d.xy, d.xy), 1e-12 * dot(d, d)); }
 // Positive where the ray hits the endless cylinder of that radius around z.
 float reach(vec3 d, float radius) {
   float moment = u_eye_G.x * d.y - u_eye_G.y * d.x;
   return radius * radius * across(d) - moment * moment;
+}
+// Whether the ray meets, or passes closest to, the round side between its ends, and where.
+bool on_side(vec3 d, out float t) {
+  t = (-dot(u_eye_G.xy, d.xy) - sqrt(max(reach(d, u_size.x), 0.0))) / across(d);
+  return t > 0.0 && abs(u_eye_G.z + t * d.z) <= u_size.z;
 }
 )";
 
@@ -363,9 +423,15 @@ void main() {
 }
 )";
 
-std::string header(TextureKind texture, int light_count) {
-  return std::string(kVersion) + "#define TEXTURE " + std::to_string(static_cast<int>(texture)) +
-         "\n#define LIGHTS " + std::to_string(light_count) + "\n";
+std::string header(TextureKind texture, const LightCount& lights) {
+  std::string text = kVersion;
+  const auto define = [&text](const char* name, int value) {
+    text.append("#define ").append(name).append(" ").append(std::to_string(value)).append("\n");
+  };
+  define("TEXTURE", static_cast<int>(texture));
+  define("DIRECTIONAL", lights.directional);
+  define("LAMPS", lights.lamps);
+  return text;
 }
 
 GLuint compile(GLenum stage, const std::string& source) {
@@ -385,23 +451,26 @@ GLuint compile(GLenum stage, const std::string& source) {
 
 }  // namespace
 
-std::string triangle_vertex_shader() { return std::string(kVersion) + kTriangleVertex; }
+std::string triangle_vertex_shader(const LightCount& lights) {
+  return header(TextureKind::kNone, lights) + kDistantLight + kTriangleVertex;
+}
 
-std::string triangle_fragment_shader(TextureKind texture, int light_count) {
-  return header(texture, light_count) + kLighting + kTexel + kTriangleFragment;
+std::string triangle_fragment_shader(TextureKind texture, const LightCount& lights) {
+  return header(texture, lights) + kLamps + kTexel + kTriangleFragment;
 }
 
 std::string primitive_vertex_shader() { return std::string(kVersion) + kPrimitiveVertex; }
 
-std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, int light_count) {
-  const std::string common = header(texture, light_count) + kLighting + kTexel + kPrimitiveCommon;
+std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, const LightCount& lights) {
+  const std::string common =
+      header(texture, lights) + kDistantLight + kLamps + kTexel + kPrimitiveCommon;
   switch (type) {
     case mjGEOM_ELLIPSOID:
-      return common + kEllipsoid;
+      return common + kConic + kEllipsoid;
     case mjGEOM_CAPSULE:
-      return common + kAroundAxis + kCapsule + kSampled;
+      return common + kConic + kRoundSide + kCapsule + kSampled;
     case mjGEOM_CYLINDER:
-      return common + kAroundAxis + kCylinder + kSampled;
+      return common + kConic + kRoundSide + kCylinder + kSampled;
     default:
       return common + kBox + kSampled;
   }
@@ -410,7 +479,7 @@ std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, int lig
 std::string sky_vertex_shader() { return std::string(kVersion) + kSkyVertex; }
 
 std::string sky_fragment_shader(TextureKind texture) {
-  return header(texture, 0) + kTexel + kSkyFragment;
+  return header(texture, {}) + kTexel + kSkyFragment;
 }
 
 unsigned link_program(const std::string& vertex, const std::string& fragment) {

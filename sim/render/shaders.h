@@ -7,15 +7,20 @@
 
 namespace dodgesim {
 
+struct LightCount {
+  int directional = 0;
+  int lamps = 0;  // lights with a position
+};
+
 enum class TextureKind { kNone, k2d, kCube };
 
 // The sources assume that GL's window rows run from the top of the image down: gl_FragCoord.xy is
 // the pixel position plus (0.5, 0.5). Output 0: luminance (and coverage as alpha), output 1: id.
-std::string triangle_vertex_shader();
-std::string triangle_fragment_shader(TextureKind texture, int light_count);
+std::string triangle_vertex_shader(const LightCount& lights);
+std::string triangle_fragment_shader(TextureKind texture, const LightCount& lights);
 std::string primitive_vertex_shader();
 // type: mjGEOM_ELLIPSOID, mjGEOM_CAPSULE, mjGEOM_CYLINDER or mjGEOM_BOX.
-std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, int light_count);
+std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, const LightCount& lights);
 std::string sky_vertex_shader();
 std::string sky_fragment_shader(TextureKind texture);
 
