@@ -92,12 +92,14 @@ def main():
     root = pathlib.Path(__file__).resolve().parent.parent
     out = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else root / "models" / "textures"
     out.mkdir(parents=True, exist_ok=True)
-    write_png(out / "wall.png", dead_leaves(1, 0.15, 0.90, 0.06, upright=0.9, leaves=6000))
-    write_png(out / "panel.png", dead_leaves(2, 0.10, 0.80, 0.08, upright=1.0, leaves=4000))
-    write_png(out / "floor.png", dead_leaves(3, 0.08, 0.70, 0.05, upright=0.3, leaves=9000))
-    write_png(out / "ceiling.png", dead_leaves(4, 0.35, 0.90, 0.10, upright=1.0, leaves=3000))
-    write_png(out / "print.png", dead_leaves(5, 0.05, 0.90, 0.03, upright=0.6, leaves=900, texels=128))
-    write_png(out / "ground.png", dead_leaves(6, 0.05, 0.50, 0.03, upright=0.0, leaves=20000))
+    # Painted walls, floor and ceiling differ little from place to place; prints (books, pictures,
+    # boxes) carry the strong edges, as in a real room.
+    write_png(out / "wall.png", dead_leaves(1, 0.50, 0.75, 0.10, upright=0.9, leaves=2500))
+    write_png(out / "panel.png", dead_leaves(2, 0.40, 0.65, 0.12, upright=1.0, leaves=2000))
+    write_png(out / "floor.png", dead_leaves(3, 0.25, 0.40, 0.08, upright=0.3, leaves=4000))
+    write_png(out / "ceiling.png", dead_leaves(4, 0.70, 0.88, 0.15, upright=1.0, leaves=1500))
+    write_png(out / "print.png", dead_leaves(5, 0.10, 0.80, 0.06, upright=0.6, leaves=400, texels=128))
+    write_png(out / "ground.png", dead_leaves(6, 0.12, 0.30, 0.05, upright=0.0, leaves=12000))
 
 
 if __name__ == "__main__":
