@@ -24,6 +24,8 @@ TEST(Packetizer, APacketHoldsTheEventsUpToAndIncludingItsEnd) {
   EXPECT_EQ(second->end_us, 2000);
   EXPECT_EQ(second->events.size(), 2u);
   EXPECT_FALSE(packets.take());
+  packets.push(std::vector<Event>{at(3000)}, 3000);
+  EXPECT_EQ(packets.take()->end_us, 3000);
 }
 
 TEST(Packetizer, APacketCannotBeTakenBeforeAllItsEventsAreKnown) {
