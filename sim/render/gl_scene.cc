@@ -77,7 +77,6 @@ GlProgram locate(GLuint name) {
   p.texture_scale = at("u_texture_scale");
   p.texture_offset = at("u_texture_offset");
   p.albedo_emission = at("u_albedo_emission");
-  p.hard = at("u_hard");
   p.margin = at("u_margin");
   p.conic = at("u_conic");
   p.conic_origin = at("u_conic_origin");
@@ -153,10 +152,12 @@ GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene)
   return locate(name);
 }
 
-GlProgram make_primitive_program(mjtGeom type, TextureKind texture, const SceneGeometry& scene,
-                                 const Intrinsics& intrinsics, const DepthRange& depth) {
-  const GLuint name = link_program(primitive_vertex_shader(),
-                                   primitive_fragment_shader(type, texture, count_lights(scene)));
+GlProgram make_primitive_program(mjtGeom type, TextureKind texture, bool hard,
+                                 const SceneGeometry& scene, const Intrinsics& intrinsics,
+                                 const DepthRange& depth) {
+  const GLuint name =
+      link_program(primitive_vertex_shader(),
+                   primitive_fragment_shader(type, texture, count_lights(scene), hard));
   glUseProgram(name);
   set_lights(name, scene);
   set_camera(name, intrinsics);

@@ -21,7 +21,7 @@ struct DepthRange {
 struct GlProgram {
   unsigned name = 0;
   int clip_from_G, X_WG, texture_shift, id;  // triangles (and primitives)
-  int rectangle, R_GC, eye_G, size, texture_scale, texture_offset, albedo_emission, hard, margin;
+  int rectangle, R_GC, eye_G, size, texture_scale, texture_offset, albedo_emission, margin;
   int conic, conic_origin;  // ellipsoids
   int R_WC;                 // sky
 };
@@ -36,8 +36,9 @@ VertexBuffer upload_vertices(const std::vector<Vertex>& vertices);
 
 // Links a program and sets the uniforms that never change: lights, camera, depth range.
 GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene);
-GlProgram make_primitive_program(mjtGeom type, TextureKind texture, const SceneGeometry& scene,
-                                 const Intrinsics& intrinsics, const DepthRange& depth);
+GlProgram make_primitive_program(mjtGeom type, TextureKind texture, bool hard,
+                                 const SceneGeometry& scene, const Intrinsics& intrinsics,
+                                 const DepthRange& depth);
 GlProgram make_sky_program(TextureKind texture, const Intrinsics& intrinsics, double luminance);
 
 // Off-screen image: luminance (R32F), ids (R32I), depth. Binding one of the two framebuffers

@@ -89,6 +89,8 @@ class LuminanceRenderer::Impl {
   void draw_unbounded(const Eigen::Vector3d& eye_W);
   void draw_sky(const Eigen::Isometry3d& X_WC);
   void draw_primitives(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region);
+  void set_outline(const GlProgram& program, const Primitive& primitive,
+                   const PrimitiveView& view) const;
   void draw_primitive(std::size_t index);
 
   Intrinsics intrinsics_;
@@ -102,6 +104,7 @@ class LuminanceRenderer::Impl {
   unsigned no_vertices_ = 0;
   std::array<GlProgram, kTextureKinds> triangle_programs_;
   std::array<std::array<GlProgram, kTextureKinds>, std::size(kPrimitiveTypes)> primitive_programs_;
+  std::array<GlProgram, std::size(kPrimitiveTypes)> hard_programs_;
   GlProgram sky_program_;
 
   // Of the frame being drawn.
@@ -159,7 +162,12 @@ void LuminanceRenderer::Impl::make_programs() {
     GlProgram& program =
         primitive_programs_[type_index(primitive.type)][static_cast<std::size_t>(kind)];
     if (!program.name) {
-      program = make_primitive_program(primitive.type, kind, scene_, intrinsics_, depth_);
+      program = make_primitive_program(primitive.type, kind, false, scene_, intrinsics_, depth_);
+    }
+    GlProgram& hard = hard_programs_[type_index(primitive.type)];
+    if (!hard.name) {
+      hard = make_primitive_program(primitive.type, TextureKind::kNone, true, scene_, intrinsics_,
+                                    depth_);
     }
   }
   const bool has_sky = scene_.sky_texture >= 0;
@@ -228,13 +236,9 @@ void LuminanceRenderer::Impl::draw_sky(const Eigen::Isometry3d& X_WC) {
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-void LuminanceRenderer::Impl::draw_primitive(std::size_t index) {
-  const Primitive& primitive = scene_.primitives[index];
-  const PrimitiveView& view = views_[index];
-  const Surface& surface = primitive.surface;
-  const GlProgram& program =
-      primitive_programs_[type_index(primitive.type)]
-                         [static_cast<std::size_t>(kind_of(surface.texture))];
+// Where a program sends what it shares with its hard twin.
+void LuminanceRenderer::Impl::set_outline(const GlProgram& program, const Primitive& primitive,
+                                          const PrimitiveView& view) const {
   glUseProgram(program.name);
   const auto clip = [](int pixel, int size) {
     return 2.0f * static_cast<float>(pixel) / static_cast<float>(size) - 1.0f;
@@ -244,27 +248,37 @@ void LuminanceRenderer::Impl::draw_primitive(std::size_t index) {
               clip(view.bounds.y1, intrinsics_.height));
   set_matrix(program.R_GC, view.R_GC);
   set_vector(program.eye_G, view.eye_G);
-  set_matrix(program.X_WG, primitive_poses_[index].matrix());
   set_vector(program.size, primitive.size);
+  glUniform1i(program.id, primitive.object + 1);
+}
+
+void LuminanceRenderer::Impl::draw_primitive(std::size_t index) {
+  const Primitive& primitive = scene_.primitives[index];
+  const PrimitiveView& view = views_[index];
+  const Surface& surface = primitive.surface;
+  const std::size_t type = type_index(primitive.type);
+  const GlProgram& program =
+      primitive_programs_[type][static_cast<std::size_t>(kind_of(surface.texture))];
+  set_outline(program, primitive, view);
+  glUniform1f(program.margin, static_cast<float>(view.margin));
+  set_matrix(program.X_WG, primitive_poses_[index].matrix());
   set_vector(program.texture_scale, surface.texture_scale);
   set_vector(program.texture_offset, surface.texture_offset);
   glUniform2f(program.albedo_emission, static_cast<float>(surface.albedo),
               static_cast<float>(surface.albedo * surface.emission));
-  glUniform1i(program.id, primitive.object + 1);
-  glUniform1f(program.margin, static_cast<float>(view.margin));
   if (primitive.type != mjGEOM_BOX) {
     set_matrix(program.conic, view.conic);
     glUniform2f(program.conic_origin, static_cast<float>(view.conic_origin.x()),
                 static_cast<float>(view.conic_origin.y()));
   }
   bind_texture(surface.texture);
-  // Blend by coverage; then write depth and id where the pixel's centre is hit.
-  glUniform1i(program.hard, 0);
   glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
   glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  glUniform1i(program.hard, 1);
+
+  // Depth and id where the pixel's centre is hit, for what is drawn later.
+  set_outline(hard_programs_[type], primitive, view);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);

@@ -137,7 +137,6 @@ uniform vec3 u_texture_scale;
 uniform vec3 u_texture_offset;
 uniform vec2 u_albedo_emission;
 uniform int u_id;
-uniform bool u_hard;        // one sample at the pixel centre, for ids and depth
 layout(location = 0) out vec4 luminance;
 layout(location = 1) out int id;
 
@@ -150,6 +149,9 @@ float shade(vec3 p_G, vec3 n_G) {
                 u_albedo_emission.y;
   return light * texel(p_G * u_texture_scale + u_texture_offset);
 }
+
+// llvmpipe computes both sides of every branch; only loops end early. Hence the loops below that run
+// 0 or n times.
 
 // The ray's parameter is its depth z_C, because ray_G has z_C = 1.
 void write(float value, float coverage, float z_C) {
@@ -194,17 +196,18 @@ float conic_distance(vec2 at, out vec2 n) {
 float conic_coverage(vec2 at) {
   vec2 n;
   float s = conic_distance(at, n);
-  const float kFar = 1.0;  // [px], more than half a pixel's diagonal
-  if (abs(s) > kFar) return s > 0.0 ? 1.0 : 0.0;
   // Straight pieces a quarter of a pixel long follow also a small, strongly bent outline.
-  const int kParts = 4;
+  const int kPieces = 4;
+  const float kFar = 1.0;  // [px], more than half a pixel's diagonal
+  int pieces = abs(s) > kFar ? 0 : kPieces * kPieces;
   float sum = 0.0;
-  for (int i = 0; i < kParts * kParts; ++i) {
-    vec2 offset = (vec2(i % kParts, i / kParts) + 0.5) / float(kParts) - 0.5;
-    s = conic_distance(at + offset, n);
-    sum += half_plane_coverage(s, n, 1.0 / float(kParts));
+  for (int i = 0; i < pieces; ++i) {
+    vec2 offset = (vec2(i % kPieces, i / kPieces) + 0.5) / float(kPieces) - 0.5;
+    float s_piece = conic_distance(at + offset, n);
+    sum += half_plane_coverage(s_piece, n, 1.0 / float(kPieces));
   }
-  return sum / float(kParts * kParts);
+  if (pieces == 0) return s > 0.0 ? 1.0 : 0.0;
+  return sum / float(kPieces * kPieces);
 }
 )";
 
@@ -215,12 +218,15 @@ void main() {
   vec3 eye = u_eye_G / u_size;
   float a = dot(d, d), b = dot(eye, d);
   vec3 moment = cross(eye, d);
-  float discriminant = a - dot(moment, moment);  // well conditioned far away
+  float square = a - dot(moment, moment);  // well conditioned far away
+  float t = (-b - sqrt(max(square, 0.0))) / a;  // a ray that misses: its closest approach
+#if HARD
+  float coverage = square >= 0.0 ? 1.0 : 0.0, value = 0.0;
+#else
   float coverage = conic_coverage(pixel - u_conic_origin);
-  if (u_hard) coverage = discriminant >= 0.0 ? 1.0 : 0.0;
-  float t = (-b - sqrt(max(discriminant, 0.0))) / a;  // a ray that misses: its closest approach
   vec3 on_unit = eye + t * d;
   float value = shade(on_unit * u_size, normalize(on_unit / u_size));
+#endif
   if (coverage == 0.0 || t <= 0.0) discard;
   write(value, coverage, t);
 }
@@ -233,56 +239,48 @@ void main() {
 constexpr const char* kSampled = R"(
 uniform float u_margin;  // [m]
 
-vec3 face_coverage(vec2 pixel, inout float t) {
+#if HARD
+void main() {
+  float t;
+  int face;
+  if (!intersect(ray_G(gl_FragCoord.xy - 0.5), u_size, t, face)) discard;
+  write(0.0, 1.0, t);
+}
+#else
+vec3 face_coverage(vec2 pixel, out float t) {
   vec3 count = vec3(0.0);
   float t_ray;
   int face, face_ray;
+  bool close = intersect(ray_G(pixel), u_size + u_margin, t, face);
+  bool center_hit = intersect(ray_G(pixel), u_size, t, face);
+  bool one_face = center_hit;
+  bool side_only = false;
 #ifdef ROUND_SIDE
-  // All of it lies within the outline of its endless cylinder; far inside that and far from the
-  // ends, one look is enough.
-  on_side(ray_G(pixel), t);
-  float z = u_eye_G.z + t * ray_G(pixel).z;
-  float z_change = fwidth(z);
-  vec2 n;
-  float s = conic_distance(pixel - u_conic_origin, n);
-  if (s < -1.0) return count;
-  if (s > 1.0 && t > 0.0 && abs(z) + z_change < u_size.z) {
-    count[0] = 1.0;
-    return count;
-  }
+  on_side(ray_G(pixel), t_ray);
+  if (!center_hit) t = t_ray;
+  side_only = close;
 #endif
-  if (!intersect(ray_G(pixel), u_size + u_margin, t_ray, face)) return count;
-  bool center_hit = intersect(ray_G(pixel), u_size, t_ray, face);
-  if (center_hit) {
-    t = t_ray;
-    bool same = true;
-    for (int i = 0; i < 4; ++i) {
-      vec2 corner = vec2(i & 1, i >> 1) - 0.5;
-      same = intersect(ray_G(pixel + corner), u_size, t_ray, face_ray) && face_ray == face && same;
-    }
-    if (same) {
-      count[face] = 1.0;
-      return count;
-    }
-  }
+  int corners = close ? 4 : 0;
+  for (int i = 0; i < corners; ++i) {
+    vec3 corner = ray_G(pixel + vec2(i & 1, i >> 1) - 0.5);
+    one_face = intersect(corner, u_size, t_ray, face_ray) && face_ray == face && one_face;
 #ifdef ROUND_SIDE
-  bool side_only = true;
-  for (int i = 0; i < 4; ++i) {
-    side_only = on_side(ray_G(pixel + vec2(i & 1, i >> 1) - 0.5), t_ray) && side_only;
+    side_only = on_side(corner, t_ray) && side_only;
+#endif
   }
-  if (side_only) {
-    if (!center_hit) on_side(ray_G(pixel), t);
-    count[0] = conic_coverage(pixel - u_conic_origin);
-    return count;
-  }
+  if (one_face) count[face] = 1.0;
+#ifdef ROUND_SIDE
+  float side = conic_coverage(pixel - u_conic_origin);
+  if (side_only && !one_face) count[0] = side;
 #endif
   const int kRays = 64;
-  for (int i = 0; i < kRays; ++i) {
+  int rays = close && !one_face && !side_only ? kRays : 0;
+  for (int i = 0; i < rays; ++i) {
     int r = ((i & 1) << 5) | ((i & 2) << 3) | ((i & 4) << 1) | ((i & 8) >> 1) | ((i & 16) >> 3) |
             ((i & 32) >> 5);
     vec2 offset = (vec2(i, r) + 0.5) / float(kRays) - 0.5;
-    if (intersect(ray_G(pixel + offset), u_size, t_ray, face)) {
-      count[face] += 1.0 / float(kRays);
+    if (intersect(ray_G(pixel + offset), u_size, t_ray, face_ray)) {
+      count[face_ray] += 1.0 / float(kRays);
       if (!center_hit) t = t_ray;
     }
   }
@@ -292,20 +290,15 @@ vec3 face_coverage(vec2 pixel, inout float t) {
 void main() {
   vec2 pixel = gl_FragCoord.xy - 0.5;
   vec3 center = ray_G(pixel);
-  float t = 1.0;
-  vec3 count = vec3(0.0);
-  if (u_hard) {
-    int face;
-    if (intersect(center, u_size, t, face)) count[face] = 1.0;
-  } else {
-    count = face_coverage(pixel, t);
-  }
+  float t;
+  vec3 count = face_coverage(pixel, t);
   float coverage = count.x + count.y + count.z;
   float value = 0.0;
   for (int k = 0; k < FACES; ++k) value += count[k] * shade_face(center, k);
   if (coverage == 0.0) discard;
   write(value / coverage, coverage, t);
 }
+#endif
 )";
 
 constexpr const char* kBox = R"(
@@ -461,9 +454,11 @@ std::string triangle_fragment_shader(TextureKind texture, const LightCount& ligh
 
 std::string primitive_vertex_shader() { return std::string(kVersion) + kPrimitiveVertex; }
 
-std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, const LightCount& lights) {
-  const std::string common =
-      header(texture, lights) + kDistantLight + kLamps + kTexel + kPrimitiveCommon;
+std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, const LightCount& lights,
+                                      bool hard) {
+  const std::string common = header(texture, lights) +
+                             (hard ? "#define HARD 1\n" : "#define HARD 0\n") + kDistantLight +
+                             kLamps + kTexel + kPrimitiveCommon;
   switch (type) {
     case mjGEOM_ELLIPSOID:
       return common + kConic + kEllipsoid;

@@ -19,8 +19,10 @@ enum class TextureKind { kNone, k2d, kCube };
 std::string triangle_vertex_shader(const LightCount& lights);
 std::string triangle_fragment_shader(TextureKind texture, const LightCount& lights);
 std::string primitive_vertex_shader();
-// type: mjGEOM_ELLIPSOID, mjGEOM_CAPSULE, mjGEOM_CYLINDER or mjGEOM_BOX.
-std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, const LightCount& lights);
+// type: mjGEOM_ELLIPSOID, mjGEOM_CAPSULE, mjGEOM_CYLINDER or mjGEOM_BOX. hard: depth and id where
+// the pixel's centre is hit; else luminance with the coverage of the pixel as alpha.
+std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, const LightCount& lights,
+                                      bool hard);
 std::string sky_vertex_shader();
 std::string sky_fragment_shader(TextureKind texture);
 
