@@ -38,7 +38,7 @@ bool OpticalFlow::solve(const cv::Point& pixel, Eigen::Vector2d& displacement) c
   const float determinant = xx * yy - xy * xy;
   const float smaller =
       half_trace - std::sqrt(std::max(0.0F, half_trace * half_trace - determinant));
-  const auto area = static_cast<float>(config_.window_px * config_.window_px);
+  const auto area = static_cast<float>((x1 - x0 + 1) * (y1 - y0 + 1));
   if (!(smaller > static_cast<float>(config_.min_eigenvalue) * area) || determinant <= 0) {
     return false;
   }

@@ -1,0 +1,179 @@
+#include "dodge/detect/depth.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/dodge/synthetic_events.h"
+
+namespace dodge {
+namespace {
+
+class DepthTest : public ::testing::Test {
+ protected:
+  static Cluster square(double u, double v, double side_px) {
+    Cluster cluster;
+    cluster.rectangle =
+        cv::RotatedRect(cv::Point2f(static_cast<float>(u), static_cast<float>(v)),
+                        cv::Size2f(static_cast<float>(side_px), static_cast<float>(side_px)), 0);
+    cluster.centroid = {u, v};
+    cluster.pixels = static_cast<int>(side_px * side_px);
+    cluster.events = 2 * cluster.pixels;
+    return cluster;
+  }
+
+  // The square an object of this size would fill in a camera.
+  Cluster seen_by(std::size_t camera, const Eigen::Vector3d& p_B, double size_m) const {
+    const Eigen::Vector3d p_C = cameras_[camera].X_BC.inverse() * p_B;
+    const Eigen::Vector2d pixel = cameras_[camera].project(p_C);
+    return square(pixel.x(), pixel.y(), cameras_[camera].fx * size_m / p_C.z());
+  }
+
+  std::vector<Detection> locate(const DepthConfig& config, const std::vector<Cluster>& top,
+                                const std::vector<Cluster>& bottom) const {
+    DepthEstimator estimator(config, cameras_);
+    const std::array<const std::vector<Cluster>*, 2> both = {&top, &bottom};
+    std::vector<Detection> detections;
+    estimator.locate(both, state_, detections);
+    return detections;
+  }
+
+  std::vector<CameraModel> cameras_ = synthetic::vertical_pair();
+  StateEstimate state_;
+};
+
+TEST_F(DepthTest, stereo_recovers_position_and_size) {
+  state_.t_us = 77;
+  state_.p_WB = {1, 2, 3};
+  state_.q_WB = Eigen::AngleAxisd(0.5, Eigen::Vector3d(0.2, 0.3, 1).normalized());
+  const Eigen::Vector3d p_B(1.3, 0.2, -0.1);
+  const auto detections = locate({}, {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
+  ASSERT_EQ(detections.size(), 1U);
+  const Detection& d = detections[0];
+  EXPECT_EQ(d.t_us, 77);
+  EXPECT_EQ(d.camera, 0);
+  EXPECT_NEAR(d.depth_m, 1.2, 1e-4);  // the cameras sit 0.1 m ahead of the body's origin
+  EXPECT_NEAR(d.size_m, 0.2, 1e-4);
+  EXPECT_LT((d.centre_W - (state_.p_WB + state_.q_WB * p_B)).norm(), 1e-4);
+}
+
+TEST_F(DepthTest, mono_recovers_position_from_the_known_size) {
+  const Eigen::Vector3d p_B(1.1, -0.3, 0.2);
+  DepthConfig config;
+  config.depth = "mono";
+  config.known_size_m = 0.15;
+  const auto detections = locate(config, {seen_by(0, p_B, 0.15)}, {});
+  ASSERT_EQ(detections.size(), 1U);
+  EXPECT_NEAR(detections[0].depth_m, 1.0, 1e-4);
+  EXPECT_LT((detections[0].centre_W - p_B).norm(), 1e-4);
+  EXPECT_NEAR(detections[0].size_m, 0.15, 1e-4);
+}
+
+TEST_F(DepthTest, six_points_are_the_corners_and_the_centre_moved_by_the_size) {
+  // Straight ahead of the top camera, whose axes are then those of the body.
+  const Eigen::Vector3d p_B(1.1, 0, 0.075);
+  auto detections = locate({}, {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
+  ASSERT_EQ(detections.size(), 1U);
+  double left = 0, up = 0;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector3d corner = detections[0].p_W[static_cast<std::size_t>(i)] - p_B;
+    EXPECT_NEAR(corner.x(), 0, 1e-4);
+    EXPECT_NEAR(std::abs(corner.y()), 0.1, 1e-4);
+    EXPECT_NEAR(std::abs(corner.z()), 0.1, 1e-4);
+    left += corner.y();
+    up += corner.z();
+  }
+  EXPECT_NEAR(left, 0, 1e-4);
+  EXPECT_NEAR(up, 0, 1e-4);
+  EXPECT_LT((detections[0].p_W[4] - Eigen::Vector3d(0.9, 0, 0.075)).norm(), 1e-4);
+  EXPECT_LT((detections[0].p_W[5] - Eigen::Vector3d(1.3, 0, 0.075)).norm(), 1e-4);
+
+  DepthConfig wide;
+  wide.depth_margin = "size_plus_sigma";
+  detections = locate(wide, {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
+  EXPECT_NEAR(detections[0].p_W[5].x(), 1.3 + detections[0].depth_sigma_m, 1e-4);
+}
+
+TEST_F(DepthTest, whole_pixels_give_depth_within_the_quantisation_of_the_disparity) {
+  const double focal_baseline = cameras_[0].fx * 0.15;
+  for (double depth_m = 0.3; depth_m < 1.4; depth_m += 0.01) {
+    const Eigen::Vector3d p_B(depth_m + 0.1, 0.05, 0.03);
+    Cluster top = seen_by(0, p_B, 0.2), bottom = seen_by(1, p_B, 0.2);
+    top.rectangle.center.y = std::round(top.rectangle.center.y);
+    bottom.rectangle.center.y = std::round(bottom.rectangle.center.y);
+    const auto detections = locate({}, {top}, {bottom});
+    ASSERT_EQ(detections.size(), 1U);
+    const double disparity = focal_baseline / depth_m;
+    EXPECT_LT(std::abs(detections[0].depth_m - depth_m),
+              focal_baseline / (disparity - 1) - depth_m + 1e-6);
+  }
+}
+
+TEST_F(DepthTest, depth_uncertainty_is_that_of_one_disparity_sigma) {
+  const Eigen::Vector3d p_B(1.6 - 1e-9, 0, 0);
+  const auto detections = locate({}, {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
+  ASSERT_EQ(detections.size(), 1U);
+  const double sigma_px = StereoConfig{}.disparity_sigma_px;
+  // facts of the rig: 1.5 m is 19 px of disparity, 7.9 cm per px there
+  EXPECT_NEAR(detections[0].depth_sigma_m, 0.0787 * sigma_px, 0.0005 * sigma_px);
+}
+
+TEST_F(DepthTest, mono_uncertainty_grows_with_the_square_of_the_depth) {
+  DepthConfig config;
+  config.depth = "mono";
+  const auto near = locate(config, {square(160, 120, 60)}, {});
+  const auto far = locate(config, {square(160, 120, 30)}, {});
+  EXPECT_NEAR(far.at(0).depth_sigma_m / near.at(0).depth_sigma_m, 4, 1e-6);
+}
+
+TEST_F(DepthTest, disparity_must_be_positive) {
+  EXPECT_EQ(locate({}, {square(160, 100, 20)}, {square(160, 130, 20)}).size(), 0U);
+  EXPECT_EQ(locate({}, {square(160, 100, 20)}, {square(160, 100, 20)}).size(), 0U);
+  EXPECT_EQ(locate({}, {square(160, 130, 20)}, {square(160, 100, 20)}).size(), 1U);
+}
+
+TEST_F(DepthTest, matching_cost_is_8_and_symmetric) {
+  DepthConfig config;
+  config.stereo.weight_position_1ppx = 2;
+  config.stereo.weight_area = 3;
+  config.stereo.weight_count = 5;
+  const DepthEstimator estimator(config, cameras_);
+  Cluster a = square(100, 80, 10), b = square(104, 50, 20);
+  a.pixels = 60;
+  b.pixels = 90;
+  EXPECT_NEAR(estimator.matching_cost(a, b), 2 * 4 + 3 * (4 - 1) + 5 * (1.5 - 1), 1e-6);
+  EXPECT_NEAR(estimator.matching_cost(b, a), estimator.matching_cost(a, b), 1e-9);
+  EXPECT_EQ(estimator.matching_cost(a, a), 0);
+}
+
+TEST_F(DepthTest, matches_two_objects_crosswise_and_each_once) {
+  const Eigen::Vector3d p1(1.2, 0.4, 0), p2(0.9, -0.3, 0.1);
+  const std::vector<Cluster> top = {seen_by(0, p1, 0.1), seen_by(0, p2, 0.3)};
+  const std::vector<Cluster> bottom = {seen_by(1, p2, 0.3), seen_by(1, p1, 0.1),
+                                       seen_by(1, p2 + Eigen::Vector3d(0, 0.05, 0), 0.3)};
+  const auto detections = locate({}, top, bottom);
+  ASSERT_EQ(detections.size(), 2U);
+  for (const Detection& d : detections) {
+    EXPECT_LT(std::min((d.centre_W - p1).norm(), (d.centre_W - p2).norm()), 1e-3);
+  }
+  EXPECT_GT((detections[0].centre_W - detections[1].centre_W).norm(), 0.5);
+}
+
+TEST_F(DepthTest, unlike_clusters_do_not_match) {
+  EXPECT_EQ(locate({}, {square(100, 130, 20)}, {square(160, 100, 20)}).size(), 0U);
+  EXPECT_EQ(locate({}, {square(160, 130, 40)}, {square(160, 100, 10)}).size(), 0U);
+}
+
+TEST_F(DepthTest, drops_what_is_too_far_too_near_too_large_or_too_small) {
+  const auto count = [&](double x_m, double size_m) {
+    const Eigen::Vector3d p_B(x_m + 0.1, 0, 0);
+    return locate({}, {seen_by(0, p_B, size_m)}, {seen_by(1, p_B, size_m)}).size();
+  };
+  EXPECT_EQ(count(1.49, 0.2), 1U);
+  EXPECT_EQ(count(1.51, 0.2), 0U);
+  EXPECT_EQ(count(0.21, 0.1), 1U);
+  EXPECT_EQ(count(0.19, 0.1), 0U);
+  EXPECT_EQ(count(1, 0.9), 0U);
+  EXPECT_EQ(count(1, 0.01), 0U);
+}
+
+}  // namespace
+}  // namespace dodge

@@ -1,0 +1,148 @@
+#include "dodge/detect/ego_motion.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/base/random.h"
+
+namespace dodge {
+namespace {
+
+constexpr TimeUs kBeginUs = 1000000;
+constexpr TimeUs kEndUs = 1010000;
+
+Eigen::Matrix3d rotation(const Eigen::Vector3d& v) {
+  return v.norm() > 0 ? Eigen::AngleAxisd(v.norm(), v.normalized()).toRotationMatrix()
+                      : Eigen::Matrix3d::Identity();
+}
+
+Eigen::Vector3d ray(const CameraModel& camera, double u, double v) {
+  return camera.bearing({u, v}).homogeneous();
+}
+
+TEST(Rodrigues, agrees_with_the_angle_axis_form) {
+  for (const Eigen::Vector3d& v :
+       {Eigen::Vector3d(0.3, -0.2, 0.9), Eigen::Vector3d(1e-5, 0, 0), Eigen::Vector3d(0, 0, 3)}) {
+    EXPECT_LT((rodrigues(v) - rotation(v)).norm(), 1e-12);
+  }
+  EXPECT_EQ(rodrigues(Eigen::Vector3d::Zero()), Eigen::Matrix3d::Identity());
+}
+
+TEST(RateHistory, is_zero_without_samples_and_constant_outside_of_them) {
+  RateHistory rates;
+  EXPECT_EQ(rates.mean(0, 1000), Eigen::Vector3d::Zero());
+  rates.add({.t_us = 5000, .w_WB_B = {1, 2, 3}});
+  EXPECT_EQ(rates.mean(0, 1000), Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(rates.mean(9000, 9000), Eigen::Vector3d(1, 2, 3));
+}
+
+TEST(RateHistory, weighs_irregular_samples_by_time) {
+  // A rate that grows linearly has its mean at the middle of the window, whatever the sampling.
+  RateHistory rates;
+  for (const TimeUs t : {0, 10, 900, 1000, 4000, 4100, 7000, 15000}) {
+    rates.add({.t_us = t, .w_WB_B = Eigen::Vector3d(static_cast<double>(t), 0, 0)});
+  }
+  EXPECT_NEAR(rates.mean(500, 6500).x(), 3500, 1e-9);
+  EXPECT_NEAR(rates.mean(4000, 4100).x(), 4050, 1e-9);
+}
+
+TEST(RateHistory, keeps_the_newest_samples_of_a_long_flight) {
+  RateHistory rates;
+  for (TimeUs t = 0; t < 5000000; t += 1000) {
+    rates.add({.t_us = t, .w_WB_B = Eigen::Vector3d(t < 4000000 ? 1 : 2, 0, 0)});
+  }
+  EXPECT_EQ(rates.mean(4980000, 4990000).x(), 2);
+}
+
+TEST(EgoMotion, leaves_pixels_in_place_without_rotation) {
+  const CameraModel camera;
+  EgoMotion ego_motion({}, camera);
+  ego_motion.set_motion(Eigen::Vector3d::Zero(), kBeginUs, kEndUs);
+  for (int y = 0; y < camera.height; y += 7) {
+    for (int x = 0; x < camera.width; x += 7) {
+      const Eigen::Vector2f warped = ego_motion.warp({.t_us = kBeginUs + 50 * x,
+                                                      .x = static_cast<std::uint16_t>(x),
+                                                      .y = static_cast<std::uint16_t>(y)});
+      EXPECT_NEAR(warped.x(), x, 1e-3);
+      EXPECT_NEAR(warped.y(), y, 1e-3);
+    }
+  }
+}
+
+// The largest error over random events of static rays: each is seen where the rotated camera sees
+// it at its time, and must land where the camera sees it at the reference instant.
+double largest_error(const CameraModel& camera, const EgoMotionConfig& config,
+                     const Eigen::Vector3d& w, TimeUs reference_us) {
+  EgoMotion ego_motion(config, camera);
+  ego_motion.set_motion(w, kBeginUs, kEndUs);
+  dodgesim::RandomStream random(1, 0, "events");
+  double largest = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Event event{.t_us = kBeginUs + 1 + static_cast<TimeUs>(random.uniform(0, 9999)),
+                      .x = static_cast<std::uint16_t>(random.uniform(0, camera.width)),
+                      .y = static_cast<std::uint16_t>(random.uniform(0, camera.height))};
+    const double dt_s = 1e-6 * static_cast<double>(event.t_us - reference_us);
+    const Eigen::Vector3d d = rotation(w * dt_s) * ray(camera, event.x, event.y);
+    const Eigen::Vector2d expected = camera.project(d);
+    if (expected.x() < 0 || expected.x() >= camera.width) continue;
+    if (expected.y() < 0 || expected.y() >= camera.height) continue;
+    largest = std::max(largest, (ego_motion.warp(event).cast<double>() - expected).norm());
+  }
+  return largest;
+}
+
+TEST(EgoMotion, is_exact_to_its_bound_at_the_end_and_at_the_start) {
+  const CameraModel camera;
+  for (const double rate : {0.1, 1.0, 8.0, 15.0}) {
+    const Eigen::Vector3d w = rate * Eigen::Vector3d(0.6, -0.7, 0.4).normalized();
+    EXPECT_LT(largest_error(camera, {}, w, kEndUs), 0.021) << rate;
+    EXPECT_LT(largest_error(camera, {.reference = "start"}, w, kBeginUs), 0.021) << rate;
+  }
+}
+
+TEST(EgoMotion, undistorts) {
+  CameraModel camera{.width = 240,
+                     .height = 180,
+                     .fx = 199.1,
+                     .fy = 198.8,
+                     .cx = 132.2,
+                     .cy = 110.7,
+                     .k1 = -0.368,
+                     .k2 = 0.151,
+                     .p1 = -0.0003,
+                     .p2 = -0.00076};
+  EXPECT_LT(largest_error(camera, {}, {1.97, -0.11, 1.15}, kEndUs), 0.021);
+}
+
+TEST(EgoMotion, a_static_edge_seen_from_a_yawing_camera_stays_where_it_is_now) {
+  // Camera axes: x right, y down. Turning right (+y) moves the world to the left in the image.
+  const CameraModel camera;
+  EgoMotion ego_motion({}, camera);
+  const Eigen::Vector3d w(0, 2, 0);
+  ego_motion.set_motion(w, kBeginUs, kEndUs);
+  const double earlier_x = camera.project(rotation(w * 0.01) * ray(camera, 100, 120)).x();
+  EXPECT_GT(earlier_x, 103);  // 10 ms ago it was farther right
+  const Eigen::Vector2f warped = ego_motion.warp(
+      {.t_us = kBeginUs, .x = static_cast<std::uint16_t>(std::lround(earlier_x)), .y = 120});
+  EXPECT_NEAR(warped.x(), 100, 0.6);  // the rounding to whole pixels
+}
+
+TEST(EgoMotion, switched_off_it_ignores_the_rotation) {
+  const CameraModel camera;
+  EgoMotion ego_motion({.enabled = false}, camera);
+  ego_motion.set_motion({3, 3, 3}, kBeginUs, kEndUs);
+  const Eigen::Vector2f warped = ego_motion.warp({.t_us = kBeginUs, .x = 20, .y = 30});
+  EXPECT_NEAR(warped.x(), 20, 1e-3);
+  EXPECT_NEAR(warped.y(), 30, 1e-3);
+}
+
+TEST(EgoMotion, events_outside_of_the_window_use_the_nearest_time) {
+  const CameraModel camera;
+  EgoMotion ego_motion({}, camera);
+  ego_motion.set_motion({0, 5, 0}, kBeginUs, kEndUs);
+  const auto u = [&](TimeUs t_us) { return ego_motion.warp({.t_us = t_us, .x = 9, .y = 9}).x(); };
+  EXPECT_EQ(u(kBeginUs - 5000), u(kBeginUs));
+  EXPECT_EQ(u(kEndUs + 5000), u(kEndUs));
+}
+
+}  // namespace
+}  // namespace dodge

@@ -1,0 +1,65 @@
+#include "dodge/detect/event_window.h"
+
+#include <gtest/gtest.h>
+
+namespace dodge {
+namespace {
+
+std::vector<Event> events_every(TimeUs step_us, TimeUs begin_us, TimeUs end_us) {
+  std::vector<Event> events;
+  for (TimeUs t = begin_us; t < end_us; t += step_us) events.push_back({.t_us = t, .x = 3, .y = 4});
+  return events;
+}
+
+std::vector<TimeUs> times(const EventWindow& window, TimeUs until_us) {
+  std::vector<TimeUs> times;
+  for (const std::span<const Event> piece : window.until(until_us)) {
+    for (const Event& event : piece) times.push_back(event.t_us);
+  }
+  return times;
+}
+
+TEST(EventWindow, holds_the_half_open_interval) {
+  EventWindow window;
+  window.add(events_every(100, 0, 1000));
+  window.forget_until(300);
+  EXPECT_EQ(times(window, 600), (std::vector<TimeUs>{400, 500, 600}));
+  EXPECT_EQ(window.newest_us(), 900);
+}
+
+TEST(EventWindow, is_empty_before_the_first_and_after_the_last_event) {
+  EventWindow window;
+  EXPECT_TRUE(window.empty());
+  EXPECT_TRUE(times(window, 1000).empty());
+  window.add(events_every(100, 0, 1000));
+  window.forget_until(5000);
+  EXPECT_TRUE(window.empty());
+}
+
+TEST(EventWindow, keeps_the_order_across_the_end_of_its_memory) {
+  EventWindow window;
+  const TimeUs length_us = 10000;
+  for (TimeUs begin = 0; begin < 2000000; begin += 1000) {
+    window.add(events_every(3, begin, begin + 1000));
+    window.forget_until(begin + 1000 - length_us);
+    const std::vector<TimeUs> found = times(window, begin + 1000);
+    ASSERT_TRUE(std::is_sorted(found.begin(), found.end()));
+    if (begin > length_us) {
+      ASSERT_NEAR(static_cast<double>(found.size()), 3340, 10);
+    }
+  }
+}
+
+TEST(EventWindow, stops_growing_in_steady_state) {
+  EventWindow window;
+  std::size_t capacity = 0;
+  for (TimeUs begin = 0; begin < 500000; begin += 1000) {
+    window.add(std::vector<Event>(3000, Event{.t_us = begin}));
+    window.forget_until(begin - 10000);
+    if (begin == 20000) capacity = window.capacity();
+  }
+  EXPECT_EQ(window.capacity(), capacity);
+}
+
+}  // namespace
+}  // namespace dodge

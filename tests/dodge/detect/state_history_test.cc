@@ -1,0 +1,60 @@
+#include "dodge/detect/state_history.h"
+
+#include <gtest/gtest.h>
+
+namespace dodge {
+namespace {
+
+StateEstimate state(TimeUs t_us, const Eigen::Vector3d& p, double yaw, const Eigen::Vector3d& v,
+                    double yaw_rate) {
+  StateEstimate s;
+  s.t_us = t_us;
+  s.p_WB = p;
+  s.q_WB = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
+  s.v_WB = v;
+  s.w_WB_B = {0, 0, yaw_rate};
+  return s;
+}
+
+double yaw_of(const StateEstimate& s) {
+  const Eigen::Vector3d x = s.q_WB * Eigen::Vector3d::UnitX();
+  return std::atan2(x.y(), x.x());
+}
+
+TEST(StateHistory, is_empty_without_estimates) { EXPECT_FALSE(StateHistory().at(5).has_value()); }
+
+TEST(StateHistory, interpolates_between_estimates) {
+  StateHistory history;
+  history.add(state(1000, {0, 0, 1}, 0.0, {1, 0, 0}, 0));
+  history.add(state(5000, {4, 0, 1}, 0.4, {3, 0, 0}, 0));
+  history.add(state(9000, {4, 8, 1}, 0.4, {3, 0, 0}, 0));
+  const StateEstimate s = *history.at(2000);
+  EXPECT_EQ(s.t_us, 2000);
+  EXPECT_NEAR(s.p_WB.x(), 1, 1e-12);
+  EXPECT_NEAR(yaw_of(s), 0.1, 1e-12);
+  EXPECT_NEAR(s.v_WB.x(), 1.5, 1e-12);
+  EXPECT_NEAR(history.at(7000)->p_WB.y(), 4, 1e-12);
+  EXPECT_NEAR(history.at(5000)->p_WB.x(), 4, 1e-12);
+}
+
+TEST(StateHistory, carries_the_newest_estimate_on_and_the_oldest_back) {
+  StateHistory history;
+  history.add(state(10000, {1, 2, 3}, 0.1, {2, 0, -1}, 5));
+  const StateEstimate later = *history.at(30000), earlier = *history.at(0);
+  EXPECT_LT((later.p_WB - Eigen::Vector3d(1.04, 2, 2.98)).norm(), 1e-12);
+  EXPECT_NEAR(yaw_of(later), 0.2, 1e-12);
+  EXPECT_LT((earlier.p_WB - Eigen::Vector3d(0.98, 2, 3.01)).norm(), 1e-12);
+  EXPECT_NEAR(yaw_of(earlier), 0.05, 1e-12);
+}
+
+TEST(StateHistory, forgets_the_oldest) {
+  StateHistory history;
+  for (TimeUs t = 0; t < 10000000; t += 4000) {
+    history.add(state(t, {static_cast<double>(t), 0, 0}, 0, {0, 0, 0}, 0));
+  }
+  EXPECT_NEAR(history.at(9990000)->p_WB.x(), 9990000, 1e-6);
+  EXPECT_GT(history.at(0)->p_WB.x(), 9000000);
+}
+
+}  // namespace
+}  // namespace dodge

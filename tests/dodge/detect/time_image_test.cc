@@ -1,0 +1,140 @@
+#include "dodge/detect/time_image.h"
+
+#include <gtest/gtest.h>
+
+namespace dodge {
+namespace {
+
+constexpr int kWidth = 40;
+constexpr int kHeight = 30;
+
+Event at(int x, int y, TimeUs t_us) {
+  return {.t_us = t_us, .x = static_cast<std::uint16_t>(x), .y = static_cast<std::uint16_t>(y)};
+}
+
+TimeImageConfig plain() {
+  return {.threshold_a_s = 0,
+          .threshold_b = 0.1,
+          .blur_px = 1,
+          .open_px = 0,
+          .close_px = 0,
+          .dilate_px = 0};
+}
+
+class TimeImageTest : public ::testing::Test {
+ protected:
+  static CameraModel camera() { return {.width = kWidth, .height = kHeight, .cx = 20, .cy = 15}; }
+
+  // The window is (0, 10000].
+  void process(TimeImage& image, const std::vector<Event>& events, double rate_rps = 0) {
+    const std::span<const Event> all(events);
+    const std::array<std::span<const Event>, 2> pieces = {all.first(events.size() / 2),
+                                                          all.subspan(events.size() / 2)};
+    image.accumulate(pieces, still_, 0, 10000);
+    image.threshold(rate_rps);
+    image.clean();
+  }
+
+  EgoMotion still_{{}, camera()};
+};
+
+TEST_F(TimeImageTest, counts_averages_and_normalises_as_in_2_to_4) {
+  TimeImage image(plain(), kWidth, kHeight);
+  process(image, {at(5, 6, 1000), at(5, 6, 3000), at(7, 8, 6000), at(9, 9, 10000)});
+  // T = 0.2, 0.6, 1.0 of the window; their mean over the three active pixels is 0.6.
+  EXPECT_EQ(image.count()(6, 5), 2);
+  EXPECT_EQ(image.count()(8, 7), 1);
+  EXPECT_NEAR(image.rho()(6, 5), -0.4, 1e-6);
+  EXPECT_NEAR(image.rho()(8, 7), 0.0, 1e-6);
+  EXPECT_NEAR(image.rho()(9, 9), 0.4, 1e-6);
+  EXPECT_EQ(cv::countNonZero(image.rho()), 2);
+  EXPECT_EQ(cv::countNonZero(image.threshold_mask()), 1);
+  EXPECT_EQ(image.threshold_mask()(9, 9), 255);
+}
+
+TEST_F(TimeImageTest, forgets_the_window_before) {
+  TimeImage image(plain(), kWidth, kHeight);
+  process(image, {at(5, 6, 1000), at(5, 6, 9000), at(7, 8, 6000)});
+  process(image, {at(1, 1, 2000), at(2, 2, 8000)});
+  EXPECT_EQ(cv::countNonZero(image.count()), 2);
+  EXPECT_NEAR(image.rho()(2, 2), 0.3, 1e-6);
+  process(image, {});
+  EXPECT_EQ(cv::countNonZero(image.count()), 0);
+  EXPECT_EQ(cv::countNonZero(image.rho()), 0);
+  EXPECT_EQ(cv::countNonZero(image.threshold_mask()), 0);
+}
+
+TEST_F(TimeImageTest, threshold_grows_with_the_angular_rate) {
+  TimeImageConfig config = plain();
+  config.threshold_a_s = 0.1;
+  TimeImage image(config, kWidth, kHeight);
+  const std::vector<Event> events = {at(5, 6, 1000), at(7, 8, 7000)};  // rho -0.3, 0.3
+  process(image, events, 1.9);
+  EXPECT_EQ(cv::countNonZero(image.threshold_mask()), 1);
+  process(image, events, 2.1);
+  EXPECT_EQ(cv::countNonZero(image.threshold_mask()), 0);
+}
+
+TEST_F(TimeImageTest, averaging_keeps_the_sum_and_treats_empty_pixels_as_neutral) {
+  TimeImageConfig config = plain();
+  config.blur_px = 5;
+  TimeImage image(config, kWidth, kHeight);
+  process(image, {at(10, 10, 1000), at(25, 20, 9000)});
+  EXPECT_NEAR(cv::sum(image.averaged()(cv::Rect(20, 15, 11, 11)))[0], 0.4, 1e-5);
+  EXPECT_NEAR(image.averaged()(20, 25), 0.4 * 36.0 / 256.0, 1e-5);  // binomial 1 4 6 4 1
+  EXPECT_NEAR(image.averaged()(20, 27), 0.4 * 6.0 / 256.0, 1e-5);
+  EXPECT_EQ(image.averaged()(0, 0), 0);
+}
+
+TEST_F(TimeImageTest, keeps_the_averaged_image_of_the_window_before) {
+  TimeImage image(plain(), kWidth, kHeight);
+  process(image, {at(5, 6, 1000), at(7, 8, 7000)});
+  const cv::Mat1f first = image.averaged().clone();
+  process(image, {at(15, 6, 1000), at(17, 8, 7000)});
+  EXPECT_EQ(cv::countNonZero(image.previous_averaged() != first), 0);
+}
+
+TEST_F(TimeImageTest, opening_removes_a_line_and_keeps_a_block) {
+  TimeImageConfig config = plain();
+  config.open_px = 3;
+  TimeImage image(config, kWidth, kHeight);
+  std::vector<Event> events;
+  for (int i = 0; i < 20; ++i) events.push_back(at(i, 29, 1000));
+  for (int y = 2; y < 20; ++y) events.push_back(at(3, y, 9000));
+  for (int y = 10; y < 14; ++y) {
+    for (int x = 20; x < 24; ++x) events.push_back(at(x, y, 9000));
+  }
+  process(image, events);
+  EXPECT_EQ(cv::countNonZero(image.threshold_mask()), 18 + 16);
+  EXPECT_EQ(cv::countNonZero(image.obstacle_mask()), 16);
+}
+
+TEST_F(TimeImageTest, closing_and_dilation_fill_and_grow) {
+  TimeImageConfig config = plain();
+  config.close_px = 3;
+  TimeImage closed(config, kWidth, kHeight);
+  config.dilate_px = 3;
+  TimeImage dilated(config, kWidth, kHeight);
+  const std::vector<Event> events = {at(5, 5, 1000), at(20, 10, 9000), at(22, 10, 9000)};
+  process(closed, events);
+  EXPECT_EQ(cv::countNonZero(closed.obstacle_mask()), 3);  // the gap is filled
+  process(dilated, events);
+  EXPECT_EQ(cv::countNonZero(dilated.obstacle_mask()), 15);
+}
+
+TEST_F(TimeImageTest, drops_events_outside_of_the_image_before_and_after_the_warp) {
+  TimeImage image(plain(), kWidth, kHeight);
+  process(image, {at(kWidth, 3, 1000), at(3, kHeight, 2000), at(65535, 65535, 3000)});
+  EXPECT_EQ(cv::countNonZero(image.count()), 0);
+
+  EgoMotion fast({}, camera());
+  fast.set_motion({0, 30, 0}, 0, 10000);  // 0.3 rad: some 60 px
+  const std::vector<Event> events = {at(0, 5, 1), at(39, 5, 1), at(39, 5, 10000)};
+  const std::array<std::span<const Event>, 1> pieces = {std::span<const Event>(events)};
+  image.accumulate(pieces, fast, 0, 10000);
+  EXPECT_EQ(cv::sum(image.count())[0], 1);
+  EXPECT_EQ(image.count()(5, 39), 1);
+}
+
+}  // namespace
+}  // namespace dodge
