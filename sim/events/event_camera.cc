@@ -139,7 +139,6 @@ void EventCamera::update(TimeUs t_us, const float* luminance, std::vector<Event>
   for (int y = 0; y < height_; ++y) update_row(y, t_us, luminance);
 
   sort_events();
-  out.reserve(out.size() + keys_.size());
   for (const std::uint64_t key : keys_) {
     out.push_back({t_us_ + static_cast<TimeUs>(key >> kTimeShift),
                    static_cast<std::uint16_t>(key >> kColumnShift),

@@ -61,7 +61,8 @@ struct SamplingSpec {
   template <class Visitor>
   void visit(Visitor& v) {
     v("max_displacement_px", max_displacement_px, 0.01, 100,
-      "Nothing in the image moves farther than this between two samples.");
+      "Nothing in the image moves farther than this between two samples (0.5 px loses 0.6 % of the "
+      "events of a texture of 8 px wavelength, 1 px 2.3 %).");
     v("min_rate_hz", min_rate_hz, 1, 4000,
       "Rate of the samples when nothing moves; its inverse bounds how late an event is known.");
     v("min_interval_us", min_interval_us, 1, 1000000,
