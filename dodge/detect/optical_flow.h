@@ -11,7 +11,7 @@ namespace dodge {
 struct FlowConfig {
   int window_px = 11;
   int samples = 16;
-  double min_eigenvalue = 1e-4;
+  double min_eigenvalue = 1e-5;
   double max_px = 20;
 
   template <class Visitor>
