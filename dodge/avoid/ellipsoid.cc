@@ -170,8 +170,9 @@ SurfaceDistance distance_to_surface(const Ellipsoid& ellipsoid, const Eigen::Vec
   const Eigen::Vector3d local = ellipsoid.axes_W.transpose() * (p_W - ellipsoid.centre_W);
   const Eigen::Vector3d semi_axes = ellipsoid.semi_axes_m.cwiseMax(kMinSemiAxisM);
   std::array<int, 3> order = {0, 1, 2};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return semi_axes[a] > semi_axes[b]; });
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return semi_axes[a] > semi_axes[b] || (semi_axes[a] == semi_axes[b] && a < b);
+  });
   Eigen::Vector3d e, y;
   for (int i = 0; i < 3; ++i) {
     const int axis = order[static_cast<std::size_t>(i)];
