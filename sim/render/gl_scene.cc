@@ -81,16 +81,33 @@ GlProgram locate(GLuint name) {
   p.conic = at("u_conic");
   p.conic_origin = at("u_conic_origin");
   p.R_WC = at("u_R_WC");
+  p.X_CW = at("u_X_CW");
   return p;
 }
 
-void attach_texture(GLenum attachment, GLint format, GLenum layout, GLenum type, int width,
-                    int height, GLuint texture) {
+GLuint make_image(GLint format, GLenum layout, GLenum type, int width, int height) {
+  GLuint texture = 0;
+  glGenTextures(1, &texture);
   glBindTexture(GL_TEXTURE_2D, texture);
   glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, layout, type, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture, 0);
+  return texture;
+}
+
+GLuint make_framebuffer(GLuint luminance, GLuint depth, GLuint ids) {
+  GLuint framebuffer = 0;
+  glGenFramebuffers(1, &framebuffer);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, luminance, 0);
+  if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+  if (ids) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, ids, 0);
+  const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  glDrawBuffers(ids ? 2 : 1, buffers);
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    throw SimulationError("OpenGL cannot draw into a floating-point image.");
+  }
+  return framebuffer;
 }
 
 }  // namespace
@@ -173,28 +190,53 @@ GlProgram make_sky_program(TextureKind texture, const Intrinsics& intrinsics, do
   return locate(name);
 }
 
-GlTarget make_target(int width, int height) {
-  GlTarget target;
-  GLuint textures[3];
-  glGenTextures(3, textures);
-  glGenFramebuffers(1, &target.without_ids);
-  glGenFramebuffers(1, &target.with_ids);
-  for (const GLuint framebuffer : {target.without_ids, target.with_ids}) {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    attach_texture(GL_COLOR_ATTACHMENT0, GL_R32F, GL_RED, GL_FLOAT, width, height, textures[0]);
-    attach_texture(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width,
-                   height, textures[1]);
-    if (framebuffer == target.with_ids) {
-      attach_texture(GL_COLOR_ATTACHMENT1, GL_R32I, GL_RED_INTEGER, GL_INT, width, height,
-                     textures[2]);
-    }
-    const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-    glDrawBuffers(framebuffer == target.with_ids ? 2 : 1, buffers);
-    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-      throw SimulationError("OpenGL cannot draw into a floating-point image of " +
-                            std::to_string(width) + " x " + std::to_string(height) + " px.");
+VertexBuffer upload_edges(const std::vector<Edge>& edges) {
+  std::vector<float> ends;
+  for (const Edge& edge : edges) {
+    for (const Eigen::Vector3d& p : {edge.a, edge.b}) {
+      for (int i = 0; i < 3; ++i) ends.push_back(static_cast<float>(p[i]));
     }
   }
+  VertexBuffer buffer;
+  buffer.count = static_cast<int>(edges.size());
+  glGenVertexArrays(1, &buffer.array);
+  glBindVertexArray(buffer.array);
+  glGenBuffers(1, &buffer.buffer);
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.buffer);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(ends.size() * sizeof(float)), ends.data(),
+               GL_STATIC_DRAW);
+  constexpr GLsizei kStride = 6 * sizeof(float);
+  for (GLuint i = 0; i < 2; ++i) {
+    glEnableVertexAttribArray(i);
+    glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, kStride,
+                          reinterpret_cast<const void*>(std::size_t{i} * 3 * sizeof(float)));
+    glVertexAttribDivisor(i, 1);
+  }
+  return buffer;
+}
+
+GlProgram make_edge_program(const Intrinsics& intrinsics, const DepthRange& depth) {
+  const GLuint name = link_program(edge_vertex_shader(), edge_fragment_shader());
+  glUseProgram(name);
+  set_camera(name, intrinsics);
+  set_floats(name, "u_image",
+             {static_cast<double>(intrinsics.width), static_cast<double>(intrinsics.height)});
+  set_floats(name, "u_near", {depth.near_m});
+  set_floats(name, "u_depth", {depth.offset(), depth.slope()});
+  glUniform1i(glGetUniformLocation(name, "u_luminance"), 0);
+  glUniform1i(glGetUniformLocation(name, "u_depth_image"), 1);
+  return locate(name);
+}
+
+GlTarget make_target(int width, int height) {
+  GlTarget target;
+  const GLuint luminance = make_image(GL_R32F, GL_RED, GL_FLOAT, width, height);
+  const GLuint ids = make_image(GL_R32I, GL_RED_INTEGER, GL_INT, width, height);
+  target.luminance_copy = make_image(GL_R32F, GL_RED, GL_FLOAT, width, height);
+  target.depth = make_image(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width, height);
+  target.without_ids = make_framebuffer(luminance, target.depth, 0);
+  target.with_ids = make_framebuffer(luminance, target.depth, ids);
+  target.without_depth = make_framebuffer(luminance, 0, 0);
   return target;
 }
 

@@ -24,6 +24,7 @@ struct GlProgram {
   int rectangle, R_GC, eye_G, size, texture_scale, texture_offset, albedo_emission, margin;
   int conic, conic_origin;  // ellipsoids
   int R_WC;                 // sky
+  int X_CW;                 // edges
 };
 
 // Uploads. All are GL names.
@@ -34,6 +35,9 @@ struct VertexBuffer {
 };
 VertexBuffer upload_vertices(const std::vector<Vertex>& vertices);
 
+// Edges as instances: ends a, b.
+VertexBuffer upload_edges(const std::vector<Edge>& edges);
+
 // Links a program and sets the uniforms that never change: lights, camera, depth range.
 GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene);
 GlProgram make_primitive_program(mjtGeom type, TextureKind texture, bool hard,
@@ -41,10 +45,15 @@ GlProgram make_primitive_program(mjtGeom type, TextureKind texture, bool hard,
                                  const DepthRange& depth);
 GlProgram make_sky_program(TextureKind texture, const Intrinsics& intrinsics, double luminance);
 
+GlProgram make_edge_program(const Intrinsics& intrinsics, const DepthRange& depth);
+
 // Off-screen image: luminance (R32F), ids (R32I), depth. Binding one of the two framebuffers
 // chooses whether ids are written.
 struct GlTarget {
   unsigned without_ids = 0, with_ids = 0;
+  unsigned without_depth = 0;   // framebuffer for passes that read the depth
+  unsigned depth = 0;           // texture
+  unsigned luminance_copy = 0;  // texture of the same size
 };
 GlTarget make_target(int width, int height);
 

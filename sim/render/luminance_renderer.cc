@@ -81,6 +81,10 @@ class LuminanceRenderer::Impl {
 
  private:
   void make_programs();
+  Rect clipped(const Rect& region) const;
+  void draw_static(const Eigen::Isometry3d& X_WC, const Rect& region);
+  void smooth_edges(const Eigen::Isometry3d& X_WC, const Rect& region);
+  void read(const Rect& region, float* luminance, std::int32_t* object_id);
   TextureKind kind_of(int texture) const;
   void bind_texture(int texture) const;
   Eigen::Matrix4d clip_from_camera() const;
@@ -105,7 +109,8 @@ class LuminanceRenderer::Impl {
   std::array<GlProgram, kTextureKinds> triangle_programs_;
   std::array<std::array<GlProgram, kTextureKinds>, std::size(kPrimitiveTypes)> primitive_programs_;
   std::array<GlProgram, std::size(kPrimitiveTypes)> hard_programs_;
-  GlProgram sky_program_;
+  GlProgram sky_program_, edge_program_;
+  VertexBuffer edges_;
 
   // Of the frame being drawn.
   Eigen::Matrix4d clip_from_W_;
@@ -134,6 +139,7 @@ LuminanceRenderer::Impl::Impl(const mjModel& model, const std::vector<int>& obje
   for (const InfinitePlane& plane : scene_.infinite_planes) {
     unbounded_buffers_.push_back(upload_vertices(tessellate_unbounded(plane.surface, spec.far_m)));
   }
+  edges_ = upload_edges(scene_.static_edges);
   glGenVertexArrays(1, &no_vertices_);
   make_programs();
   views_.resize(scene_.primitives.size());
@@ -141,6 +147,7 @@ LuminanceRenderer::Impl::Impl(const mjModel& model, const std::vector<int>& obje
   order_.reserve(scene_.primitives.size());
   glViewport(0, 0, intrinsics.width, intrinsics.height);
   glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
   glEnable(GL_SCISSOR_TEST);
   glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -170,6 +177,7 @@ void LuminanceRenderer::Impl::make_programs() {
                                     depth_);
     }
   }
+  edge_program_ = make_edge_program(intrinsics_, depth_);
   const bool has_sky = scene_.sky_texture >= 0;
   sky_program_ =
       make_sky_program(kind_of(scene_.sky_texture), intrinsics_, has_sky ? 1.0 : sky_luminance_);
@@ -317,21 +325,19 @@ void LuminanceRenderer::Impl::draw_primitives(const Snapshot& snapshot,
 void LuminanceRenderer::Impl::render(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
                                      const Rect& region, float* luminance,
                                      std::int32_t* object_id) {
-  const Rect part{std::max(region.x0, 0), std::max(region.y0, 0),
-                  std::min(region.x1, intrinsics_.width), std::min(region.y1, intrinsics_.height)};
+  const Rect part = clipped(region);
   if (part.empty()) return;
   context_.make_current();
   clip_from_W_ = clip_from_camera() * X_WC.inverse().matrix();
   glBindFramebuffer(GL_FRAMEBUFFER, object_id ? target_.with_ids : target_.without_ids);
-  const int width = part.x1 - part.x0, height = part.y1 - part.y0;
-  glScissor(part.x0, part.y0, width, height);
-  glClear(GL_DEPTH_BUFFER_BIT);
-  glDepthFunc(GL_LEQUAL);
-  for (std::size_t i = 0; i < static_buffers_.size(); ++i) {
-    draw_triangles(static_buffers_[i], scene_.static_triangles[i].texture,
-                   Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), 0);
-  }
-  draw_unbounded(X_WC.translation());
+  // Smoothed edges need the pixels around them.
+  constexpr int kBorderPx = 2;
+  const Rect wide =
+      clipped({part.x0 - kBorderPx, part.y0 - kBorderPx, part.x1 + kBorderPx, part.y1 + kBorderPx});
+  draw_static(X_WC, wide);
+  smooth_edges(X_WC, wide);
+  glBindFramebuffer(GL_FRAMEBUFFER, object_id ? target_.with_ids : target_.without_ids);
+  glScissor(part.x0, part.y0, part.x1 - part.x0, part.y1 - part.y0);
   for (std::size_t i = 0; i < moving_buffers_.size(); ++i) {
     const MovingTriangles& moving = scene_.moving_triangles[i];
     const auto object = static_cast<std::size_t>(moving.object);
@@ -339,16 +345,54 @@ void LuminanceRenderer::Impl::render(const Snapshot& snapshot, const Eigen::Isom
     draw_triangles(moving_buffers_[i], moving.batch.texture, snapshot.objects[object].pose(),
                    Eigen::Vector3d::Zero(), moving.object + 1);
   }
-  draw_sky(X_WC);
   draw_primitives(snapshot, X_WC, part);
+  read(part, luminance, object_id);
+}
 
-  const std::ptrdiff_t first = std::ptrdiff_t{part.y0} * intrinsics_.width + part.x0;
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(part.x0, part.y0, width, height, GL_RED, GL_FLOAT, luminance + first);
-  if (object_id) {
-    glReadBuffer(GL_COLOR_ATTACHMENT1);
-    glReadPixels(part.x0, part.y0, width, height, GL_RED_INTEGER, GL_INT, object_id + first);
+Rect LuminanceRenderer::Impl::clipped(const Rect& region) const {
+  return {std::max(region.x0, 0), std::max(region.y0, 0), std::min(region.x1, intrinsics_.width),
+          std::min(region.y1, intrinsics_.height)};
+}
+
+void LuminanceRenderer::Impl::draw_static(const Eigen::Isometry3d& X_WC, const Rect& region) {
+  glScissor(region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  for (std::size_t i = 0; i < static_buffers_.size(); ++i) {
+    draw_triangles(static_buffers_[i], scene_.static_triangles[i].texture,
+                   Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), 0);
   }
+  draw_unbounded(X_WC.translation());
+  draw_sky(X_WC);
+}
+
+void LuminanceRenderer::Impl::smooth_edges(const Eigen::Isometry3d& X_WC, const Rect& region) {
+  if (edges_.count == 0) return;
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, target_.depth);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, target_.luminance_copy);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, region.x0, region.y0, region.x0, region.y0,
+                      region.x1 - region.x0, region.y1 - region.y0);
+  glBindFramebuffer(GL_FRAMEBUFFER, target_.without_depth);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glUseProgram(edge_program_.name);
+  set_matrix(edge_program_.X_CW, X_WC.inverse().matrix());
+  glBindVertexArray(edges_.array);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, edges_.count);
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void LuminanceRenderer::Impl::read(const Rect& region, float* luminance, std::int32_t* object_id) {
+  const int width = region.x1 - region.x0, height = region.y1 - region.y0;
+  const std::ptrdiff_t first = std::ptrdiff_t{region.y0} * intrinsics_.width + region.x0;
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glReadPixels(region.x0, region.y0, width, height, GL_RED, GL_FLOAT, luminance + first);
+  if (!object_id) return;
+  glReadBuffer(GL_COLOR_ATTACHMENT1);
+  glReadPixels(region.x0, region.y0, width, height, GL_RED_INTEGER, GL_INT, object_id + first);
 }
 
 LuminanceRenderer::LuminanceRenderer(const mjModel& model, const std::vector<int>& object_bodies,

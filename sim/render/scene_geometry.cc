@@ -140,9 +140,15 @@ TriangleBatch& static_batch(int texture, SceneGeometry& scene) {
                       "or higher to hide it.");
 }
 
+// What static edges are found from.
+struct StaticFaces {
+  std::vector<Quad> quads;
+  std::vector<Edge> creases;
+};
+
 // `pose`: geom in W (object -1) or in the object's frame.
 void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& pose,
-              SceneGeometry& scene) {
+              SceneGeometry& scene, StaticFaces& faces) {
   const Vector3d size = extents(m, geom);
   const Surface surface = make_surface(m, geom, size, scene);
   const auto type = static_cast<mjtGeom>(m.geom_type[geom]);
@@ -160,12 +166,14 @@ void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& p
         scene.primitives.push_back({type, size, surface, object, pose});
       } else {
         append_box(size, surface, pose, static_batch(surface.texture, scene).vertices);
+        append_box_faces(size, pose, faces.quads);
       }
       return;
     case mjGEOM_PLANE:
       if (object >= 0) reject(m, geom);
       if (size.x() > 0 && size.y() > 0) {
         append_rectangle(size, surface, pose, static_batch(surface.texture, scene).vertices);
+        faces.quads.push_back(rectangle(size, pose));
       } else {
         scene.infinite_planes.push_back({pose, surface});
       }
@@ -174,6 +182,7 @@ void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& p
       if (object < 0) {
         append_mesh(m, m.geom_dataid[geom], surface, pose,
                     static_batch(surface.texture, scene).vertices);
+        append_mesh_creases(m, m.geom_dataid[geom], pose, faces.creases);
       } else {
         scene.moving_triangles.push_back({object, {surface.texture, {}}});
         append_mesh(m, m.geom_dataid[geom], surface, pose,
@@ -237,6 +246,7 @@ SceneGeometry collect_scene(const mjModel& model, const std::vector<int>& object
                             bool srgb_texels) {
   SceneGeometry scene;
   scene.srgb_texels = srgb_texels;
+  StaticFaces faces;
   const MjDataPtr data(mj_makeData(&model));
   mj_kinematics(&model, data.get());
   mj_comPos(&model, data.get());
@@ -256,8 +266,9 @@ SceneGeometry collect_scene(const mjModel& model, const std::vector<int>& object
       X_WO.translation() = Eigen::Map<const Vector3d>(data->xipos + 3 * root);
       pose = X_WO.inverse() * pose;
     }
-    add_geom(model, geom, object, pose, scene);
+    add_geom(model, geom, object, pose, scene, faces);
   }
+  scene.static_edges = find_edges(faces.quads, faces.creases);
   add_lights(model, *data, scene);
   for (int i = 0; i < model.ntex; ++i) {
     if (model.tex_type[i] != mjTEXTURE_SKYBOX) continue;

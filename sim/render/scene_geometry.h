@@ -13,6 +13,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "sim/render/static_edges.h"
+
 namespace dodgesim {
 
 // Linear intensity of an sRGB code value in [0, 1] (IEC 61966-2-1).
@@ -86,6 +88,7 @@ struct SceneGeometry {
   bool srgb_texels = false;
   std::vector<LuminanceTexture> textures;
   std::vector<TriangleBatch> static_triangles;  // in W
+  std::vector<Edge> static_edges;               // of the static triangles
   std::vector<MovingTriangles> moving_triangles;
   std::vector<Primitive> primitives;
   std::vector<InfinitePlane> infinite_planes;

@@ -161,12 +161,7 @@ void write(float value, float coverage, float z_C) {
 }
 )";
 
-// The outline of an ellipsoid, and that of an endless cylinder, is a conic: the zero set of a
-// quadratic form in pixel coordinates.
-constexpr const char* kConic = R"(
-uniform mat3 u_conic;        // quadratic form in (x - origin.x, y - origin.y, 1), positive inside
-uniform vec2 u_conic_origin; // [px]
-
+constexpr const char* kHalfPlane = R"(
 // Part of a square of the given width that lies on the inner side of a line at the signed distance
 // s from its centre (positive: centre inside); n: unit normal of the line.
 float half_plane_coverage(float s, vec2 n, float width) {
@@ -179,6 +174,13 @@ float half_plane_coverage(float s, vec2 n, float width) {
   else outside = (h - d) * (h - d) / (2.0 * a * b);
   return s >= 0.0 ? 1.0 - outside : outside;
 }
+)";
+
+// The outline of an ellipsoid, and that of an endless cylinder, is a conic: the zero set of a
+// quadratic form in pixel coordinates.
+constexpr const char* kConic = R"(
+uniform mat3 u_conic;        // quadratic form in (x - origin.x, y - origin.y, 1), positive inside
+uniform vec2 u_conic_origin; // [px]
 
 // Distance to the conic along its gradient, exact for the quadratic form; positive inside.
 float conic_distance(vec2 at, out vec2 n) {
@@ -394,6 +396,75 @@ float shade_face(vec3 d, int k) {
 }
 )";
 
+// One instance an edge: the edge in the image, and a strip a pixel wide on either side.
+constexpr const char* kEdgeVertex = R"(
+layout(location = 0) in vec3 end_a;
+layout(location = 1) in vec3 end_b;
+uniform mat4 u_X_CW;
+uniform vec3 u_camera;   // f, cx, cy [px]
+uniform vec2 u_image;    // width, height [px]
+uniform float u_near;    // [m]
+flat out vec3 line;      // (n, c): signed distance of pixel p is n.p - c
+flat out vec4 along;     // unit direction u and u.a [px], length [px]
+flat out vec2 inverse_z; // at the ends [1/m]
+void main() {
+  vec3 a = (u_X_CW * vec4(end_a, 1.0)).xyz, b = (u_X_CW * vec4(end_b, 1.0)).xyz;
+  gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside: not drawn
+  if (max(a.z, b.z) <= u_near) return;
+  if (a.z < u_near) a = mix(a, b, (u_near - a.z) / (b.z - a.z));
+  if (b.z < u_near) b = mix(b, a, (u_near - b.z) / (a.z - b.z));
+  vec2 p = u_camera.x * a.xy / a.z + u_camera.yz, q = u_camera.x * b.xy / b.z + u_camera.yz;
+  float size = distance(p, q);
+  if (size < 1e-3) return;
+  vec2 u = (q - p) / size, n = vec2(-u.y, u.x);
+  line = vec3(n, dot(n, p));
+  along = vec4(u, dot(u, p), size);
+  inverse_z = 1.0 / vec2(a.z, b.z);
+  vec2 corner = mix(p - 0.5 * u, q + 0.5 * u, float(gl_VertexID & 1)) +
+                (gl_VertexID < 2 ? -0.75 : 0.75) * n;
+  gl_Position = vec4(2.0 * (corner + 0.5) / u_image - 1.0, 0.0, 1.0);
+}
+)";
+
+// A pixel that the edge crosses gets its neighbour's luminance for the part beyond the edge. Depths
+// at and beyond both pixels tell whether the edge is in sight here.
+constexpr const char* kEdgeFragment = R"(
+flat in vec3 line;
+flat in vec4 along;
+flat in vec2 inverse_z;
+uniform vec2 u_depth;  // depth buffer value = u_depth.x + u_depth.y / z_C
+uniform sampler2D u_luminance;
+uniform sampler2D u_depth_image;
+layout(location = 0) out vec4 luminance;
+
+float inverse_depth(ivec2 p) {
+  p = clamp(p, ivec2(0), textureSize(u_depth_image, 0) - 1);
+  return (texelFetch(u_depth_image, p, 0).r - u_depth.x) / u_depth.y;
+}
+
+// Whether the face at pixel p, which goes on to the next pixel away from the edge, can have the
+// edge: 1/z is linear over a flat face.
+bool touches(float edge, float at, float next) {
+  return abs(edge - at) < min(1.5 * abs(at - next), 0.05 * edge) + 0.004 * edge;
+}
+
+void main() {
+  vec2 pixel = gl_FragCoord.xy - 0.5;
+  float s = dot(line.xy, pixel) - line.z;
+  float beyond = 1.0 - half_plane_coverage(abs(s), line.xy, 1.0);
+  ivec2 own = ivec2(gl_FragCoord.xy);
+  vec2 over = s > 0.0 ? -line.xy : line.xy;
+  ivec2 step = abs(over.x) > abs(over.y) ? ivec2(sign(over.x), 0) : ivec2(0, sign(over.y));
+  float t = clamp((dot(along.xy, pixel) - along.z) / along.w, 0.0, 1.0);
+  float edge = mix(inverse_z.x, inverse_z.y, t);
+  bool seen = touches(edge, inverse_depth(own), inverse_depth(own - step)) ||
+              touches(edge, inverse_depth(own + step), inverse_depth(own + 2 * step));
+  if (!seen || beyond <= 0.0) discard;
+  ivec2 other = clamp(own + step, ivec2(0), textureSize(u_luminance, 0) - 1);
+  luminance = vec4(texelFetch(u_luminance, other, 0).r, 0.0, 0.0, beyond);
+}
+)";
+
 constexpr const char* kSkyVertex = R"(
 void main() {
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
@@ -461,11 +532,11 @@ std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, const L
                              kLamps + kTexel + kPrimitiveCommon;
   switch (type) {
     case mjGEOM_ELLIPSOID:
-      return common + kConic + kEllipsoid;
+      return common + kHalfPlane + kConic + kEllipsoid;
     case mjGEOM_CAPSULE:
-      return common + kConic + kRoundSide + kCapsule + kSampled;
+      return common + kHalfPlane + kConic + kRoundSide + kCapsule + kSampled;
     case mjGEOM_CYLINDER:
-      return common + kConic + kRoundSide + kCylinder + kSampled;
+      return common + kHalfPlane + kConic + kRoundSide + kCylinder + kSampled;
     default:
       return common + kBox + kSampled;
   }
@@ -476,6 +547,10 @@ std::string sky_vertex_shader() { return std::string(kVersion) + kSkyVertex; }
 std::string sky_fragment_shader(TextureKind texture) {
   return header(texture, {}) + kTexel + kSkyFragment;
 }
+
+std::string edge_vertex_shader() { return std::string(kVersion) + kEdgeVertex; }
+
+std::string edge_fragment_shader() { return std::string(kVersion) + kHalfPlane + kEdgeFragment; }
 
 unsigned link_program(const std::string& vertex, const std::string& fragment) {
   const GLuint program = glCreateProgram();

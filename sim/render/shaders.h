@@ -26,6 +26,10 @@ std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, const L
 std::string sky_vertex_shader();
 std::string sky_fragment_shader(TextureKind texture);
 
+// Smooths the static scene along its edges; see luminance_renderer.h.
+std::string edge_vertex_shader();
+std::string edge_fragment_shader();
+
 // Returns the GL name of the linked program. Throws SimulationError with the compiler's message.
 unsigned link_program(const std::string& vertex, const std::string& fragment);
 

@@ -13,6 +13,9 @@ namespace dodgesim {
 // Each appends triangles of a shape of half extents `size` [m], transformed by `pose`.
 void append_box(const Eigen::Vector3d& size, const Surface& surface, const Eigen::Isometry3d& pose,
                 std::vector<Vertex>& out);
+// The six faces.
+void append_box_faces(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose,
+                      std::vector<Quad>& out);
 // In the plane z = 0, normal +z.
 void append_rectangle(const Eigen::Vector3d& size, const Surface& surface,
                       const Eigen::Isometry3d& pose, std::vector<Vertex>& out);
@@ -20,5 +23,10 @@ void append_rectangle(const Eigen::Vector3d& size, const Surface& surface,
 // where it has some.
 void append_mesh(const mjModel& model, int mesh, const Surface& surface,
                  const Eigen::Isometry3d& pose, std::vector<Vertex>& out);
+
+Quad rectangle(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose);
+// Borders, and edges at which the faces meet at an angle that is drawn as a crease.
+void append_mesh_creases(const mjModel& model, int mesh, const Eigen::Isometry3d& pose,
+                         std::vector<Edge>& out);
 
 }  // namespace dodgesim
