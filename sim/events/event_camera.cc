@@ -225,8 +225,9 @@ void EventCamera::fire_crossings(Pixel& pixel, const Line& line, TimeUs until_us
     if (on ? l_until < level : l_until > level) return;
     pixel.reference = level;
     const double crossing = line.time_of(level);
-    // The stamp is rounded to the clock and kept in (t0, until].
-    const TimeUs t_us = t_us_ + static_cast<TimeUs>(crossing - line.t0_us + 0.5);
+    // The stamp is rounded to the clock (halves of a microsecond are counted and halved) and kept
+    // in (t0, until].
+    const TimeUs t_us = t_us_ + (static_cast<TimeUs>(2 * (crossing - line.t0_us)) + 1) / 2;
     emit(std::clamp(t_us, t_us_ + 1, until_us), address, on);
     if (refractory_us_ > 0) pixel.held_until_us = crossing + refractory_us_;
   }
