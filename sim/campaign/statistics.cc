@@ -1,6 +1,5 @@
 #include "sim/campaign/statistics.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "sim/base/random.h"
@@ -15,7 +14,9 @@ Interval wilson(int successes, int trials, double confidence) {
   const double centre = p + z * z / (2 * n);
   const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
   const double scale = 1 + z * z / n;
-  return {std::max(0.0, (centre - half) / scale), std::min(1.0, (centre + half) / scale)};
+  // At the ends the bounds are exactly 0 and 1, which rounding would miss.
+  return {successes == 0 ? 0 : (centre - half) / scale,
+          successes == trials ? 1 : (centre + half) / scale};
 }
 
 }  // namespace dodgesim

@@ -195,6 +195,9 @@ std::string asides(const std::vector<ThrowResult>& results, const std::string& p
   return text;
 }
 
+// A value that somebody wrote, rather than one drawn from a continuous distribution.
+bool is_round(double value) { return std::abs(value - std::round(value * 1e3) / 1e3) < 1e-12; }
+
 }  // namespace
 
 void Tally::add(const FlightResult& flight, const FlightResult& none) {
@@ -217,7 +220,8 @@ std::string Bin::text() const {
 std::vector<Bin> make_bins(const std::vector<double>& values, double width) {
   const std::set<double> distinct(values.begin(), values.end());
   std::vector<Bin> bins;
-  if (distinct.size() <= kMostSingleValues) {
+  const bool all_round = std::all_of(distinct.begin(), distinct.end(), is_round);
+  if (distinct.size() <= kMostSingleValues && all_round) {
     for (const double value : distinct) bins.push_back({value, value});
     return bins;
   }

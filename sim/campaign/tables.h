@@ -28,8 +28,8 @@ struct Bin {
   std::string text() const;  // "0.1" or "2 to 3"
 };
 
-// A value each where there are few different ones, else bins of the given width from a multiple of
-// it. In increasing order; empty for no values.
+// A value each where there are few different ones with at most three decimals, else bins of the
+// given width that start at multiples of it. In increasing order; empty for no values.
 std::vector<Bin> make_bins(const std::vector<double>& values, double width);
 
 struct Tables {

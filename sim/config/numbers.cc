@@ -40,9 +40,15 @@ std::string_view without_plus(std::string_view text) {
 }  // namespace
 
 std::string to_text(double value) {
-  std::array<char, 32> buffer;
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
+  std::array<char, 32> shortest, fixed;
+  const auto a = std::to_chars(shortest.data(), shortest.data() + shortest.size(), value);
+  const std::string text(shortest.data(), a.ptr);
+  const auto b =
+      std::to_chars(fixed.data(), fixed.data() + fixed.size(), value, std::chars_format::fixed);
+  const std::string plain(fixed.data(), b.ptr);
+  // 100000 rather than 1e+05, but 1e-12.
+  constexpr std::size_t kWorthReading = 3;
+  return b.ec == std::errc() && plain.size() <= text.size() + kWorthReading ? plain : text;
 }
 
 NumberForm number_form(std::string_view text) {

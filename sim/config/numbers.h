@@ -8,7 +8,8 @@
 
 namespace dodgesim {
 
-// Shortest text that reads back as the same double. Finite values only.
+// Text that reads back as the same double, as short as possible or nearly so: 0.0001 rather than
+// 1e-04. Finite values only.
 std::string to_text(double value);
 inline std::string to_text(int value) { return std::to_string(value); }
 inline std::string to_text(std::int64_t value) { return std::to_string(value); }

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "sim/base/error.h"
+#include "sim/config/closest_name.h"
 #include "sim/config/numbers.h"
-#include "sim/config/reader.h"
 #include "sim/config/writer.h"
 
 namespace dodgesim {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "sim/config/closest_name.h"
 #include "sim/config/numbers.h"
 
 namespace dodgesim {
@@ -51,41 +52,9 @@ std::optional<Number> parse_number(const std::string& text) {
   }
 }
 
-// Damerau-Levenshtein distance (neighbours swapped count once), at most the longer length.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replace = a[i - 1] == b[j - 1] ? 0 : 1;
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + replace});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-      }
-    }
-  }
-  return d[a.size()][b.size()];
-}
-
 std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
 }  // namespace
-
-std::string closest_name(const std::string& word, const std::vector<std::string>& candidates) {
-  constexpr std::size_t kLongestWord = 64;
-  if (word.empty() || word.size() > kLongestWord) return "";
-  std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : candidates) {
-    const bool only_unit_missing = candidate.starts_with(word + "_");
-    const std::size_t distance = only_unit_missing ? 1 : edit_distance(word, candidate);
-    if (distance >= best_distance) continue;
-    best_distance = distance;
-    best = candidate;
-  }
-  return best;
-}
 
 void Reader::finish() {
   for (const YamlNode::Key& key : map_.keys) {
@@ -131,32 +100,34 @@ void Reader::problem(const YamlNode& node, const std::string& name, const std::s
 }
 
 template <class Number>
-void Reader::read_number(const YamlNode& node, const std::string& name, Number& value, Number min,
+bool Reader::read_number(const YamlNode& node, const std::string& name, Number& value, Number min,
                          Number max) {
   const bool whole = !std::is_same_v<Number, double>;
   const std::string range = "between " + to_text(min) + " and " + to_text(max);
   const std::string wanted =
       std::string("must be a ") + (whole ? "whole " : "") + "number " + range;
-  if (node.kind != Kind::kScalar || node.quoted || !node.tag.empty()) {
-    return problem(node, name, wanted);
-  }
+  const auto refuse = [&](const std::string& complaint) {
+    problem(node, name, complaint);
+    return false;
+  };
+  if (node.kind != Kind::kScalar || node.quoted || !node.tag.empty()) return refuse(wanted);
   switch (number_form(node.text)) {
     case NumberForm::kNone:
-      return problem(node, name, wanted);
+      return refuse(wanted);
     case NumberForm::kNotFinite:
-      return problem(node, name, wanted + " (it must be finite)");
+      return refuse(wanted + " (it must be finite)");
     case NumberForm::kLeadingZero:
-      return problem(node, name,
-                     wanted + " without leading zeros (some readers take them as octal)");
+      return refuse(wanted + " without leading zeros (some readers take them as octal)");
     case NumberForm::kDecimal:
-      if (whole) return problem(node, name, wanted);
+      if (whole) return refuse(wanted);
       break;
     case NumberForm::kInteger:
       break;
   }
   const std::optional<Number> parsed = parse_number<Number>(node.text);
-  if (!parsed || *parsed < min || *parsed > max) return problem(node, name, "must be " + range);
+  if (!parsed || *parsed < min || *parsed > max) return refuse("must be " + range);
   value = *parsed;
+  return true;
 }
 
 void Reader::operator()(const char* key, double& value, double min, double max, const char*) {
@@ -213,11 +184,12 @@ bool Reader::read_vector(const YamlNode& node, const std::string& name, Eigen::V
     problem(node, name, "must be [x, y, z], each a number " + range_text(min, max));
     return false;
   }
+  bool read = true;
   for (int i = 0; i < 3; ++i) {
-    const auto n = static_cast<std::size_t>(i);
-    read_number(node.items[n], name + "[" + std::to_string(i) + "]", value[i], min, max);
+    const YamlNode& item = node.items[static_cast<std::size_t>(i)];
+    read = read_number(item, name + "[" + std::to_string(i) + "]", value[i], min, max) && read;
   }
-  return true;
+  return read;
 }
 
 void Reader::operator()(const char* key, Eigen::Vector3d& value, double min, double max,
@@ -261,7 +233,7 @@ bool Reader::read_distribution(const YamlNode& node, const std::string& name, Di
   const std::string numbers = "each a number " + range_text(min, max);
   if (node.tag.empty() && node.kind == Kind::kScalar) {
     double number = 0;
-    read_number(node, name, number, min, max);
+    if (!read_number(node, name, number, min, max)) return false;
     value = Distribution::constant(number);
   } else if (node.tag == "!uniform" || node.tag == "!choice") {
     const bool uniform = node.tag == "!uniform";
@@ -272,9 +244,12 @@ bool Reader::read_distribution(const YamlNode& node, const std::string& name, Di
       return false;
     }
     std::vector<double> values(node.items.size());
+    bool read = true;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      read_number(node.items[i], name + "[" + std::to_string(i) + "]", values[i], min, max);
+      const std::string item = name + "[" + std::to_string(i) + "]";
+      read = read_number(node.items[i], item, values[i], min, max) && read;
     }
+    if (!read) return false;
     if (uniform && values[0] > values[1]) {
       problem(node.items[0], name + "[0]",
               "the lowest value must come first and be at most " + to_text(values[1]));

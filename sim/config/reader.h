@@ -85,8 +85,9 @@ class Reader {
   const YamlNode* take_map(const char* key);
   void problem(const YamlNode& node, const std::string& name, const std::string& complaint);
 
+  // The functions below return whether `value` was read; if not, there is a problem.
   template <class Number>
-  void read_number(const YamlNode& node, const std::string& name, Number& value, Number min,
+  bool read_number(const YamlNode& node, const std::string& name, Number& value, Number min,
                    Number max);
   bool read_distribution(const YamlNode& node, const std::string& name, Distribution& value,
                          double min, double max);
@@ -100,10 +101,5 @@ class Reader {
   ReadContext& context_;
   std::vector<std::string> known_;
 };
-
-// The name in `candidates` that `word` most likely misspells, or empty. Counts insertions,
-// deletions, replacements and swaps of neighbours; a missing unit (size for size_m) is always
-// recognised.
-std::string closest_name(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace dodgesim

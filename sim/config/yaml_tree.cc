@@ -139,7 +139,10 @@ class TreeBuilder : public YAML::EventHandler {
       root_ = std::move(node);
       return;
     }
-    open_.back().node.items.push_back(std::move(node));
+    YamlNode& parent = open_.back().node;
+    // The parser notices a missing value only where the next key stands.
+    if (node.kind == YamlNode::Kind::kNull && !parent.keys.empty()) node.at = parent.keys.back().at;
+    parent.items.push_back(std::move(node));
     open_.back().expects_value = false;
   }
 

@@ -2,9 +2,11 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <vector>
 
 #include "sim/base/error.h"
 #include "sim/campaign/csv.h"
+#include "sim/film.h"
 #include "sim/loop.h"
 #include "tools/commands/command.h"
 
@@ -16,6 +18,32 @@ struct Arguments {
   std::string directory;
   std::string models_dir;
   int throw_index = 0;
+  std::string video;   // empty: none
+  std::string stages;  // empty: none
+};
+
+// Hands everything on to several observers.
+class Observers : public FlightObserver {
+ public:
+  void add(FlightObserver* observer) { observers_.push_back(observer); }
+  void on_start(dodge::Pilot& pilot) override {
+    for (FlightObserver* o : observers_) o->on_start(pilot);
+  }
+  void on_tick(const World& world) override {
+    for (FlightObserver* o : observers_) o->on_tick(world);
+  }
+  void on_events(int camera, const Packet& packet) override {
+    for (FlightObserver* o : observers_) o->on_events(camera, packet);
+  }
+  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override {
+    for (FlightObserver* o : observers_) o->on_cycle(now_us, pilot);
+  }
+  void on_command(TimeUs now_us, bool evading) override {
+    for (FlightObserver* o : observers_) o->on_command(now_us, evading);
+  }
+
+ private:
+  std::vector<FlightObserver*> observers_;
 };
 
 // Line of throws.csv for this throw, with its line end.
@@ -36,7 +64,27 @@ int replay(const Arguments& arguments) {
   const Scenario scenario =
       load_scenario(directory + "/scenario.resolved.yaml", arguments.models_dir);
   const std::string recorded = recorded_row(directory + "/throws.csv", arguments.throw_index);
-  const ThrowResult result = fly_throw(scenario, arguments.throw_index);
+
+  Observers observers;
+  std::unique_ptr<Film> film;
+  if (!arguments.video.empty()) {
+    film = std::make_unique<Film>(arguments.video, intrinsics(scenario.sensors.camera));
+    observers.add(film.get());
+  }
+  std::unique_ptr<StageFilm> stages;
+  if (!arguments.stages.empty()) {
+    stages = std::make_unique<StageFilm>(arguments.stages);
+    observers.add(stages.get());
+  }
+  const ThrowResult result = fly_throw(scenario, arguments.throw_index, &observers);
+  if (film) {
+    film->close();
+    std::cout << "Video: " << arguments.video << "\n";
+  }
+  if (stages) {
+    std::cout << stages->pictures() << " pictures of the pilot's stages: " << arguments.stages
+              << "\n";
+  }
   const std::string flown = csv_row(result);
   if (flown == recorded) {
     std::cout << "Throw " << arguments.throw_index << " flew as recorded, bit for bit.\n";
@@ -59,6 +107,12 @@ void add_replay_command(CLI::App& program, int& exit_code) {
   command->add_option("--throw", arguments->throw_index, "Number of the throw, from 0")
       ->required()
       ->check(CLI::NonNegativeNumber);
+  command->add_option("--video", arguments->video,
+                      "Write a video: the scene and both event streams, ten times slower")
+      ->type_name("FILE.mp4");
+  command->add_option("--stages", arguments->stages,
+                      "Write the pilot's stages, a PNG for each of its cycles")
+      ->type_name("DIR2");
   add_models_option(*command, arguments->models_dir);
   command->callback([arguments, &exit_code] { exit_code = replay(*arguments); });
 }

@@ -1,0 +1,135 @@
+// The program as its users meet it: exit codes and what it prints.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string output;  // standard output and error
+};
+
+Outcome dodgesim(const std::string& arguments) {
+  const std::string command =
+      std::string(DODGESIM_BINARY_DIR) + "/dodgesim " + arguments + " 2>&1 </dev/null";
+  FILE* pipe = ::popen(command.c_str(), "r");
+  Outcome outcome;
+  std::array<char, 4096> buffer;
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
+    outcome.output.append(buffer.data(), n);
+  }
+  const int status = ::pclose(pipe);
+  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
+  return outcome;
+}
+
+const fs::path kSource = DODGESIM_SOURCE_DIR;
+
+class DodgesimTest : public testing::Test {
+ protected:
+  DodgesimTest() {
+    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    root_ = fs::temp_directory_path() / ("dodgesim_" + name + "_" + std::to_string(::getpid()));
+    fs::create_directories(root_);
+  }
+  ~DodgesimTest() override { fs::remove_all(root_); }
+
+  std::string file(const std::string& text) const {
+    std::ofstream(root_ / "scenario.yaml") << text;
+    return (root_ / "scenario.yaml").string();
+  }
+
+  void expect_refused(const std::string& yaml, const std::string& message) const {
+    const std::string path = file(yaml);
+    for (const std::string& command :
+         {"validate " + path, "run " + path + " --out " + (root_ / "out").string()}) {
+      const Outcome outcome = dodgesim(command);
+      EXPECT_EQ(outcome.exit_code, 2) << command;
+      EXPECT_EQ(outcome.output.substr(0, path.size() + message.size()), path + message) << command;
+      EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << command;
+    }
+    EXPECT_FALSE(fs::exists(root_ / "out"));
+  }
+
+  fs::path root_;
+};
+
+TEST_F(DodgesimTest, RefusesBadScenariosWithOneSentenceAndExitCode2) {
+  expect_refused("sed: 1\n", ":1:1: sed is not a known key; did you mean seed?\n");
+  expect_refused("seed: one\n", ":1:7: seed is \"one\", but must be a whole number between 0 and");
+  expect_refused("seed: 1\nseed: 1\n", ":2:1: seed is given twice; it is already in line 1.\n");
+  expect_refused("throw: {size_m: -1}\n",
+                 ":1:17: throw.size_m is -1, but must be between 0.01 and 1.\n");
+  expect_refused("throw: {size_m: .nan}\n", ":1:17: throw.size_m is .nan, but must be a number");
+  expect_refused("throw: {object: anvil}\n",
+                 ":1:17: throw.object is \"anvil\", but there is no model file ");
+  expect_refused("", ": The file is empty.\n");
+}
+
+TEST_F(DodgesimTest, RefusesBadCommandLinesWithExitCode2) {
+  for (const char* arguments :
+       {"", "fly", "run", "run x.yaml", "run x.yaml --out", "run x.yaml --out d -j 0",
+        "run x.yaml --out d --throws many", "replay d", "replay d --throw -1", "validate",
+        "validate a.yaml b.yaml", "explain no_such_key_at_all", "validate /no/such/file.yaml"}) {
+    const Outcome outcome = dodgesim(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments;
+    EXPECT_FALSE(outcome.output.empty()) << arguments;
+  }
+}
+
+TEST_F(DodgesimTest, HelpTeachesWithExamples) {
+  const Outcome help = dodgesim("--help");
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.output, HasSubstr("dodgesim run scenarios/demo.yaml --out out/demo"));
+  EXPECT_THAT(help.output, HasSubstr("Exit codes"));
+  EXPECT_EQ(dodgesim("run --help").exit_code, 0);
+  EXPECT_EQ(dodgesim("--version").exit_code, 0);
+}
+
+TEST_F(DodgesimTest, ValidatesTheScenariosOfTheProject) {
+  for (const char* name : {"demo", "ci", "goal_flight", "mono"}) {
+    const std::string path = kSource / "scenarios" / (std::string(name) + ".yaml");
+    const Outcome outcome = dodgesim("validate " + path);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(": a valid scenario of "));
+  }
+}
+
+TEST_F(DodgesimTest, ResolvingAResolvedScenarioChangesNothing) {
+  const Outcome once =
+      dodgesim("validate --resolved " + (kSource / "scenarios/mono.yaml").string());
+  ASSERT_EQ(once.exit_code, 0);
+  const Outcome twice = dodgesim("validate --resolved " + file(once.output));
+  EXPECT_EQ(twice.output, once.output);
+}
+
+TEST_F(DodgesimTest, TheDocumentationOfTheKeysIsUpToDate) {
+  std::ifstream readme(kSource / "scenarios" / "README.md");
+  std::ostringstream text;
+  text << readme.rdbuf();
+  EXPECT_TRUE(dodgesim("explain --markdown").output == text.str())
+      << "Update it with: build/dodgesim explain --markdown > scenarios/README.md";
+}
+
+TEST_F(DodgesimTest, ReportsOutputThatCannotBeWritten) {
+  const Outcome full = dodgesim("explain >/dev/full");
+  EXPECT_EQ(full.exit_code, 4);
+  const Outcome no_directory =
+      dodgesim("run " + (kSource / "scenarios/ci.yaml").string() + " --out /dev/null/x");
+  EXPECT_EQ(no_directory.exit_code, 4) << no_directory.output;
+  EXPECT_THAT(no_directory.output, HasSubstr("/dev/null/x could not be created"));
+  EXPECT_EQ(dodgesim("replay " + root_.string() + " --throw 0").exit_code, 2);
+}
+
+}  // namespace

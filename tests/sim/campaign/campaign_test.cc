@@ -1,0 +1,217 @@
+#include "sim/campaign/campaign.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "sim/base/error.h"
+#include "sim/campaign/output_file.h"
+#include "tests/sim/campaign/fake_throws.h"
+
+namespace dodgesim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class CampaignTest : public testing::Test {
+ protected:
+  CampaignTest() {
+    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    root_ = fs::temp_directory_path() / ("dodgesim_" + name + "_" + std::to_string(::getpid()));
+    fs::remove_all(root_);
+    fs::create_directories(root_);
+    scenario_ = parse_scenario(
+        "seed: 4\nrepeats: 12\nthrow: {size_m: !choice [0.1, 0.2], distance_m: !uniform [2, 5]}\n",
+        "fake.yaml", "");
+  }
+  ~CampaignTest() override { fs::remove_all(root_); }
+
+  CampaignOptions options(const std::string& name, int jobs = 1) const {
+    CampaignOptions options;
+    options.out = root_ / name;
+    options.jobs = jobs;
+    return options;
+  }
+
+  // A throw whose result depends on its number alone; the first ones take longest, so that workers
+  // finish out of order.
+  ThrowResult fly(int index) const {
+    std::this_thread::sleep_for(std::chrono::milliseconds(index < 3 ? 30 : 1));
+    ThrowResult result = blank_result(scenario_, index);
+    result.flown = flown(index % 3 == 0);
+    result.none = flown(true);
+    result.duration_us = 2000000;
+    result.detection_rows.resize(static_cast<std::size_t>(index));
+    for (DetectionRow& row : result.detection_rows) row.throw_index = index;
+    return result;
+  }
+
+  static std::string read(const fs::path& path) {
+    std::ifstream file(path);
+    EXPECT_TRUE(file) << path;
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  fs::path root_;
+  Scenario scenario_;
+};
+
+TEST_F(CampaignTest, ResultsAreByteIdenticalForAnyNumberOfWorkers) {
+  const auto fly_one = [&](int index) { return fly(index); };
+  run_campaign(scenario_, options("one", 1), fly_one);
+  for (const int jobs : {2, 5, 40}) {
+    const std::string name = std::to_string(jobs);
+    run_campaign(scenario_, options(name, jobs), fly_one);
+    for (const char* file :
+         {"scenario.resolved.yaml", "throws.csv", "detections.csv", "table.md", "table.csv"}) {
+      EXPECT_EQ(read(root_ / "one" / file), read(root_ / name / file)) << file;
+    }
+  }
+  const std::string throws = read(root_ / "one" / "throws.csv");
+  EXPECT_EQ(std::count(throws.begin(), throws.end(), '\n'), 13);
+  const std::string detections = read(root_ / "one" / "detections.csv");
+  EXPECT_EQ(std::count(detections.begin(), detections.end(), '\n'), 1 + 66);
+}
+
+TEST_F(CampaignTest, ACrashCostsItsThrowOnlyAndIsRecorded) {
+  const CampaignSummary summary = run_campaign(scenario_, options("crash", 2), [&](int index) {
+    if (index == 4) ::raise(SIGKILL);
+    if (index == 7) ::_exit(9);
+    return fly(index);
+  });
+  EXPECT_EQ(summary.errors, 2);
+  ASSERT_EQ(summary.results.size(), 12u);
+  for (int i = 0; i < 12; ++i) {
+    const ThrowResult& result = summary.results[static_cast<std::size_t>(i)];
+    EXPECT_EQ(result.index, i);
+    EXPECT_EQ(result.flown.failed(), i == 4 || i == 7) << i;
+    EXPECT_EQ(result.size_m, blank_result(scenario_, i).size_m) << i;
+  }
+  EXPECT_EQ(summary.results[4].flown.error, "The worker process was killed by signal 9 (Killed).");
+  EXPECT_EQ(summary.results[7].flown.error, "The worker process ended with exit code 9.");
+  EXPECT_THAT(summary.table,
+              HasSubstr("- throw 4, pilot falanga2020: The worker process was killed"));
+}
+
+TEST_F(CampaignTest, EvenWhenEveryThrowCrashesTheCampaignEnds) {
+  const CampaignSummary summary =
+      run_campaign(scenario_, options("all", 2), [&](int) -> ThrowResult { ::_exit(1); });
+  EXPECT_EQ(summary.errors, 12);
+}
+
+TEST_F(CampaignTest, AnExceptionCostsItsThrow) {
+  const CampaignSummary summary = run_campaign(scenario_, options("throwing", 2), [&](int index) {
+    if (index == 2) throw SimulationError("The state diverged.");
+    return fly(index);
+  });
+  EXPECT_EQ(summary.errors, 1);
+  EXPECT_EQ(summary.results[2].flown.error, "The state diverged.");
+}
+
+TEST_F(CampaignTest, AScenarioErrorEndsTheCampaignAndNoWorkerSurvives) {
+  EXPECT_THROW(run_campaign(scenario_, options("bad", 3),
+                            [&](int index) -> ThrowResult {
+                              if (index == 1) throw ScenarioError("The room is broken.");
+                              std::this_thread::sleep_for(std::chrono::hours(1));
+                              return {};
+                            }),
+               ScenarioError);
+  EXPECT_FALSE(fs::exists(root_ / "bad" / "throws.csv"));
+  EXPECT_FALSE(fs::exists(root_ / "bad" / "throws.csv.partial"));
+  EXPECT_FALSE(fs::exists(root_ / "bad" / "manifest.json"));
+}
+
+TEST_F(CampaignTest, AFullDiskIsReportedAndNothingIsClaimed) {
+  const fs::path out = root_ / "full";
+  fs::create_directories(out);
+  for (const char* name : {"throws.csv", "detections.csv", "timing.csv", "table.md", "table.csv",
+                           "manifest.json", "scenario.resolved.yaml"}) {
+    fs::remove(out / name);  // what the case before left
+    const fs::path link = out / (std::string(name) + ".partial");
+    fs::create_symlink("/dev/full", link);
+    CampaignOptions full = options("full");
+    full.force = true;
+    try {
+      run_campaign(scenario_, full, [&](int index) { return fly(index); });
+      FAIL() << name;
+    } catch (const IoError& error) {
+      EXPECT_EQ(error.what(),
+                (out / name).string() + " could not be written: No space left on device.");
+    }
+    EXPECT_FALSE(fs::exists(out / name)) << name;
+    EXPECT_FALSE(fs::exists(out / "manifest.json")) << name;
+    fs::remove(link);
+  }
+}
+
+TEST_F(CampaignTest, AnotherScenarioIsNotOverwrittenUnlessForced) {
+  const auto fly_one = [&](int index) { return fly(index); };
+  run_campaign(scenario_, options("a"), fly_one);
+  EXPECT_NO_THROW(run_campaign(scenario_, options("a"), fly_one)) << "the same scenario again";
+  const std::string before = read(root_ / "a" / "throws.csv");
+
+  Scenario other = scenario_;
+  other.seed = 5;
+  EXPECT_THROW(run_campaign(other, options("a"), fly_one), ScenarioError);
+  EXPECT_EQ(read(root_ / "a" / "throws.csv"), before);
+  CampaignOptions forced = options("a");
+  forced.force = true;
+  EXPECT_NO_THROW(run_campaign(other, forced, fly_one));
+}
+
+TEST_F(CampaignTest, ADirectoryOfSomethingElseIsLeftAlone) {
+  fs::create_directories(root_ / "home");
+  std::ofstream(root_ / "home" / "precious.txt") << "x";
+  EXPECT_THROW(run_campaign(scenario_, options("home"), [&](int i) { return fly(i); }),
+               ScenarioError);
+  EXPECT_THROW(run_campaign(scenario_, options("home/precious.txt"), [&](int i) { return fly(i); }),
+               IoError);
+}
+
+TEST_F(CampaignTest, TheResolvedScenarioIsTheScenario) {
+  run_campaign(scenario_, options("out"), [&](int index) { return fly(index); });
+  const Scenario again = load_scenario(root_ / "out" / "scenario.resolved.yaml", "");
+  EXPECT_EQ(to_yaml(again), to_yaml(scenario_));
+}
+
+TEST_F(CampaignTest, TheManifestSaysWhatFlewAndWhere) {
+  CampaignOptions with_facts = options("out", 2);
+  with_facts.command_line = "dodgesim run fake.yaml \xff";
+  with_facts.gl_renderer = [] { return std::string("llvmpipe"); };
+  run_campaign(scenario_, with_facts, [&](int index) { return fly(index); });
+  const auto manifest = nlohmann::json::parse(read(root_ / "out" / "manifest.json"));
+  EXPECT_GE(manifest["program"]["commit"].get<std::string>().size(), 7u);
+  EXPECT_THAT(manifest["program"]["compiler"].get<std::string>(), HasSubstr("g++ "));
+  for (const char* library : {"mujoco", "opencv", "eigen", "yaml_cpp", "gl_renderer"}) {
+    EXPECT_NE(manifest["libraries"][library], "") << library;
+  }
+  EXPECT_NE(manifest["machine"]["cpu_flags"], "");
+  EXPECT_EQ(manifest["campaign"]["throws"], 12);
+  EXPECT_EQ(manifest["campaign"]["jobs"], 2);
+  EXPECT_GT(manifest["time"]["wall_s"].get<double>(), 0);
+}
+
+TEST_F(CampaignTest, AFileIsAbsentUntilItIsWhole) {
+  const fs::path path = root_ / "file.txt";
+  {
+    OutputFile file(path);
+    file.write(std::string(1000000, 'x'));
+    EXPECT_FALSE(fs::exists(path));
+  }
+  EXPECT_FALSE(fs::exists(root_ / "file.txt.partial")) << "dropped without commit()";
+  write_file(path, "whole");
+  EXPECT_EQ(read(path), "whole");
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,226 @@
+// Every mistake gives one sentence with file, line, column, key, value and what is allowed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/base/error.h"
+#include "sim/config/scenario.h"
+
+namespace dodgesim {
+namespace {
+
+using testing::HasSubstr;
+
+std::string error_of(const std::string& yaml) {
+  try {
+    parse_scenario(yaml, "bad.yaml", std::string(DODGESIM_SOURCE_DIR) + "/models");
+  } catch (const ScenarioError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+struct BadScenario {
+  const char* name;
+  std::string yaml;
+  std::string message;  // the whole of it, or its start
+};
+
+void PrintTo(const BadScenario& bad, std::ostream* out) { *out << bad.name; }
+
+class BadScenarioTest : public testing::TestWithParam<BadScenario> {};
+
+TEST_P(BadScenarioTest, IsRefusedWithPlaceKeyAndReason) {
+  EXPECT_THAT(error_of(GetParam().yaml), testing::StartsWith(GetParam().message));
+}
+
+std::string repeat(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+const BadScenario kBadScenarios[] = {
+    // Ranges.
+    {"NegativeSize", "seed: 1\nthrow:\n  size_m: -1\n",
+     "bad.yaml:3:11: throw.size_m is -1, but must be between 0.01 and 1."},
+    {"TooManyThrows", "repeats: 1000001\n",
+     "bad.yaml:1:10: repeats is 1000001, but must be between 1 and 1000000."},
+    {"NegativeSeed", "seed: -1\n",
+     "bad.yaml:1:7: seed is -1, but must be between 0 and 18446744073709551615."},
+    {"SeedBeyond64Bits", "seed: 18446744073709551616\n",
+     "bad.yaml:1:7: seed is 18446744073709551616"},
+    {"NumberBeyondDouble", "after_s: 1e999\n",
+     "bad.yaml:1:10: after_s is 1e999, but must be between 0.1 and 60."},
+    {"NestedThreeDeep", "dodger:\n  position:\n    stereo:\n      max_cost: -2\n",
+     "bad.yaml:4:17: dodger.position.stereo.max_cost is -2, but must be between 0 and 1000."},
+    {"VectorComponent", "mission:\n  start_m: [0, 1000, 2]\n",
+     "bad.yaml:2:16: mission.start_m[1] is 1000, but must be between -100 and 100."},
+    // Numbers that are none.
+    {"Nan", "after_s: .nan\n",
+     "bad.yaml:1:10: after_s is .nan, but must be a number between 0.1 and 60 (it must be "
+     "finite)."},
+    {"MinusInfinity", "throw: {speed_mps: -.inf}\n",
+     "bad.yaml:1:20: throw.speed_mps is -.inf, but"},
+    {"Octal", "seed: 010\n",
+     "bad.yaml:1:7: seed is 010, but must be a whole number between 0 and 18446744073709551615 "
+     "without leading zeros"},
+    {"OctalFraction", "after_s: 01.5\n", "bad.yaml:1:10: after_s is 01.5, but"},
+    {"Hexadecimal", "seed: 0x10\n", "bad.yaml:1:7: seed is \"0x10\", but must be a whole number"},
+    {"Fraction", "repeats: 1.5\n", "bad.yaml:1:10: repeats is 1.5, but must be a whole number"},
+    {"NumberInQuotes", "repeats: \"5\"\n", "bad.yaml:1:10: repeats is \"5\", but must be a whole"},
+    {"NumberWithUnit", "throw:\n  size_m: 20 cm\n",
+     "bad.yaml:2:11: throw.size_m is \"20 cm\", but must be a number"},
+    {"WordForNumber", "after_s: long\n",
+     "bad.yaml:1:10: after_s is \"long\", but must be a number"},
+    // Wrong types.
+    {"ListForNumber", "after_s: [1, 2]\n",
+     "bad.yaml:1:10: after_s is a list of 2, but must be a number"},
+    {"MapForNumber", "after_s: {a: 1}\n", "bad.yaml:1:10: after_s is a map, but must be a number"},
+    {"NoValue", "after_s:\n", "bad.yaml:1:1: after_s is empty, but must be a number"},
+    {"NumberForMap", "throw: 3\n", "bad.yaml:1:8: throw is 3, but must be a map of keys."},
+    {"EmptyMap", "throw:\nseed: 1\n", "bad.yaml:1:1: throw is empty, but must be a map of keys."},
+    {"YesForBool", "fly_oracle: yes\n",
+     "bad.yaml:1:13: fly_oracle is \"yes\", but must be true or false."},
+    {"ShortVector", "mission: {start_m: [0, 1]}\n",
+     "bad.yaml:1:20: mission.start_m is a list of 2, but must be [x, y, z]"},
+    {"ListForName", "name: [a]\n", "bad.yaml:1:7: name is a list of 1, but must be text."},
+    {"UnknownPilot", "pilot: falanga\n",
+     "bad.yaml:1:8: pilot is \"falanga\", but must be falanga2020, oracle or none."},
+    {"MisspelledPilot", "pilot: orcale\n",
+     "bad.yaml:1:8: pilot is \"orcale\", but must be falanga2020, oracle or none (did you mean "
+     "oracle?)."},
+    {"TagOnNumber", "after_s: !int 1\n", "bad.yaml:1:10: after_s is !int"},
+    // Keys.
+    {"Misspelled", "throw:\n  sise_m: 0.1\n",
+     "bad.yaml:2:3: throw.sise_m is not a known key; did you mean throw.size_m?"},
+    {"UnitForgotten", "throw:\n  distance: 3\n",
+     "bad.yaml:2:3: throw.distance is not a known key; did you mean throw.distance_m?"},
+    {"WrongPlace", "compute_us: 3\n",
+     "bad.yaml:1:1: compute_us is not a known key; delays.compute_us is."},
+    {"Unknown", "throw:\n  colour_of_the_sky: 3\n",
+     "bad.yaml:2:3: throw.colour_of_the_sky is not a known key."},
+    {"Duplicate", "seed: 1\nrepeats: 2\nseed: 3\n",
+     "bad.yaml:3:1: seed is given twice; it is already in line 1."},
+    {"NestedDuplicate", "throw:\n  size_m: 0.1\n  size_m: 0.2\n",
+     "bad.yaml:3:3: throw.size_m is given twice; it is already in line 2."},
+    {"ListAsKey", "[a, b]: 1\n", "bad.yaml:1:1: A key must be a plain word"},
+    // YAML features that make a file mean something else than it says.
+    {"MergeKey", "throw:\n  <<: {size_m: 0.1}\n",
+     "bad.yaml:2:3: Merge keys (<<) are not supported"},
+    {"Anchor", "throw: &t {size_m: 0.1}\n", "bad.yaml:1:8: Anchors (&name) are not supported"},
+    {"TwoDocuments", "seed: 1\n---\nseed: 2\n", "bad.yaml:3:1: The file holds more than one YAML"},
+    // Not a scenario at all.
+    {"Empty", "", "bad.yaml: The file is empty."},
+    {"OnlyComments", "# nothing\n", "bad.yaml: The file is empty."},
+    {"List", "- 1\n- 2\n", "bad.yaml:1:1: A scenario must be a map of keys"},
+    {"Text", "hello\n", "bad.yaml:1:1: A scenario must be a map of keys"},
+    {"Syntax", "throw: {size_m: 0.1\nseed: 1\n", "bad.yaml:2:"},
+    {"Tab", "throw:\n\tsize_m: 0.1\n", "bad.yaml:2:"},
+    {"NotUtf8", "name: \"\xff\"\n", "bad.yaml:1:8: The file is not UTF-8 text (byte 255)."},
+    {"Overlong", "name: \"\xc0\xaf\"\n", "bad.yaml:1:8: The file is not UTF-8 text"},
+    {"Zero", std::string("name: a\0b\n", 10), "bad.yaml:1:8: The file is not UTF-8 text (byte 0)."},
+    {"Utf16", std::string("\xff\xfes\0e\0e\0d\0", 10), "bad.yaml:1:1: The file is not UTF-8 text"},
+    // Bounded time and memory.
+    {"DeepFlow", "throw: " + repeat("[", 100000), "bad.yaml:1:"},
+    {"DeepBlock", repeat("a: \n ", 1) + "b: " + repeat("{a: ", 1000) + repeat("}", 1000),
+     "bad.yaml:"},
+    {"DeepSequence", repeat("- ", 50000) + "1\n", "bad.yaml:1:"},
+    {"Huge", "name: " + std::string(300000, 'x') + "\n", "bad.yaml: The file has 300007 bytes"},
+    {"ManyValues", "throw: {size_m: !choice [" + repeat("0.1, ", 6000) + "0.1]}\n", "bad.yaml:1:"},
+    // Distributions.
+    {"UniformOutOfRange", "throw: {size_m: !uniform [0.1, 3]}\n",
+     "bad.yaml:1:32: throw.size_m[1] is 3, but must be between 0.01 and 1."},
+    {"UniformBackwards", "throw: {size_m: !uniform [0.3, 0.1]}\n",
+     "bad.yaml:1:27: throw.size_m[0] is 0.3, but the lowest value must come first"},
+    {"UniformOfOne", "throw: {size_m: !uniform [0.3]}\n",
+     "bad.yaml:1:17: throw.size_m is !uniform a list of 1, but must be !uniform [lowest, highest]"},
+    {"UniformOfText", "throw: {size_m: !uniform [a, b]}\n",
+     "bad.yaml:1:27: throw.size_m[0] is \"a\", but must be a number"},
+    {"ChoiceOfNothing", "throw: {size_m: !choice []}\n",
+     "bad.yaml:1:17: throw.size_m is !choice a list"},
+    {"ChoiceOutOfRange", "throw: {size_m: !choice [0.1, 0]}\n",
+     "bad.yaml:1:31: throw.size_m[1] is 0, but must be between 0.01 and 1."},
+    {"NormalWithoutSd", "throw: {size_m: !normal {mean: 0.2}}\n",
+     "bad.yaml:1:17: throw.size_m is !normal a map, but must be !normal {mean: a, sd: b}"},
+    {"NormalWithZeroSd", "throw: {size_m: !normal {mean: 0.2, sd: 0}}\n",
+     "bad.yaml:1:41: throw.size_m.sd is 0, but must be between"},
+    {"NormalMeanOutside", "throw: {size_m: !normal {mean: 0.2, sd: 0.1, min: 0.3, max: 0.4}}\n",
+     "bad.yaml:1:17: throw.size_m is !normal a map, but must have min < max and its mean between"},
+    {"NormalUnknownKey", "throw: {size_m: !normal {mean: 0.2, sd: 0.1, sigma: 1}}\n",
+     "bad.yaml:1:46: throw.size_m.sigma is not a known key"},
+    {"UnknownDistribution", "throw: {size_m: !gauss [0, 1]}\n",
+     "bad.yaml:1:17: throw.size_m is !gauss a list of 2, but must be a number between"},
+    {"ListWithoutTag", "throw: {size_m: [0.1, 0.2]}\n",
+     "bad.yaml:1:17: throw.size_m is a list of 2, but must be a number between 0.01 and 1, "
+     "!uniform"},
+    {"WrongComponentCount", "throw: {aim_offset_m: [0, 0, 0]}\n",
+     "bad.yaml:1:23: throw.aim_offset_m is a list of 3, but must be one number or distribution, or "
+     "a list of 2."},
+    {"BadComponent", "throw: {aim_offset_m: [0, !uniform [0, 9]]}\n",
+     "bad.yaml:1:40: throw.aim_offset_m[1][1] is 9, but must be between -2 and 2."},
+    {"DistributionOutsideThrow", "after_s: !uniform [1, 2]\n",
+     "bad.yaml:1:10: after_s is !uniform"},
+    // Models.
+    {"MissingModel", "throw: {object: anvil}\n",
+     "bad.yaml:1:17: throw.object is \"anvil\", but there is no model file "},
+    {"MissingRoom", "room: attic\n",
+     "bad.yaml:1:7: room is \"attic\", but there is no model file "},
+    {"MissingChoice", "throw: {object: !choice [ball, anvil]}\n",
+     "bad.yaml:1:32: throw.object[1] is \"anvil\", but there is no model file "},
+    {"PathAsModel", "room: ../../etc/passwd\n",
+     "bad.yaml:1:7: room is \"../../etc/passwd\", but must be the name of a file in models/rooms"},
+    // Keys that need each other.
+    {"GoalMissing", "mission: {type: goal}\n",
+     "bad.yaml:1:17: mission.goal_m is missing, but mission.type goal needs it."},
+    {"GoalWithoutUse", "mission: {goal_m: [1, 2, 3]}\n",
+     "bad.yaml:1:19: mission.goal_m is given, but mission.type hover does not fly to a goal."},
+    {"CoreContradiction", "dodger: {position: {min_range_m: 2, max_range_m: 1}}\n",
+     "bad.yaml:1:9: dodger does not fit together: "},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, BadScenarioTest, testing::ValuesIn(kBadScenarios),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(BadScenario, AllProblemsAreReportedInFileOrder) {
+  const std::string error = error_of(
+      "throw:\n  size_m: -1\n  sped_mps: 3\nrepeats: 0\nseed: 1\nseed: 2\nnonsense_key: 1\n");
+  EXPECT_EQ(error,
+            "bad.yaml:2:11: throw.size_m is -1, but must be between 0.01 and 1.\n"
+            "bad.yaml:3:3: throw.sped_mps is not a known key; did you mean throw.speed_mps?\n"
+            "bad.yaml:4:10: repeats is 0, but must be between 1 and 1000000.\n"
+            "bad.yaml:6:1: seed is given twice; it is already in line 5.\n"
+            "bad.yaml:7:1: nonsense_key is not a known key.");
+}
+
+TEST(BadScenario, ALongListOfProblemsIsCut) {
+  std::string yaml;
+  for (int i = 0; i < 200; ++i) yaml += "nonsense_" + std::to_string(i) + ": 1\n";
+  EXPECT_THAT(error_of(yaml), HasSubstr("bad.yaml: and 180 more problems."));
+}
+
+TEST(BadScenario, AnAliasBombIsRefusedWithoutBeingExpanded) {
+  std::string yaml = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int i = 1; i < 12; ++i) {
+    const std::string alias = "*a" + std::to_string(i - 1);
+    yaml += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + repeat(alias + ", ", 9) +
+            alias + "]\n";
+  }
+  const std::string error = error_of(yaml);
+  EXPECT_THAT(error, HasSubstr("bad.yaml:1:5: Anchors (&name) are not supported"));
+  EXPECT_THAT(error, HasSubstr("bad.yaml:2:10: Aliases (*name) are not supported"));
+}
+
+TEST(BadScenario, LongTextIsCutInTheMessageAtAWholeCharacter) {
+  const std::string error =
+      error_of("pilot: " + std::string(59, 'x') + repeat("\xc3\xa4", 50) + "\n");
+  EXPECT_THAT(error, HasSubstr("\"" + std::string(59, 'x') + "...\""));
+}
+
+TEST(BadScenario, AMissingFileAndADirectoryAreNamed) {
+  EXPECT_THROW(load_scenario("/no/such/file.yaml", ""), ScenarioError);
+  EXPECT_THROW(load_scenario("/", ""), ScenarioError);
+  EXPECT_THROW(load_scenario("/dev/zero", ""), ScenarioError);
+}
+
+}  // namespace
+}  // namespace dodgesim
