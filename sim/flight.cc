@@ -36,6 +36,10 @@ std::array<double, 3> to_array(const Eigen::Vector3d& v) { return {v.x(), v.y(),
 
 }  // namespace
 
+Intrinsics intrinsics(const CameraSpec& camera) {
+  return {camera.width, camera.height, focal_length_px(camera.width, camera.horizontal_fov_deg)};
+}
+
 Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer)
     : scenario_(scenario),
       plan_(plan),
@@ -64,17 +68,13 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
   rate_command_.thrust_mps2 = kGravityMps2;
   computer_.set_goal({mission.goal_m.value_or(mission.start_m), mission.speed_mps});
   referee_.reset();
+  if (observer_ != nullptr) observer_->on_start(computer_.pilot());
   if (!rig_) return;
   rig_->start();
   for (const auto& launch : plan_.launches) rig_->require(launch.toss.launch_us);
 }
 
 std::uint64_t Flight::index() const { return static_cast<std::uint64_t>(plan_.throw_index); }
-
-Intrinsics Flight::intrinsics() const {
-  const CameraSpec& camera = scenario_.sensors.camera;
-  return {camera.width, camera.height, focal_length_px(camera.width, camera.horizontal_fov_deg)};
-}
 
 std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
   if (plan_.pilot == "falanga2020") return make_dodger();
@@ -86,7 +86,7 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
   setup.lifetime_s = dodge::decay_lifetime_s(core.repulsive);
   for (const auto& launch : plan_.launches) setup.sizes_m.push_back(launch.toss.object.size_m);
   setup.X_BC = world_.vehicle().X_BC.front();
-  setup.intrinsics = intrinsics();
+  setup.intrinsics = intrinsics(scenario_.sensors.camera);
   auto pilot = std::make_unique<TruthPilot>(
       std::move(setup), dodge::Avoider(core.repulsive, core.attractive, core.velocity_limit));
   truth_pilot_ = pilot.get();
@@ -95,7 +95,7 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
 
 std::unique_ptr<dodge::Pilot> Flight::make_dodger() const {
   dodge::Config config = scenario_.dodger;
-  const Intrinsics camera = intrinsics();
+  const Intrinsics camera = intrinsics(scenario_.sensors.camera);
   config.cameras.clear();
   for (const Eigen::Isometry3d& X_BC : world_.vehicle().X_BC) {
     dodge::CameraModel model;
@@ -113,7 +113,7 @@ std::unique_ptr<dodge::Pilot> Flight::make_dodger() const {
 std::unique_ptr<EventRig> Flight::make_rig() const {
   if (truth_pilot_ != nullptr) return nullptr;
   EventRigSetup setup;
-  setup.intrinsics = intrinsics();
+  setup.intrinsics = intrinsics(scenario_.sensors.camera);
   setup.render = scenario_.sensors.render;
   setup.events = scenario_.sensors.events;
   setup.sampling = scenario_.sensors.sampling;
@@ -194,6 +194,7 @@ void Flight::control() {
   });
   rate_commands_.deliver(now, [&](const SentCommand& sent) {
     rate_command_ = sent.command;
+    if (observer_ != nullptr) observer_->on_command(now, sent.evading);
     if (sent.evading && !record_.first_command_us) record_.first_command_us = now;
   });
   motors_.set_command(now, flight_controller_.step(now, rate_command_, gyro_B_radps_));

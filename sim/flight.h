@@ -41,10 +41,16 @@ struct FlightPlan {
 class FlightObserver {
  public:
   virtual ~FlightObserver() = default;
+  virtual void on_start(dodge::Pilot& /*pilot*/) {}
   virtual void on_tick(const World& /*world*/) {}
   virtual void on_events(int /*camera*/, const Packet& /*packet*/) {}
   virtual void on_cycle(TimeUs /*now_us*/, const dodge::Pilot& /*pilot*/) {}
+  // A command of the controller arrives at the flight controller.
+  virtual void on_command(TimeUs /*now_us*/, bool /*evading*/) {}
 };
+
+// The event cameras' geometry.
+Intrinsics intrinsics(const CameraSpec& camera);
 
 // What a flight leaves behind.
 struct FlightRecord {
@@ -99,7 +105,6 @@ class Flight {
   std::unique_ptr<dodge::Pilot> make_pilot();
   std::unique_ptr<dodge::Pilot> make_dodger() const;
   std::unique_ptr<EventRig> make_rig() const;
-  Intrinsics intrinsics() const;
   double true_range_m() const;
   const Snapshot* truth_at(TimeUs t_us) const;
   void log_detections();

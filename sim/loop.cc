@@ -54,10 +54,11 @@ FlightResult summary(const FlightRecord& record, bool thrown) {
 
 // Flies one pilot; a failed simulation costs this flight only and is recorded with its reason.
 FlightResult attempt(const Scenario& scenario, FlightPlan plan, const std::string& pilot,
-                     FlightRecord* record = nullptr, FlightTiming* timing = nullptr) {
+                     FlightObserver* observer = nullptr, FlightRecord* record = nullptr,
+                     FlightTiming* timing = nullptr) {
   plan.pilot = pilot;
   try {
-    const FlightRecord flown = fly(scenario, plan, nullptr, timing);
+    const FlightRecord flown = fly(scenario, plan, observer, timing);
     if (record != nullptr) *record = flown;
     return summary(flown, !plan.launches.empty());
   } catch (const SimulationError& error) {
@@ -113,7 +114,7 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
   return plan;
 }
 
-ThrowResult fly_throw(const Scenario& scenario, int throw_index) {
+ThrowResult fly_throw(const Scenario& scenario, int throw_index, FlightObserver* observer) {
   ThrowResult result;
   result.index = throw_index;
   const FlightPlan plan = plan_throw(scenario, throw_index);
@@ -124,7 +125,7 @@ ThrowResult fly_throw(const Scenario& scenario, int throw_index) {
   }
   FlightRecord record;
   FlightTiming timing;
-  result.flown = attempt(scenario, plan, scenario.pilot, &record, &timing);
+  result.flown = attempt(scenario, plan, scenario.pilot, observer, &record, &timing);
   for (DetectionRow& row : record.rows) row.throw_index = throw_index;
   copy_record(std::move(record), result);
   result.wall_s = timing.total_s;

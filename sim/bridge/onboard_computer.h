@@ -40,6 +40,7 @@ class OnboardComputer {
   TimeUs newest_packet_end_us(TimeUs cycle_us) const { return cycle_us - event_delay_us_; }
 
   const dodge::Pilot& pilot() const { return *pilot_; }
+  dodge::Pilot& pilot() { return *pilot_; }
 
  private:
   struct Packet {

@@ -107,11 +107,13 @@ void add_replay_command(CLI::App& program, int& exit_code) {
   command->add_option("--throw", arguments->throw_index, "Number of the throw, from 0")
       ->required()
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--video", arguments->video,
-                      "Write a video: the scene and both event streams, ten times slower")
+  command
+      ->add_option("--video", arguments->video,
+                   "Write a video: the scene and both event streams, ten times slower")
       ->type_name("FILE.mp4");
-  command->add_option("--stages", arguments->stages,
-                      "Write the pilot's stages, a PNG for each of its cycles")
+  command
+      ->add_option("--stages", arguments->stages,
+                   "Write the pilot's stages, a PNG for each of its cycles")
       ->type_name("DIR2");
   add_models_option(*command, arguments->models_dir);
   command->callback([arguments, &exit_code] { exit_code = replay(*arguments); });

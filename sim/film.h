@@ -1,0 +1,90 @@
+// A throw as people look at it: a video of the scene with both event streams beside it, and
+// pictures of the pilot's stages.
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dodge/dodger.h"
+#include "sim/flight.h"
+#include "sim/render/scene_pictures.h"
+
+namespace dodgesim {
+
+// Events of one camera since the last picture, drawn over mid grey: ON white, OFF black.
+class EventPicture {
+ public:
+  EventPicture(int width, int height);
+  void add(std::span<const Event> events);
+  void clear();
+  const cv::Mat3b& image() const { return image_; }
+
+ private:
+  cv::Mat3b image_;
+};
+
+// Writes the video: outside view on the left, the event pictures of the two cameras on the right.
+class Film : public FlightObserver {
+ public:
+  // Slow motion: a picture every 4 ms of flight, shown at 25 pictures a second.
+  static constexpr TimeUs kPictureEveryUs = 4000;
+  static constexpr double kShownPerSecond = 25;
+
+  // Throws IoError if the file cannot be opened for writing.
+  Film(std::string path, const Intrinsics& intrinsics);
+
+  void on_tick(const World& world) override;
+  void on_events(int camera, const Packet& packet) override;
+  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
+  void on_command(TimeUs now_us, bool evading) override;
+
+  // Finishes the file. Throws IoError if it does not hold every picture.
+  void close();
+
+  // The last picture [BGR].
+  const cv::Mat3b& picture() const { return picture_; }
+
+ private:
+  void compose(const Snapshot& snapshot);
+  void caption(const Snapshot& snapshot);
+
+  std::string path_;
+  cv::VideoWriter writer_;
+  int pictures_ = 0;
+  std::unique_ptr<ScenePictures> scene_;
+  std::optional<PictureView> view_;  // set by the first picture
+  std::vector<EventPicture> eyes_;
+  std::vector<PictureDot> trail_;
+  bool evading_ = false;
+  int detections_ = 0;
+  cv::Mat3b picture_;
+};
+
+// Writes one PNG a cycle of the paper's pilot while an object is in flight: for each camera the
+// panels B to F of the paper's Fig. 4 with the clusters' rectangles.
+class StageFilm : public FlightObserver {
+ public:
+  // Makes the directory. Throws IoError if it cannot.
+  explicit StageFilm(std::string directory);
+
+  void on_start(dodge::Pilot& pilot) override;
+  void on_tick(const World& world) override;
+  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
+
+  int pictures() const { return pictures_; }
+
+ private:
+  std::string directory_;
+  bool object_in_flight_ = false;
+  int pictures_ = 0;
+};
+
+// The stages of one camera side by side [BGR]: events, count, normalised mean time stamp,
+// threshold, obstacles.
+cv::Mat3b stage_panels(const dodge::Dodger& pilot, int camera);
+
+}  // namespace dodgesim
