@@ -39,7 +39,7 @@ double to_segment(const Vector3d& p, double half) {
 TEST(ConvexTest, DistanceOfASphereAgreesWithTheClosedForms) {
   RandomStream random(1, 0, "convex");
   const Vector3d half(0.17, 0.15, 0.05);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 600; ++i) {
     const Isometry3d X_AG = random_pose(random, 0.3);
     const Isometry3d X_AB = random_pose(random, i % 2 ? 2.0 : 0.3);
     const double radius = random.uniform(0.01, 0.3);
@@ -88,7 +88,7 @@ TEST(ConvexTest, DistanceBetweenSolidsAgreesWithBruteForceSampling) {
   const Convex box_a = Convex::box(Isometry3d::Identity(), hull);
   const Convex cylinder_a = Convex::cylinder(Isometry3d::Identity(), 0.17, 0.02);
   const Convex box_b = Convex::box(Isometry3d::Identity(), half);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 40; ++i) {
     const Isometry3d X_AB = random_pose(random, 0.5);
     EXPECT_NEAR(convex_gap(box_a, box_b, X_AB).distance_m,
                 sampled(surface, X_AB, [&](const Vector3d& p) { return to_box(p, hull); }), 1e-3);
@@ -111,7 +111,7 @@ TEST(ConvexTest, DistanceOfAnEllipsoidAgreesWithBruteForceSampling) {
   }
   const Convex a = Convex::box(Isometry3d::Identity(), hull);
   const Convex b = Convex::ellipsoid(Isometry3d::Identity(), axes);
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const Isometry3d X_AB = random_pose(random, 0.5);
     EXPECT_NEAR(convex_gap(a, b, X_AB).distance_m,
                 sampled(surface, X_AB, [&](const Vector3d& p) { return to_box(p, hull); }), 1e-3);

@@ -60,7 +60,7 @@ TEST(RefereeTest, ClearanceOfABoxAgreesWithSampledSurfacePoints) {
   World world(test_spec({{"box", 0.3}}));
   Referee referee(world);
   const Vector3d half(0.15, 0.1, 0.075);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 20; ++i) {
     BodyState state;
     state.q_W =
         Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal())

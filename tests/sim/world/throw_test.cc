@@ -54,7 +54,7 @@ TEST(ThrowTest, WithoutDragTheLaunchVelocityIsThatOfTheParabola) {
 
 TEST(ThrowTest, TheFlightReachesTheAimPointInTime) {
   RandomStream random(1, 0, "throw");
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const Throw toss = random_throw(random);
     const Vector3d vehicle_W(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(1, 3));
     const double heading_rad = random.uniform(-3, 3);
@@ -73,7 +73,7 @@ TEST(ThrowTest, TheFlightReachesTheAimPointInTime) {
 
 TEST(ThrowTest, TheFlightAgreesWithAFinerIndependentIntegration) {
   RandomStream random(2, 0, "throw");
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 20; ++i) {
     BodyState state;
     state.v_W = Vector3d(random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-2, 8));
     Vector3d p_W = state.p_W, v_W = state.v_W;
@@ -97,7 +97,7 @@ TEST(ThrowTest, BearingAndOffsetAreMeantFromTheVehicle) {
 
 TEST(ThrowTest, LeftAndRightThrowsAreMirrorImages) {
   RandomStream random(3, 0, "throw");
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 20; ++i) {
     const Throw left = random_throw(random);
     Throw right = left;
     right.bearing_deg = -left.bearing_deg;
@@ -138,7 +138,7 @@ TEST(ThrowTest, EveryThrowAScenarioAllowsHasASolution) {
 TEST(ThrowTest, InTheWorldTheObjectPassesTheAimPoint) {
   RandomStream random(4, 0, "throw");
   World world(test_spec({{"ball", 0.2}, {"box", 0.3}}));
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 8; ++i) {
     Throw toss = random_throw(random);
     toss.launch_height_m = 11;
     const Vector3d aim_W(0, 0, 12);  // far above the vehicle and whatever stands on the field
