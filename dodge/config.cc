@@ -91,15 +91,19 @@ void check_rectified(const CameraModel& top, const CameraModel& bottom) {
 
 }  // namespace
 
+Config long_range() {
+  Config config;
+  config.window.window_us = 20000;
+  config.position.max_range_m = 3;
+  return config;
+}
+
 void validate(const Config& config) {
   Config copy = config;  // visit() is not const
   RangeChecker checker;
   copy.visit(checker);
 
   check_odd("time_image.blur_px", config.time_image.blur_px);
-  check_odd("time_image.open_px", config.time_image.open_px);
-  check_odd("time_image.close_px", config.time_image.close_px);
-  check_odd("time_image.dilate_px", config.time_image.dilate_px);
   check_odd("flow.window_px", config.flow.window_px);
   if (config.position.min_range_m >= config.position.max_range_m) {
     fail("The parameter position.min_range_m must be less than position.max_range_m.");

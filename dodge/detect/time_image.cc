@@ -18,8 +18,16 @@ cv::Mat1f binomial_kernel(int size) {
   return kernel;
 }
 
-cv::Mat box(int size) {
-  return size > 1 ? cv::getStructuringElement(cv::MORPH_RECT, {size, size}) : cv::Mat();
+// Erosion and dilation by a square. For an even size the anchor of the second step of an opening or
+// closing must be mirrored, or the mask would move by a pixel.
+void erode(cv::Mat1b& mask, int size, bool mirrored) {
+  const int anchor = mirrored ? (size - 1) / 2 : size / 2;
+  cv::erode(mask, mask, cv::Mat1b(size, size, std::uint8_t{1}), {anchor, anchor});
+}
+
+void dilate(cv::Mat1b& mask, int size, bool mirrored) {
+  const int anchor = mirrored ? (size - 1) / 2 : size / 2;
+  cv::dilate(mask, mask, cv::Mat1b(size, size, std::uint8_t{1}), {anchor, anchor});
 }
 
 }  // namespace
@@ -32,10 +40,7 @@ TimeImage::TimeImage(const TimeImageConfig& config, int width, int height)
       previous_(height, width, 0.0F),
       threshold_mask_(height, width, static_cast<std::uint8_t>(0)),
       obstacle_mask_(height, width, static_cast<std::uint8_t>(0)),
-      blur_kernel_(binomial_kernel(config.blur_px)),
-      open_kernel_(box(config.open_px)),
-      close_kernel_(box(config.close_px)),
-      dilate_kernel_(box(config.dilate_px)) {
+      blur_kernel_(binomial_kernel(config.blur_px)) {
   active_.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
 }
 
@@ -87,15 +92,16 @@ void TimeImage::threshold(double rate_rps) {
 }
 
 void TimeImage::clean() {
-  if (open_kernel_.empty()) {
-    threshold_mask_.copyTo(obstacle_mask_);
-  } else {
-    cv::morphologyEx(threshold_mask_, obstacle_mask_, cv::MORPH_OPEN, open_kernel_);
+  threshold_mask_.copyTo(obstacle_mask_);
+  if (config_.open_px > 1) {
+    erode(obstacle_mask_, config_.open_px, false);
+    dilate(obstacle_mask_, config_.open_px, true);
   }
-  if (!close_kernel_.empty()) {
-    cv::morphologyEx(obstacle_mask_, obstacle_mask_, cv::MORPH_CLOSE, close_kernel_);
+  if (config_.close_px > 1) {
+    dilate(obstacle_mask_, config_.close_px, false);
+    erode(obstacle_mask_, config_.close_px, true);
   }
-  if (!dilate_kernel_.empty()) cv::dilate(obstacle_mask_, obstacle_mask_, dilate_kernel_);
+  if (config_.dilate_px > 1) dilate(obstacle_mask_, config_.dilate_px, false);
 }
 
 }  // namespace dodge

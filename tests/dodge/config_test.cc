@@ -1,0 +1,94 @@
+#include "dodge/config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/dodge/synthetic_events.h"
+
+namespace dodge {
+namespace {
+
+Config valid() {
+  Config config;
+  config.cameras = synthetic::vertical_pair();
+  return config;
+}
+
+// The sentence of the exception; empty if there is none.
+std::string complaint(const Config& config) {
+  try {
+    validate(config);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Config, defaults_and_the_long_range_variant_are_valid) {
+  EXPECT_EQ(complaint(valid()), "");
+  Config far = long_range();
+  far.cameras = synthetic::vertical_pair();
+  EXPECT_EQ(complaint(far), "");
+}
+
+TEST(Config, names_the_parameter_that_is_out_of_range) {
+  Config config = valid();
+  config.window.window_us = 10;
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("window.window_us is 10"));
+  config = valid();
+  config.position.stereo.disparity_sigma_px = -1;
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("position.stereo.disparity_sigma_px"));
+  config = valid();
+  config.cluster.eps = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("cluster.eps"));
+  config = valid();
+  config.position.depth = "lidar";
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("must be one of mono, stereo"));
+}
+
+TEST(Config, refuses_kernels_without_a_centre_and_empty_ranges) {
+  Config config = valid();
+  config.time_image.blur_px = 4;
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("blur_px is 4 but must be odd"));
+  config = valid();
+  config.flow.window_px = 8;
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("flow.window_px"));
+  config = valid();
+  config.position.min_range_m = 2;
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("min_range_m"));
+  config = valid();
+  config.position.min_size_m = 0.9;
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("min_size_m"));
+}
+
+TEST(Config, stereo_needs_a_rectified_vertical_pair) {
+  Config config = valid();
+  config.cameras.pop_back();
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("needs 2 camera(s)"));
+  config = valid();
+  std::swap(config.cameras[0], config.cameras[1]);
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("straight below"));
+  config = valid();
+  config.cameras[1].X_BC.translation().y() += 0.05;
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("straight below"));
+  config = valid();
+  config.cameras[1].X_BC.rotate(Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitX()));
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("same orientation"));
+  config = valid();
+  config.cameras[1].fx += 1;
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("same intrinsics"));
+}
+
+TEST(Config, mono_needs_one_camera) {
+  Config config = valid();
+  config.position.depth = "mono";
+  config.cameras.pop_back();
+  EXPECT_EQ(complaint(config), "");
+  config.cameras.clear();
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("needs 1 camera(s)"));
+}
+
+}  // namespace
+}  // namespace dodge
