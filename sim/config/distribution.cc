@@ -14,12 +14,10 @@ std::size_t choose(double p, std::size_t count) {
   return std::min(static_cast<std::size_t>(p * static_cast<double>(count)), count - 1);
 }
 
-// Quantile of the normal cut at lo and hi. Works in the lower tail, where probabilities keep their
-// precision; an interval in the upper tail is mirrored.
+// Quantile of the normal cut at lo <= mean <= hi.
 double cut_normal_quantile(double p, double mean, double sd, double lo, double hi) {
   const double a = (lo - mean) / sd;
   const double b = (hi - mean) / sd;
-  if (a > 0) return 2 * mean - cut_normal_quantile(1 - p, mean, sd, 2 * mean - hi, 2 * mean - lo);
   const double p_a = normal_cdf(a);
   const double q = p_a + p * (normal_cdf(b) - p_a);
   if (q <= 0) return lo;

@@ -16,8 +16,8 @@ struct Distribution {
 
   static Distribution constant(double value);
   static Distribution uniform(double lo, double hi);  // lo <= hi
-  static Distribution normal(double mean, double sd, double lo,
-                             double hi);                   // sd > 0, cut at lo, hi
+  // sd > 0, cut at lo <= mean <= hi.
+  static Distribution normal(double mean, double sd, double lo, double hi);
   static Distribution choice(std::vector<double> values);  // not empty
 
   Kind kind = Kind::kConstant;

@@ -34,6 +34,13 @@ Outcome dodgesim(const std::string& arguments) {
   return outcome;
 }
 
+std::string contents(const fs::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
 const fs::path kSource = DODGESIM_SOURCE_DIR;
 
 class DodgesimTest : public testing::Test {
@@ -115,11 +122,33 @@ TEST_F(DodgesimTest, ResolvingAResolvedScenarioChangesNothing) {
 }
 
 TEST_F(DodgesimTest, TheDocumentationOfTheKeysIsUpToDate) {
-  std::ifstream readme(kSource / "scenarios" / "README.md");
-  std::ostringstream text;
-  text << readme.rdbuf();
-  EXPECT_TRUE(dodgesim("explain --markdown").output == text.str())
+  EXPECT_TRUE(dodgesim("explain --markdown").output == contents(kSource / "scenarios/README.md"))
       << "Update it with: build/dodgesim explain --markdown > scenarios/README.md";
+}
+
+// Physics only, which costs next to nothing; the closed loop has tests of its own.
+TEST_F(DodgesimTest, FliesACampaignAndReplaysAThrowOfIt) {
+  const std::string scenario = file(
+      "pilot: none\nfly_oracle: false\nafter_s: 0.1\n"
+      "throw: {distance_m: !uniform [2, 3], launch_s: 0.1}\n");
+  const std::string one = (root_ / "one").string();
+  const Outcome run = dodgesim("run " + scenario + " --out " + one + " --throws 3 --seed 9 -j 1");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("# scenario\n\n3 throws, pilot none."));
+  EXPECT_THAT(run.output, HasSubstr("real-time factor"));
+
+  const std::string two = (root_ / "two").string();
+  ASSERT_EQ(dodgesim("run " + scenario + " --out " + two + " --throws 3 --seed 9 -j 2").exit_code,
+            0);
+  EXPECT_EQ(contents(one + "/throws.csv"), contents(two + "/throws.csv"));
+
+  const Outcome other = dodgesim("run " + scenario + " --out " + one + " --throws 3 --seed 10");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.output, HasSubstr("holds the results of another scenario"));
+
+  const Outcome replay = dodgesim("replay " + one + " --throw 2");
+  EXPECT_EQ(replay.exit_code, 0) << replay.output;
+  EXPECT_EQ(dodgesim("replay " + one + " --throw 3").exit_code, 2) << "there are three throws";
 }
 
 TEST_F(DodgesimTest, ReportsOutputThatCannotBeWritten) {
