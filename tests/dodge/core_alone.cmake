@@ -1,0 +1,34 @@
+# No truth leaks: the flight core includes nothing from the simulator and nothing beyond Eigen and
+# OpenCV's core, imgproc and video, and a copy of it configures and builds by itself.
+# cmake -D SOURCE_DIR=<repository> -D WORK_DIR=<scratch> [-D BUILD=ON] -P core_alone.cmake
+file(GLOB_RECURSE files ${SOURCE_DIR}/dodge/*.h ${SOURCE_DIR}/dodge/*.cc)
+if(NOT files)
+  message(FATAL_ERROR "There are no sources in ${SOURCE_DIR}/dodge.")
+endif()
+foreach(file ${files})
+  file(STRINGS ${file} includes REGEX "^[ \t]*#[ \t]*include")
+  foreach(line ${includes})
+    string(REGEX MATCH "[<\"]([^>\"]*)[>\"]" ignored "${line}")
+    set(header ${CMAKE_MATCH_1})
+    # Ours, Eigen, OpenCV's three modules, or the C++ standard library (no folder, no suffix).
+    if(NOT header MATCHES "^dodge/|^Eigen/|^opencv2/(core|imgproc|video)\\.hpp$|^[a-z_]+$")
+      message(FATAL_ERROR "${file} includes ${header}, which the flight core may not.")
+    endif()
+  endforeach()
+endforeach()
+
+if(BUILD)
+  file(REMOVE_RECURSE ${WORK_DIR})
+  file(COPY ${SOURCE_DIR}/dodge DESTINATION ${WORK_DIR})
+  foreach(step "-S;${WORK_DIR}/dodge;-B;${WORK_DIR}/build;-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}"
+               "--build;${WORK_DIR}/build;--parallel;2")
+    execute_process(COMMAND ${CMAKE_COMMAND} ${step} RESULT_VARIABLE failed OUTPUT_VARIABLE output
+                    ERROR_VARIABLE output)
+    if(failed)
+      message(FATAL_ERROR "The flight core does not build alone:\n${output}")
+    endif()
+  endforeach()
+  if(NOT EXISTS ${WORK_DIR}/build/libdodge.a)
+    message(FATAL_ERROR "The flight core built no library.")
+  endif()
+endif()
