@@ -190,21 +190,14 @@ GlProgram make_sky_program(TextureKind texture, const Intrinsics& intrinsics, do
   return locate(name);
 }
 
-VertexBuffer upload_edges(const std::vector<Edge>& edges) {
-  std::vector<float> ends;
-  for (const Edge& edge : edges) {
-    for (const Eigen::Vector3d& p : {edge.a, edge.b}) {
-      for (int i = 0; i < 3; ++i) ends.push_back(static_cast<float>(p[i]));
-    }
-  }
+VertexBuffer make_edge_buffer(std::size_t capacity) {
   VertexBuffer buffer;
-  buffer.count = static_cast<int>(edges.size());
   glGenVertexArrays(1, &buffer.array);
   glBindVertexArray(buffer.array);
   glGenBuffers(1, &buffer.buffer);
   glBindBuffer(GL_ARRAY_BUFFER, buffer.buffer);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(ends.size() * sizeof(float)), ends.data(),
-               GL_STATIC_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity * 6 * sizeof(float)), nullptr,
+               GL_STREAM_DRAW);
   constexpr GLsizei kStride = 6 * sizeof(float);
   for (GLuint i = 0; i < 2; ++i) {
     glEnableVertexAttribArray(i);

@@ -35,8 +35,8 @@ struct VertexBuffer {
 };
 VertexBuffer upload_vertices(const std::vector<Vertex>& vertices);
 
-// Edges as instances: ends a, b.
-VertexBuffer upload_edges(const std::vector<Edge>& edges);
+// Edges as instances, two ends of three floats each; room for `capacity` of them.
+VertexBuffer make_edge_buffer(std::size_t capacity);
 
 // Links a program and sets the uniforms that never change: lights, camera, depth range.
 GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene);

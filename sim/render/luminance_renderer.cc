@@ -84,6 +84,7 @@ class LuminanceRenderer::Impl {
   Rect clipped(const Rect& region) const;
   void draw_static(const Eigen::Isometry3d& X_WC, const Rect& region);
   void smooth_edges(const Eigen::Isometry3d& X_WC, const Rect& region);
+  bool touches(Eigen::Vector3d a, Eigen::Vector3d b, const Rect& region) const;
   void read(const Rect& region, float* luminance, std::int32_t* object_id);
   TextureKind kind_of(int texture) const;
   void bind_texture(int texture) const;
@@ -114,6 +115,7 @@ class LuminanceRenderer::Impl {
 
   // Of the frame being drawn.
   Eigen::Matrix4d clip_from_W_;
+  std::vector<std::array<Eigen::Vector3f, 2>> edge_ends_;  // those that can be seen
   std::vector<PrimitiveView> views_;
   std::vector<Eigen::Isometry3d> primitive_poses_;  // X_WG
   std::vector<std::size_t> order_;                  // primitives to draw, back to front
@@ -139,7 +141,8 @@ LuminanceRenderer::Impl::Impl(const mjModel& model, const std::vector<int>& obje
   for (const InfinitePlane& plane : scene_.infinite_planes) {
     unbounded_buffers_.push_back(upload_vertices(tessellate_unbounded(plane.surface, spec.far_m)));
   }
-  edges_ = upload_edges(scene_.static_edges);
+  edges_ = make_edge_buffer(scene_.static_edges.size());
+  edge_ends_.reserve(scene_.static_edges.size());
   glGenVertexArrays(1, &no_vertices_);
   make_programs();
   views_.resize(scene_.primitives.size());
@@ -365,8 +368,35 @@ void LuminanceRenderer::Impl::draw_static(const Eigen::Isometry3d& X_WC, const R
   draw_sky(X_WC);
 }
 
+// Whether the image of a segment (ends in C) can come near the region.
+bool LuminanceRenderer::Impl::touches(Eigen::Vector3d a, Eigen::Vector3d b,
+                                      const Rect& region) const {
+  const double near_m = depth_.near_m;
+  if (a.z() < near_m && b.z() < near_m) return false;
+  if (a.z() < near_m) a += (near_m - a.z()) / (b.z() - a.z()) * (b - a);
+  if (b.z() < near_m) b += (near_m - b.z()) / (a.z() - b.z()) * (a - b);
+  const Eigen::Vector2d p = intrinsics_.project(a), q = intrinsics_.project(b);
+  constexpr double kReachPx = 2.0;
+  return std::max(p.x(), q.x()) > region.x0 - kReachPx &&
+         std::min(p.x(), q.x()) < region.x1 + kReachPx &&
+         std::max(p.y(), q.y()) > region.y0 - kReachPx &&
+         std::min(p.y(), q.y()) < region.y1 + kReachPx;
+}
+
 void LuminanceRenderer::Impl::smooth_edges(const Eigen::Isometry3d& X_WC, const Rect& region) {
-  if (edges_.count == 0) return;
+  const Eigen::Isometry3d X_CW = X_WC.inverse();
+  edge_ends_.clear();
+  for (const Edge& edge : scene_.static_edges) {
+    if (!edge.shows_from(X_WC.translation()) || !touches(X_CW * edge.a, X_CW * edge.b, region)) {
+      continue;
+    }
+    edge_ends_.push_back({edge.a.cast<float>(), edge.b.cast<float>()});
+  }
+  if (edge_ends_.empty()) return;
+  glBindBuffer(GL_ARRAY_BUFFER, edges_.buffer);
+  glBufferSubData(GL_ARRAY_BUFFER, 0,
+                  static_cast<GLsizeiptr>(edge_ends_.size() * sizeof(edge_ends_[0])),
+                  edge_ends_.data());
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, target_.depth);
   glActiveTexture(GL_TEXTURE0);
@@ -378,9 +408,9 @@ void LuminanceRenderer::Impl::smooth_edges(const Eigen::Isometry3d& X_WC, const 
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glUseProgram(edge_program_.name);
-  set_matrix(edge_program_.X_CW, X_WC.inverse().matrix());
+  set_matrix(edge_program_.X_CW, X_CW.matrix());
   glBindVertexArray(edges_.array);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, edges_.count);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(edge_ends_.size()));
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
 }

@@ -142,8 +142,8 @@ TriangleBatch& static_batch(int texture, SceneGeometry& scene) {
 
 // What static edges are found from.
 struct StaticFaces {
-  std::vector<Quad> quads;
-  std::vector<Edge> creases;
+  std::vector<Quad> faces, rectangles;  // rectangles are among the faces
+  std::vector<Edge> box_creases;
 };
 
 // `pose`: geom in W (object -1) or in the object's frame.
@@ -158,22 +158,31 @@ void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& p
       scene.primitives.push_back({mjGEOM_ELLIPSOID, size, surface, object, pose});
       return;
     case mjGEOM_CAPSULE:
-    case mjGEOM_CYLINDER:
       scene.primitives.push_back({type, size, surface, object, pose});
+      return;
+    case mjGEOM_CYLINDER:
+      if (object >= 0) {
+        scene.primitives.push_back({type, size, surface, object, pose});
+      } else {
+        append_cylinder(size, surface, pose, static_batch(surface.texture, scene).vertices,
+                        scene.static_edges);
+      }
       return;
     case mjGEOM_BOX:
       if (object >= 0) {
         scene.primitives.push_back({type, size, surface, object, pose});
       } else {
         append_box(size, surface, pose, static_batch(surface.texture, scene).vertices);
-        append_box_faces(size, pose, faces.quads);
+        append_box_faces(size, pose, faces.faces);
+        append_box_edges(size, pose, faces.box_creases);
       }
       return;
     case mjGEOM_PLANE:
       if (object >= 0) reject(m, geom);
       if (size.x() > 0 && size.y() > 0) {
         append_rectangle(size, surface, pose, static_batch(surface.texture, scene).vertices);
-        faces.quads.push_back(rectangle(size, pose));
+        faces.faces.push_back(rectangle(size, pose));
+        faces.rectangles.push_back(faces.faces.back());
       } else {
         scene.infinite_planes.push_back({pose, surface});
       }
@@ -182,7 +191,7 @@ void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& p
       if (object < 0) {
         append_mesh(m, m.geom_dataid[geom], surface, pose,
                     static_batch(surface.texture, scene).vertices);
-        append_mesh_creases(m, m.geom_dataid[geom], pose, faces.creases);
+        append_mesh_edges(m, m.geom_dataid[geom], pose, scene.static_edges);
       } else {
         scene.moving_triangles.push_back({object, {surface.texture, {}}});
         append_mesh(m, m.geom_dataid[geom], surface, pose,
@@ -268,7 +277,8 @@ SceneGeometry collect_scene(const mjModel& model, const std::vector<int>& object
     }
     add_geom(model, geom, object, pose, scene, faces);
   }
-  scene.static_edges = find_edges(faces.quads, faces.creases);
+  const std::vector<Edge> flat = find_edges(faces.faces, faces.rectangles, faces.box_creases);
+  scene.static_edges.insert(scene.static_edges.end(), flat.begin(), flat.end());
   add_lights(model, *data, scene);
   for (int i = 0; i < model.ntex; ++i) {
     if (model.tex_type[i] != mjTEXTURE_SKYBOX) continue;

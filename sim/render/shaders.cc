@@ -420,7 +420,7 @@ void main() {
   line = vec3(n, dot(n, p));
   along = vec4(u, dot(u, p), size);
   inverse_z = 1.0 / vec2(a.z, b.z);
-  vec2 corner = mix(p - 0.5 * u, q + 0.5 * u, float(gl_VertexID & 1)) +
+  vec2 corner = mix(p - 0.1 * u, q + 0.1 * u, float(gl_VertexID & 1)) +
                 (gl_VertexID < 2 ? -0.75 : 0.75) * n;
   gl_Position = vec4(2.0 * (corner + 0.5) / u_image - 1.0, 0.0, 1.0);
 }
@@ -455,11 +455,12 @@ void main() {
   ivec2 own = ivec2(gl_FragCoord.xy);
   vec2 over = s > 0.0 ? -line.xy : line.xy;
   ivec2 step = abs(over.x) > abs(over.y) ? ivec2(sign(over.x), 0) : ivec2(0, sign(over.y));
-  float t = clamp((dot(along.xy, pixel) - along.z) / along.w, 0.0, 1.0);
+  float t = (dot(along.xy, pixel) - along.z) / along.w;
+  bool within = t >= 0.0 && t < 1.0;  // a pixel belongs to one piece of a bent outline
   float edge = mix(inverse_z.x, inverse_z.y, t);
   bool seen = touches(edge, inverse_depth(own), inverse_depth(own - step)) ||
               touches(edge, inverse_depth(own + step), inverse_depth(own + 2 * step));
-  if (!seen || beyond <= 0.0) discard;
+  if (!seen || !within || beyond <= 0.0) discard;
   ivec2 other = clamp(own + step, ivec2(0), textureSize(u_luminance, 0) - 1);
   luminance = vec4(texelFetch(u_luminance, other, 0).r, 0.0, 0.0, beyond);
 }

@@ -35,7 +35,7 @@ std::optional<Edge> cut(const Quad& quad, const Vector3d& p, const Vector3d& n) 
     points.push_back(from + a / (a - b) * (to - from));
   }
   if (points.size() != 2) return std::nullopt;
-  return Edge{points[0], points[1]};
+  return Edge{points[0], points[1], Edge::Kind::kBorder, {}};
 }
 
 std::optional<Edge> intersect(const Quad& one, const Quad& other) {
@@ -57,26 +57,39 @@ bool lies_on(const Vector3d& p, const Edge& edge) {
 
 }  // namespace
 
-std::vector<Edge> find_edges(const std::vector<Quad>& quads, const std::vector<Edge>& extra) {
-  std::vector<Edge> all = extra;
-  for (const Quad& quad : quads) {
-    for (std::size_t i = 0; i < 4; ++i) all.push_back({quad[i], quad[(i + 1) % 4]});
-  }
-  for (std::size_t i = 0; i < quads.size(); ++i) {
-    for (std::size_t j = i + 1; j < quads.size(); ++j) {
-      if (const auto segment = intersect(quads[i], quads[j])) all.push_back(*segment);
+bool Edge::shows_from(const Vector3d& eye_W) const {
+  if (kind == Kind::kBorder) return true;
+  const bool first = normals[0].dot(eye_W - a) > 0, second = normals[1].dot(eye_W - a) > 0;
+  return kind == Kind::kCrease ? first || second : first != second;
+}
+
+std::vector<Edge> find_edges(const std::vector<Quad>& faces, const std::vector<Quad>& rectangles,
+                             const std::vector<Edge>& creases) {
+  std::vector<Edge> all = creases;
+  for (const Quad& quad : rectangles) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      all.push_back({quad[i], quad[(i + 1) % 4], Edge::Kind::kBorder, {}});
     }
   }
-  // Longest first: what lies on a kept edge adds nothing.
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (std::size_t j = i + 1; j < faces.size(); ++j) {
+      if (const auto segment = intersect(faces[i], faces[j])) all.push_back(*segment);
+    }
+  }
+  // Longest first: what lies on a kept edge adds nothing, except that the kept one may show more.
   std::stable_sort(all.begin(), all.end(), [](const Edge& p, const Edge& q) {
     return (p.b - p.a).squaredNorm() > (q.b - q.a).squaredNorm();
   });
   std::vector<Edge> kept;
   for (const Edge& edge : all) {
-    const bool known = std::any_of(kept.begin(), kept.end(), [&edge](const Edge& k) {
+    const auto known = std::find_if(kept.begin(), kept.end(), [&edge](const Edge& k) {
       return lies_on(edge.a, k) && lies_on(edge.b, k);
     });
-    if (!known) kept.push_back(edge);
+    if (known == kept.end()) {
+      kept.push_back(edge);
+    } else {
+      known->kind = Edge::Kind::kBorder;
+    }
   }
   return kept;
 }

@@ -12,11 +12,22 @@ namespace dodgesim {
 using Quad = std::array<Eigen::Vector3d, 4>;  // corners of a flat convex face, in W, in order
 
 struct Edge {
+  enum class Kind {
+    kBorder,  // of a single face, or where two cut through each other: always of interest
+    kCrease,  // between two faces of a solid: hidden if both face away
+    kSmooth,  // between two faces of a round surface: of interest only as part of its outline
+  };
   Eigen::Vector3d a, b;  // ends, in W
+  Kind kind = Kind::kBorder;
+  std::array<Eigen::Vector3d, 2> normals = {};  // outward, of the adjacent faces (not of a border)
+
+  // Whether the edge can be seen as one from there.
+  bool shows_from(const Eigen::Vector3d& eye_W) const;
 };
 
-// Borders of the quads, segments in which two quads intersect, and `extra` edges; an edge that lies
-// on another one is left out.
-std::vector<Edge> find_edges(const std::vector<Quad>& quads, const std::vector<Edge>& extra);
+// `creases` of boxes, borders of `rectangles`, and the segments in which any two of the flat
+// `faces` intersect; an edge that lies on another one is left out.
+std::vector<Edge> find_edges(const std::vector<Quad>& faces, const std::vector<Quad>& rectangles,
+                             const std::vector<Edge>& creases);
 
 }  // namespace dodgesim

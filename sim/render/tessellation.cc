@@ -1,6 +1,8 @@
 #include "sim/render/tessellation.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -62,6 +64,57 @@ void append_box_faces(const Vector3d& size, const Eigen::Isometry3d& pose, std::
   }
 }
 
+void append_box_edges(const Vector3d& size, const Eigen::Isometry3d& pose, std::vector<Edge>& out) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (int corner = 0; corner < 4; ++corner) {
+      const Vector3d normal_u = (corner & 1 ? 1.0 : -1.0) * Vector3d::Unit(u);
+      const Vector3d normal_v = (corner & 2 ? 1.0 : -1.0) * Vector3d::Unit(v);
+      const Vector3d middle = size[u] * normal_u + size[v] * normal_v;
+      const Vector3d half = size[axis] * Vector3d::Unit(axis);
+      out.push_back({pose * (middle - half),
+                     pose * (middle + half),
+                     Edge::Kind::kCrease,
+                     {pose.linear() * normal_u, pose.linear() * normal_v}});
+    }
+  }
+}
+
+void append_cylinder(const Vector3d& size, const Surface& surface, const Eigen::Isometry3d& pose,
+                     std::vector<Vertex>& out, std::vector<Edge>& edges) {
+  constexpr double kOutlineErrorM = 5e-4;
+  constexpr double kFewestSides = 12;
+  const double cosine = std::max(1.0 - kOutlineErrorM / size.x(), 0.0);
+  const int sides = static_cast<int>(std::ceil(std::max(kFewestSides, mjPI / std::acos(cosine))));
+  const auto direction = [sides](double i) {
+    const double angle = 2.0 * mjPI * i / sides;
+    return Vector3d(std::cos(angle), std::sin(angle), 0.0);
+  };
+  const Vector3d half(0.0, 0.0, size.z());
+  const auto add = [&](const Vector3d& p, const Vector3d& normal) {
+    out.push_back(make_vertex(p, normal, surface, pose));
+  };
+  for (int i = 0; i < sides; ++i) {
+    const Vector3d n0 = direction(i), n1 = direction(i + 1);
+    const Vector3d p0 = size.x() * n0, p1 = size.x() * n1;
+    add(p0 - half, n0), add(p1 - half, n1), add(p1 + half, n1);
+    add(p0 - half, n0), add(p1 + half, n1), add(p0 + half, n0);
+    const Vector3d facet = pose.linear() * direction(i + 0.5);
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3d cap = side * Vector3d::UnitZ();
+      add(side * half, cap), add(p0 + side * half, cap), add(p1 + side * half, cap);
+      edges.push_back({pose * (p0 + side * half),
+                       pose * (p1 + side * half),
+                       Edge::Kind::kCrease,
+                       {facet, pose.linear() * cap}});
+    }
+    edges.push_back({pose * (p0 - half),
+                     pose * (p0 + half),
+                     Edge::Kind::kSmooth,
+                     {pose.linear() * direction(i - 0.5), facet}});
+  }
+}
+
 Quad rectangle(const Vector3d& size, const Eigen::Isometry3d& pose) {
   return transformed(pose, box_face({size.x(), size.y(), 0.0}, 2, 1.0));
 }
@@ -71,8 +124,8 @@ void append_rectangle(const Vector3d& size, const Surface& surface, const Eigen:
   append_quad(box_face({size.x(), size.y(), 0.0}, 2, 1.0), Vector3d::UnitZ(), surface, pose, out);
 }
 
-void append_mesh_creases(const mjModel& model, int mesh, const Eigen::Isometry3d& pose,
-                         std::vector<Edge>& out) {
+void append_mesh_edges(const mjModel& model, int mesh, const Eigen::Isometry3d& pose,
+                       std::vector<Edge>& out) {
   const float* vertices = model.mesh_vert + 3 * model.mesh_vertadr[mesh];
   // Files repeat vertices where normals or texture coordinates differ: match them by position.
   using Point = std::tuple<float, float, float>;
@@ -93,8 +146,15 @@ void append_mesh_creases(const mjModel& model, int mesh, const Eigen::Isometry3d
     return Vector3d(std::get<0>(p), std::get<1>(p), std::get<2>(p));
   };
   for (const auto& [ends, normals] : normals_of) {
-    if (normals.size() == 2 && normals[0].dot(normals[1]) > kCreaseCosine) continue;
-    out.push_back({pose * vector(ends.first), pose * vector(ends.second)});
+    Edge edge{pose * vector(ends.first), pose * vector(ends.second), Edge::Kind::kBorder, {}};
+    if (normals.size() == 2) {
+      const bool smooth = normals[0].dot(normals[1]) > kCreaseCosine;
+      edge.kind = smooth ? Edge::Kind::kSmooth : Edge::Kind::kCrease;
+      for (std::size_t i = 0; i < 2; ++i) {
+        edge.normals[i] = pose.linear() * normals[i].cast<double>();
+      }
+    }
+    out.push_back(edge);
   }
 }
 

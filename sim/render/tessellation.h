@@ -24,9 +24,16 @@ void append_rectangle(const Eigen::Vector3d& size, const Surface& surface,
 void append_mesh(const mjModel& model, int mesh, const Surface& surface,
                  const Eigen::Isometry3d& pose, std::vector<Vertex>& out);
 
+// Twelve creases.
+void append_box_edges(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose,
+                      std::vector<Edge>& out);
+// With so many sides that its outline is off by less than half a millimetre.
+void append_cylinder(const Eigen::Vector3d& size, const Surface& surface,
+                     const Eigen::Isometry3d& pose, std::vector<Vertex>& out,
+                     std::vector<Edge>& edges);
 Quad rectangle(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose);
-// Borders, and edges at which the faces meet at an angle that is drawn as a crease.
-void append_mesh_creases(const mjModel& model, int mesh, const Eigen::Isometry3d& pose,
-                         std::vector<Edge>& out);
+// Borders, creases, and the edges between faces that are shaded smoothly.
+void append_mesh_edges(const mjModel& model, int mesh, const Eigen::Isometry3d& pose,
+                       std::vector<Edge>& out);
 
 }  // namespace dodgesim
