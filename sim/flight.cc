@@ -146,11 +146,16 @@ void Flight::move() {
 void Flight::sense() {
   const Snapshot& now = world_.snapshot();
   gyro_B_radps_ = flight_controller_imu_.sample(now).w_B_radps;
-  if (imu_.due(now.t_us)) computer_.send_imu(imu_.sample(now));
+  if (imu_.due(now.t_us)) {
+    const ImuReading imu = imu_.sample(now);
+    computer_.send_imu(imu);
+    if (observer_ != nullptr) observer_->on_imu(imu);
+  }
   if (state_estimator_.due(now.t_us)) {
     const StateReading state = state_estimator_.sample(now);
     computer_.send_state(state);
     controller_states_.push(now.t_us, state);
+    if (observer_ != nullptr) observer_->on_state(state);
   }
   if (range_sensor_.due(now.t_us)) {
     if (const auto reading = range_sensor_.sample(now.t_us, true_range_m())) {

@@ -43,6 +43,8 @@ class FlightObserver {
   virtual ~FlightObserver() = default;
   virtual void on_start(dodge::Pilot& /*pilot*/) {}
   virtual void on_tick(const World& /*world*/) {}
+  virtual void on_imu(const ImuReading& /*reading*/) {}
+  virtual void on_state(const StateReading& /*reading*/) {}
   virtual void on_events(int /*camera*/, const Packet& /*packet*/) {}
   virtual void on_cycle(TimeUs /*now_us*/, const dodge::Pilot& /*pilot*/) {}
   // A command of the controller arrives at the flight controller.

@@ -32,6 +32,12 @@ class Observers : public FlightObserver {
   void on_tick(const World& world) override {
     for (FlightObserver* o : observers_) o->on_tick(world);
   }
+  void on_imu(const ImuReading& reading) override {
+    for (FlightObserver* o : observers_) o->on_imu(reading);
+  }
+  void on_state(const StateReading& reading) override {
+    for (FlightObserver* o : observers_) o->on_state(reading);
+  }
   void on_events(int camera, const Packet& packet) override {
     for (FlightObserver* o : observers_) o->on_events(camera, packet);
   }
