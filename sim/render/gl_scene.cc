@@ -196,13 +196,18 @@ VertexBuffer make_edge_buffer(std::size_t capacity) {
   glBindVertexArray(buffer.array);
   glGenBuffers(1, &buffer.buffer);
   glBindBuffer(GL_ARRAY_BUFFER, buffer.buffer);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity * 6 * sizeof(float)), nullptr,
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity * sizeof(EdgeInstance)), nullptr,
                GL_STREAM_DRAW);
-  constexpr GLsizei kStride = 6 * sizeof(float);
-  for (GLuint i = 0; i < 2; ++i) {
+  const struct {
+    GLint components;
+    std::size_t offset;
+  } attributes[] = {{3, offsetof(EdgeInstance, a)},
+                    {3, offsetof(EdgeInstance, b)},
+                    {1, offsetof(EdgeInstance, inside)}};
+  for (GLuint i = 0; i < 3; ++i) {
     glEnableVertexAttribArray(i);
-    glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, kStride,
-                          reinterpret_cast<const void*>(std::size_t{i} * 3 * sizeof(float)));
+    glVertexAttribPointer(i, attributes[i].components, GL_FLOAT, GL_FALSE, sizeof(EdgeInstance),
+                          reinterpret_cast<const void*>(attributes[i].offset));
     glVertexAttribDivisor(i, 1);
   }
   return buffer;

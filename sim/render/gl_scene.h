@@ -35,7 +35,13 @@ struct VertexBuffer {
 };
 VertexBuffer upload_vertices(const std::vector<Vertex>& vertices);
 
-// Edges as instances, two ends of three floats each; room for `capacity` of them.
+struct EdgeInstance {
+  Eigen::Vector3f a, b;  // ends, in W
+  float inside;          // 1 if it is a crease inside the outline of its solid, else 0
+};
+static_assert(sizeof(EdgeInstance) == 7 * sizeof(float));
+
+// Room for `capacity` instances.
 VertexBuffer make_edge_buffer(std::size_t capacity);
 
 // Links a program and sets the uniforms that never change: lights, camera, depth range.

@@ -115,7 +115,7 @@ class LuminanceRenderer::Impl {
 
   // Of the frame being drawn.
   Eigen::Matrix4d clip_from_W_;
-  std::vector<std::array<Eigen::Vector3f, 2>> edge_ends_;  // those that can be seen
+  std::vector<EdgeInstance> edge_instances_;  // those that can be seen
   std::vector<PrimitiveView> views_;
   std::vector<Eigen::Isometry3d> primitive_poses_;  // X_WG
   std::vector<std::size_t> order_;                  // primitives to draw, back to front
@@ -142,7 +142,7 @@ LuminanceRenderer::Impl::Impl(const mjModel& model, const std::vector<int>& obje
     unbounded_buffers_.push_back(upload_vertices(tessellate_unbounded(plane.surface, spec.far_m)));
   }
   edges_ = make_edge_buffer(scene_.static_edges.size());
-  edge_ends_.reserve(scene_.static_edges.size());
+  edge_instances_.reserve(scene_.static_edges.size());
   glGenVertexArrays(1, &no_vertices_);
   make_programs();
   views_.resize(scene_.primitives.size());
@@ -385,18 +385,19 @@ bool LuminanceRenderer::Impl::touches(Eigen::Vector3d a, Eigen::Vector3d b,
 
 void LuminanceRenderer::Impl::smooth_edges(const Eigen::Isometry3d& X_WC, const Rect& region) {
   const Eigen::Isometry3d X_CW = X_WC.inverse();
-  edge_ends_.clear();
+  edge_instances_.clear();
   for (const Edge& edge : scene_.static_edges) {
     if (!edge.shows_from(X_WC.translation()) || !touches(X_CW * edge.a, X_CW * edge.b, region)) {
       continue;
     }
-    edge_ends_.push_back({edge.a.cast<float>(), edge.b.cast<float>()});
+    edge_instances_.push_back({edge.a.cast<float>(), edge.b.cast<float>(),
+                               edge.inside_outline(X_WC.translation()) ? 1.0f : 0.0f});
   }
-  if (edge_ends_.empty()) return;
+  if (edge_instances_.empty()) return;
   glBindBuffer(GL_ARRAY_BUFFER, edges_.buffer);
   glBufferSubData(GL_ARRAY_BUFFER, 0,
-                  static_cast<GLsizeiptr>(edge_ends_.size() * sizeof(edge_ends_[0])),
-                  edge_ends_.data());
+                  static_cast<GLsizeiptr>(edge_instances_.size() * sizeof(edge_instances_[0])),
+                  edge_instances_.data());
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, target_.depth);
   glActiveTexture(GL_TEXTURE0);
@@ -410,7 +411,7 @@ void LuminanceRenderer::Impl::smooth_edges(const Eigen::Isometry3d& X_WC, const 
   glUseProgram(edge_program_.name);
   set_matrix(edge_program_.X_CW, X_CW.matrix());
   glBindVertexArray(edges_.array);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(edge_ends_.size()));
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(edge_instances_.size()));
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
 }

@@ -400,6 +400,7 @@ float shade_face(vec3 d, int k) {
 constexpr const char* kEdgeVertex = R"(
 layout(location = 0) in vec3 end_a;
 layout(location = 1) in vec3 end_b;
+layout(location = 2) in float inside;
 uniform mat4 u_X_CW;
 uniform vec3 u_camera;   // f, cx, cy [px]
 uniform vec2 u_image;    // width, height [px]
@@ -407,6 +408,7 @@ uniform float u_near;    // [m]
 flat out vec3 line;      // (n, c): signed distance of pixel p is n.p - c
 flat out vec4 along;     // unit direction u and u.a [px], length [px]
 flat out vec2 inverse_z; // at the ends [1/m]
+flat out float crease;   // 1: both faces are in sight
 void main() {
   vec3 a = (u_X_CW * vec4(end_a, 1.0)).xyz, b = (u_X_CW * vec4(end_b, 1.0)).xyz;
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside: not drawn
@@ -420,6 +422,7 @@ void main() {
   line = vec3(n, dot(n, p));
   along = vec4(u, dot(u, p), size);
   inverse_z = 1.0 / vec2(a.z, b.z);
+  crease = inside;
   vec2 corner = mix(p - 0.1 * u, q + 0.1 * u, float(gl_VertexID & 1)) +
                 (gl_VertexID < 2 ? -0.75 : 0.75) * n;
   gl_Position = vec4(2.0 * (corner + 0.5) / u_image - 1.0, 0.0, 1.0);
@@ -432,6 +435,7 @@ constexpr const char* kEdgeFragment = R"(
 flat in vec3 line;
 flat in vec4 along;
 flat in vec2 inverse_z;
+flat in float crease;
 uniform vec2 u_depth;  // depth buffer value = u_depth.x + u_depth.y / z_C
 uniform sampler2D u_luminance;
 uniform sampler2D u_depth_image;
@@ -445,7 +449,7 @@ float inverse_depth(ivec2 p) {
 // Whether the face at pixel p, which goes on to the next pixel away from the edge, can have the
 // edge: 1/z is linear over a flat face.
 bool touches(float edge, float at, float next) {
-  return abs(edge - at) < min(1.5 * abs(at - next), 0.05 * edge) + 0.004 * edge;
+  return abs(edge - at) < min(1.5 * abs(at - next), 0.05 * edge) + 0.001 * edge;
 }
 
 void main() {
@@ -458,8 +462,9 @@ void main() {
   float t = (dot(along.xy, pixel) - along.z) / along.w;
   bool within = t >= 0.0 && t < 1.0;  // a pixel belongs to one piece of a bent outline
   float edge = mix(inverse_z.x, inverse_z.y, t);
-  bool seen = touches(edge, inverse_depth(own), inverse_depth(own - step)) ||
-              touches(edge, inverse_depth(own + step), inverse_depth(own + 2 * step));
+  bool here = touches(edge, inverse_depth(own), inverse_depth(own - step));
+  bool there = touches(edge, inverse_depth(own + step), inverse_depth(own + 2 * step));
+  bool seen = crease > 0.5 ? here && there : here || there;
   if (!seen || !within || beyond <= 0.0) discard;
   ivec2 other = clamp(own + step, ivec2(0), textureSize(u_luminance, 0) - 1);
   luminance = vec4(texelFetch(u_luminance, other, 0).r, 0.0, 0.0, beyond);

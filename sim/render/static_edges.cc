@@ -63,6 +63,10 @@ bool Edge::shows_from(const Vector3d& eye_W) const {
   return kind == Kind::kCrease ? first || second : first != second;
 }
 
+bool Edge::inside_outline(const Vector3d& eye_W) const {
+  return kind == Kind::kCrease && normals[0].dot(eye_W - a) > 0 && normals[1].dot(eye_W - a) > 0;
+}
+
 std::vector<Edge> find_edges(const std::vector<Quad>& faces, const std::vector<Quad>& rectangles,
                              const std::vector<Edge>& creases) {
   std::vector<Edge> all = creases;

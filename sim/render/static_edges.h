@@ -23,6 +23,8 @@ struct Edge {
 
   // Whether the edge can be seen as one from there.
   bool shows_from(const Eigen::Vector3d& eye_W) const;
+  // Whether it is a crease of which both faces can be seen from there.
+  bool inside_outline(const Eigen::Vector3d& eye_W) const;
 };
 
 // `creases` of boxes, borders of `rectangles`, and the segments in which any two of the flat
