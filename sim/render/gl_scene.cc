@@ -203,7 +203,7 @@ VertexBuffer make_edge_buffer(std::size_t capacity) {
     std::size_t offset;
   } attributes[] = {{3, offsetof(EdgeInstance, a)},
                     {3, offsetof(EdgeInstance, b)},
-                    {1, offsetof(EdgeInstance, inside)}};
+                    {2, offsetof(EdgeInstance, inside)}};
   for (GLuint i = 0; i < 3; ++i) {
     glEnableVertexAttribArray(i);
     glVertexAttribPointer(i, attributes[i].components, GL_FLOAT, GL_FALSE, sizeof(EdgeInstance),

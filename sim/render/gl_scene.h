@@ -38,8 +38,9 @@ VertexBuffer upload_vertices(const std::vector<Vertex>& vertices);
 struct EdgeInstance {
   Eigen::Vector3f a, b;  // ends, in W
   float inside;          // 1 if it is a crease inside the outline of its solid, else 0
+  float bulge_m;
 };
-static_assert(sizeof(EdgeInstance) == 7 * sizeof(float));
+static_assert(sizeof(EdgeInstance) == 8 * sizeof(float));
 
 // Room for `capacity` instances.
 VertexBuffer make_edge_buffer(std::size_t capacity);

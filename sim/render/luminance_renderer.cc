@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
+#include "sim/render/edge_smoother.h"
 #include "sim/render/gl_scene.h"
 #include "sim/render/osmesa_context.h"
 #include "sim/render/primitive_view.h"
@@ -83,8 +85,6 @@ class LuminanceRenderer::Impl {
   void make_programs();
   Rect clipped(const Rect& region) const;
   void draw_static(const Eigen::Isometry3d& X_WC, const Rect& region);
-  void smooth_edges(const Eigen::Isometry3d& X_WC, const Rect& region);
-  bool touches(Eigen::Vector3d a, Eigen::Vector3d b, const Rect& region) const;
   void read(const Rect& region, float* luminance, std::int32_t* object_id);
   TextureKind kind_of(int texture) const;
   void bind_texture(int texture) const;
@@ -110,12 +110,11 @@ class LuminanceRenderer::Impl {
   std::array<GlProgram, kTextureKinds> triangle_programs_;
   std::array<std::array<GlProgram, kTextureKinds>, std::size(kPrimitiveTypes)> primitive_programs_;
   std::array<GlProgram, std::size(kPrimitiveTypes)> hard_programs_;
-  GlProgram sky_program_, edge_program_;
-  VertexBuffer edges_;
+  GlProgram sky_program_;
+  std::optional<EdgeSmoother> edge_smoother_;
 
   // Of the frame being drawn.
   Eigen::Matrix4d clip_from_W_;
-  std::vector<EdgeInstance> edge_instances_;  // those that can be seen
   std::vector<PrimitiveView> views_;
   std::vector<Eigen::Isometry3d> primitive_poses_;  // X_WG
   std::vector<std::size_t> order_;                  // primitives to draw, back to front
@@ -141,8 +140,7 @@ LuminanceRenderer::Impl::Impl(const mjModel& model, const std::vector<int>& obje
   for (const InfinitePlane& plane : scene_.infinite_planes) {
     unbounded_buffers_.push_back(upload_vertices(tessellate_unbounded(plane.surface, spec.far_m)));
   }
-  edges_ = make_edge_buffer(scene_.static_edges.size());
-  edge_instances_.reserve(scene_.static_edges.size());
+  edge_smoother_.emplace(scene_.static_edges, intrinsics, depth_);
   glGenVertexArrays(1, &no_vertices_);
   make_programs();
   views_.resize(scene_.primitives.size());
@@ -180,7 +178,6 @@ void LuminanceRenderer::Impl::make_programs() {
                                     depth_);
     }
   }
-  edge_program_ = make_edge_program(intrinsics_, depth_);
   const bool has_sky = scene_.sky_texture >= 0;
   sky_program_ =
       make_sky_program(kind_of(scene_.sky_texture), intrinsics_, has_sky ? 1.0 : sky_luminance_);
@@ -338,7 +335,7 @@ void LuminanceRenderer::Impl::render(const Snapshot& snapshot, const Eigen::Isom
   const Rect wide =
       clipped({part.x0 - kBorderPx, part.y0 - kBorderPx, part.x1 + kBorderPx, part.y1 + kBorderPx});
   draw_static(X_WC, wide);
-  smooth_edges(X_WC, wide);
+  edge_smoother_->draw(X_WC, wide, target_);
   glBindFramebuffer(GL_FRAMEBUFFER, object_id ? target_.with_ids : target_.without_ids);
   glScissor(part.x0, part.y0, part.x1 - part.x0, part.y1 - part.y0);
   for (std::size_t i = 0; i < moving_buffers_.size(); ++i) {
@@ -366,54 +363,6 @@ void LuminanceRenderer::Impl::draw_static(const Eigen::Isometry3d& X_WC, const R
   }
   draw_unbounded(X_WC.translation());
   draw_sky(X_WC);
-}
-
-// Whether the image of a segment (ends in C) can come near the region.
-bool LuminanceRenderer::Impl::touches(Eigen::Vector3d a, Eigen::Vector3d b,
-                                      const Rect& region) const {
-  const double near_m = depth_.near_m;
-  if (a.z() < near_m && b.z() < near_m) return false;
-  if (a.z() < near_m) a += (near_m - a.z()) / (b.z() - a.z()) * (b - a);
-  if (b.z() < near_m) b += (near_m - b.z()) / (a.z() - b.z()) * (a - b);
-  const Eigen::Vector2d p = intrinsics_.project(a), q = intrinsics_.project(b);
-  constexpr double kReachPx = 2.0;
-  return std::max(p.x(), q.x()) > region.x0 - kReachPx &&
-         std::min(p.x(), q.x()) < region.x1 + kReachPx &&
-         std::max(p.y(), q.y()) > region.y0 - kReachPx &&
-         std::min(p.y(), q.y()) < region.y1 + kReachPx;
-}
-
-void LuminanceRenderer::Impl::smooth_edges(const Eigen::Isometry3d& X_WC, const Rect& region) {
-  const Eigen::Isometry3d X_CW = X_WC.inverse();
-  edge_instances_.clear();
-  for (const Edge& edge : scene_.static_edges) {
-    if (!edge.shows_from(X_WC.translation()) || !touches(X_CW * edge.a, X_CW * edge.b, region)) {
-      continue;
-    }
-    edge_instances_.push_back({edge.a.cast<float>(), edge.b.cast<float>(),
-                               edge.inside_outline(X_WC.translation()) ? 1.0f : 0.0f});
-  }
-  if (edge_instances_.empty()) return;
-  glBindBuffer(GL_ARRAY_BUFFER, edges_.buffer);
-  glBufferSubData(GL_ARRAY_BUFFER, 0,
-                  static_cast<GLsizeiptr>(edge_instances_.size() * sizeof(edge_instances_[0])),
-                  edge_instances_.data());
-  glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_2D, target_.depth);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, target_.luminance_copy);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, region.x0, region.y0, region.x0, region.y0,
-                      region.x1 - region.x0, region.y1 - region.y0);
-  glBindFramebuffer(GL_FRAMEBUFFER, target_.without_depth);
-  glDisable(GL_DEPTH_TEST);
-  glEnable(GL_BLEND);
-  glUseProgram(edge_program_.name);
-  set_matrix(edge_program_.X_CW, X_CW.matrix());
-  glBindVertexArray(edges_.array);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(edge_instances_.size()));
-  glDisable(GL_BLEND);
-  glEnable(GL_DEPTH_TEST);
 }
 
 void LuminanceRenderer::Impl::read(const Rect& region, float* luminance, std::int32_t* object_id) {

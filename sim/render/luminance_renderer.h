@@ -1,9 +1,13 @@
 // Draws what an event camera sees: linear luminance in floating point, from a MuJoCo model, with
 // own shaders on OSMesa. Photometry: scene_geometry.h. Geometry: exactly Intrinsics (camera.h).
 //
-// Edges. A pixel's luminance is the mean over its square aperture at the outlines of ray-cast
-// solids (all spheres, ellipsoids, capsules and cylinders; thrown boxes): analytic for ellipsoids,
-// 64 rays a pixel for the others. Textures are filtered trilinearly.
+// Edges. At outlines a pixel's luminance is the mean over its square aperture, so that an edge that
+// moves slowly changes it smoothly: analytically for ray-cast ellipsoids and the sides of cylinders
+// and capsules, by 64 rays a pixel for their ends and for thrown boxes (spheres, ellipsoids,
+// capsules and all thrown solids but meshes are ray-cast), and by edge_smoother.h for what is
+// static and made of triangles (planes, boxes, cylinders, meshes). Not smoothed: thrown meshes, the
+// horizon of an unbounded plane, and where a ray-cast solid cuts into something. Textures are
+// filtered trilinearly.
 #pragma once
 
 #include <mujoco/mujoco.h>

@@ -20,6 +20,7 @@ struct Edge {
   Eigen::Vector3d a, b;  // ends, in W
   Kind kind = Kind::kBorder;
   std::array<Eigen::Vector3d, 2> normals = {};  // outward, of the adjacent faces (not of a border)
+  double bulge_m = 0.0;  // how much nearer than the edge a round surface may be a pixel beside it
 
   // Whether the edge can be seen as one from there.
   bool shows_from(const Eigen::Vector3d& eye_W) const;

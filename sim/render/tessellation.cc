@@ -111,7 +111,8 @@ void append_cylinder(const Vector3d& size, const Surface& surface, const Eigen::
     edges.push_back({pose * (p0 - half),
                      pose * (p0 + half),
                      Edge::Kind::kSmooth,
-                     {pose.linear() * direction(i - 0.5), facet}});
+                     {pose.linear() * direction(i - 0.5), facet},
+                     size.x()});
   }
 }
 
@@ -149,6 +150,8 @@ void append_mesh_edges(const mjModel& model, int mesh, const Eigen::Isometry3d& 
     Edge edge{pose * vector(ends.first), pose * vector(ends.second), Edge::Kind::kBorder, {}};
     if (normals.size() == 2) {
       const bool smooth = normals[0].dot(normals[1]) > kCreaseCosine;
+      // The size of the faces stands for the radius of curvature.
+      if (smooth) edge.bulge_m = (edge.b - edge.a).norm();
       edge.kind = smooth ? Edge::Kind::kSmooth : Edge::Kind::kCrease;
       for (std::size_t i = 0; i < 2; ++i) {
         edge.normals[i] = pose.linear() * normals[i].cast<double>();

@@ -1,0 +1,67 @@
+#include "sim/render/edge_smoother.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include <algorithm>
+
+namespace dodgesim {
+
+EdgeSmoother::EdgeSmoother(const std::vector<Edge>& edges, const Intrinsics& intrinsics,
+                           const DepthRange& depth)
+    : all_edges_(edges),
+      intrinsics_(intrinsics),
+      near_m_(depth.near_m),
+      program_(make_edge_program(intrinsics, depth)),
+      buffer_(make_edge_buffer(edges.size())) {
+  seen_.reserve(edges.size());
+}
+
+// Whether the image of a segment (ends in C) can come near the region.
+bool EdgeSmoother::touches(Eigen::Vector3d a, Eigen::Vector3d b, const Rect& region) const {
+  if (a.z() < near_m_ && b.z() < near_m_) return false;
+  if (a.z() < near_m_) a += (near_m_ - a.z()) / (b.z() - a.z()) * (b - a);
+  if (b.z() < near_m_) b += (near_m_ - b.z()) / (a.z() - b.z()) * (a - b);
+  const Eigen::Vector2d p = intrinsics_.project(a), q = intrinsics_.project(b);
+  constexpr double kReachPx = 2.0;
+  return std::max(p.x(), q.x()) > region.x0 - kReachPx &&
+         std::min(p.x(), q.x()) < region.x1 + kReachPx &&
+         std::max(p.y(), q.y()) > region.y0 - kReachPx &&
+         std::min(p.y(), q.y()) < region.y1 + kReachPx;
+}
+
+void EdgeSmoother::draw(const Eigen::Isometry3d& X_WC, const Rect& region, const GlTarget& target) {
+  const Eigen::Isometry3d X_CW = X_WC.inverse();
+  seen_.clear();
+  for (const Edge& edge : all_edges_) {
+    if (!edge.shows_from(X_WC.translation()) || !touches(X_CW * edge.a, X_CW * edge.b, region)) {
+      continue;
+    }
+    seen_.push_back({edge.a.cast<float>(), edge.b.cast<float>(),
+                     edge.inside_outline(X_WC.translation()) ? 1.0f : 0.0f,
+                     static_cast<float>(edge.bulge_m)});
+  }
+  if (seen_.empty()) return;
+  glBindBuffer(GL_ARRAY_BUFFER, buffer_.buffer);
+  glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(seen_.size() * sizeof(seen_[0])),
+                  seen_.data());
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, target.depth);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, target.luminance_copy);
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, region.x0, region.y0, region.x0, region.y0,
+                      region.x1 - region.x0, region.y1 - region.y0);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.without_depth);
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glUseProgram(program_.name);
+  const Eigen::Matrix4f X_CW_float = X_CW.matrix().cast<float>();
+  glUniformMatrix4fv(program_.X_CW, 1, GL_FALSE, X_CW_float.data());
+  glBindVertexArray(buffer_.array);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(seen_.size()));
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+}
+
+}  // namespace dodgesim
