@@ -62,7 +62,9 @@ TEST(LuminanceRenderer, DrawsARegionWithTheBitsOfTheFullFrame) {
   const Image full = scene.render(tilted_camera());
   for (const Rect& region :
        {Rect{0, 0, 1, 1}, Rect{37, 51, 77, 91}, Rect{101, 3, 102, 240}, Rect{140, 90, 156, 106},
-        Rect{200, 120, 320, 240}, Rect{63, 63, 65, 65}}) {
+        Rect{200, 120, 320, 240}, Rect{63, 63, 65, 65}, Rect{0, 118, 320, 119},
+        Rect{0, 131, 320, 132}}) {
+    scene.render(forward_camera({0.5, 0.2, 0.8}));  // what it leaves behind must not show
     const Image part = scene.render(tilted_camera(), region);
     for (int y = 0; y < 240; ++y) {
       for (int x = 0; x < 320; ++x) {
@@ -229,6 +231,28 @@ TEST(LuminanceRenderer, LetsTheNearerHideTheFarther) {
   EXPECT_EQ(scene.render(forward_camera()).id_at(x, 120), 0);
   objects[0].p_W = {1.5, -0.3, 0};
   EXPECT_EQ(scene.render(forward_camera()).id_at(x, 120), 1);
+}
+
+TEST(LuminanceRenderer, BlendsAnOutlineWithWhatIsBehindIt) {
+  RenderSpec spec;
+  spec.sky_luminance = 0.1;
+  Scene scene(std::string(kWhiteLight) + "<worldbody>" +
+                  thrown(0, "<geom type='sphere' size='.1' rgba='.9 .9 .9 1'/>") +
+                  thrown(1, "<geom type='sphere' size='.6' rgba='.7 .7 .7 1'/>") + "</worldbody>",
+              spec);
+  for (const bool swapped : {false, true}) {
+    auto& objects = scene.snapshot().objects;
+    objects[0].p_W = {swapped ? 4.0 : 1.5, 0, 0};
+    objects[1].p_W = {3, 0, 0};
+    const Image image = scene.render(forward_camera());
+    // The ball of 0.6 m covers 37 px around the middle.
+    for (int y = 95; y < 145; ++y) {
+      for (int x = 135; x < 185; ++x) {
+        ASSERT_GT(image.at(x, y), 0.699) << x << ", " << y;
+        ASSERT_LT(image.at(x, y), swapped ? 0.701 : 0.901) << x << ", " << y;
+      }
+    }
+  }
 }
 
 TEST(LuminanceRenderer, DrawsWhatIsNearAndLeavesTheFarToTheSky) {
