@@ -95,6 +95,9 @@ Config long_range() {
   Config config;
   config.window.window_us = 20000;
   config.position.max_range_m = 3;
+  config.position.stereo.disparity = "correlation";
+  config.position.stereo.max_cost = 5;
+  config.position.stereo.disparity_sigma_px = 0.25;
   return config;
 }
 

@@ -36,12 +36,12 @@ Dodger::Eye::Eye(const Config& config, const CameraModel& camera)
 
 Dodger::Dodger(const Config& config)
     : config_(validated(config)),
-      depth_(config.position, config.cameras),
+      depth_(config.position, config.cameras, config.window.window_us),
       tracker_(config.association, config.kalman, decay_lifetime_s(config.repulsive)),
       avoider_(config.repulsive, config.attractive, config.velocity_limit) {
   const std::size_t used = config.position.depth == "stereo" ? 2 : 1;
   for (std::size_t i = 0; i < used; ++i) eyes_.emplace_back(config_, config_.cameras[i]);
-  for (const Eye& eye : eyes_) clusters_of_eyes_.push_back(&eye.clusters);
+  for (const Eye& eye : eyes_) views_.push_back({&eye.clusters, &eye.time_image.averaged()});
 }
 
 void Dodger::add_events(int camera, std::span<const Event> events) {
@@ -117,7 +117,7 @@ void Dodger::find_clusters(Eye& eye) {
 void Dodger::locate_obstacles() {
   if (elapsed_windows_ <= 0) return;  // the same data again are no new measurement
   if (const std::optional<StateEstimate> state = states_.at(end_us_)) {
-    depth_.locate(clusters_of_eyes_, *state, detections_);
+    depth_.locate(views_, *state, detections_);
   }
 }
 

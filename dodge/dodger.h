@@ -87,8 +87,8 @@ class Dodger : public Pilot {
   void capture_images(Eye& eye) const;
 
   Config config_;
-  std::vector<Eye> eyes_;  // the cameras in use
-  std::vector<const std::vector<Cluster>*> clusters_of_eyes_;
+  std::vector<Eye> eyes_;    // the cameras in use
+  std::vector<View> views_;  // of the cameras in use
   RateHistory rates_;
   StateHistory states_;
   Goal goal_;

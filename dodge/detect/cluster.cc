@@ -168,6 +168,7 @@ void Clusterer::summarise(const TimeImage& image, const OpticalFlow& flow) {
   }
   features.pixels = static_cast<int>(points_.size());
   features.rho /= features.pixels;
+  features.time = features.rho + image.mean_time();
   features.centroid /= features.events;
   features.velocity = flow.mean_velocity(points_);
   // The ends of the rows have the same bounding rectangle as all pixels.
@@ -225,6 +226,7 @@ void Clusterer::merge_groups(int label_count) {
       merged.pixels += part.pixels;
       merged.events += part.events;
       merged.rho += part.rho * part.pixels;
+      merged.time += part.time * part.pixels;
       merged.velocity += part.velocity * part.pixels;
       merged.centroid += part.centroid * part.events;
       merged_outline_.insert(merged_outline_.end(),
@@ -233,6 +235,7 @@ void Clusterer::merge_groups(int label_count) {
     }
     if (merged.pixels < config_.min_pixels || merged.events < config_.min_events) continue;
     merged.rho /= merged.pixels;
+    merged.time /= merged.pixels;
     merged.velocity /= merged.pixels;
     merged.centroid /= merged.events;
     merged.rectangle = bounding_rectangle(merged_outline_);

@@ -54,7 +54,8 @@ struct Cluster {
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();  // of its events [px]
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // [px per event window]
   double rho = 0;                                      // mean over its pixels
-  int pixels = 0;                                      // pixels with events
+  double time = 0;  // mean T of its pixels (3), in window lengths after the window's start
+  int pixels = 0;   // pixels with events
   int events = 0;
 };
 

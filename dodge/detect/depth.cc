@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <tuple>
+
+#include "dodge/detect/disparity.h"
 
 namespace dodge {
 
@@ -17,22 +21,40 @@ Eigen::Vector3d back_project(const CameraModel& camera, double u, double v, doub
   return depth_m * Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1);
 }
 
+// A little more than the rectangle, so that the neutral surroundings take part.
+cv::Rect patch_around(const cv::RotatedRect& rectangle) {
+  const cv::Rect tight = rectangle.boundingRect();
+  return {tight.x - 1, tight.y - 1, tight.width + 2, tight.height + 2};
+}
+
+// The rectangle around the top camera's and the bottom camera's, moved by the disparity: each may
+// have seen another part of the object.
+cv::RotatedRect joined(const cv::RotatedRect& top, const cv::RotatedRect& bottom,
+                       double disparity_px) {
+  cv::Point2f corners[8];
+  top.points(corners);
+  bottom.points(corners + 4);
+  for (int i = 4; i < 8; ++i) corners[i].y += static_cast<float>(disparity_px);
+  return cv::minAreaRect(cv::Mat(8, 1, CV_32FC2, corners));
+}
+
 }  // namespace
 
-DepthEstimator::DepthEstimator(const DepthConfig& config, std::span<const CameraModel> cameras)
-    : config_(config), camera_(cameras[0]) {
+DepthEstimator::DepthEstimator(const DepthConfig& config, std::span<const CameraModel> cameras,
+                               std::int64_t window_us)
+    : config_(config), window_us_(static_cast<double>(window_us)), camera_(cameras[0]) {
   if (cameras.size() > 1) {
     const Eigen::Vector3d baseline = cameras[1].X_BC.translation() - cameras[0].X_BC.translation();
     focal_baseline_ = camera_.mean_focal_px() * baseline.norm();
   }
 }
 
-void DepthEstimator::locate(std::span<const std::vector<Cluster>* const> clusters,
-                            const StateEstimate& state, std::vector<Detection>& detections) {
+void DepthEstimator::locate(std::span<const View> views, const StateEstimate& state,
+                            std::vector<Detection>& detections) {
   if (config_.depth == "mono") {
-    locate_by_size(*clusters[0], state, detections);
+    locate_by_size(*views[0].clusters, state, detections);
   } else {
-    locate_by_stereo(*clusters[0], *clusters[1], state, detections);
+    locate_by_stereo(views[0], views[1], state, detections);
   }
 }
 
@@ -58,32 +80,67 @@ void DepthEstimator::locate_by_size(const std::vector<Cluster>& clusters,
   }
 }
 
-void DepthEstimator::locate_by_stereo(const std::vector<Cluster>& top,
-                                      const std::vector<Cluster>& bottom,
-                                      const StateEstimate& state,
-                                      std::vector<Detection>& detections) {
-  matches_.clear();
+// Fills matches_: the cheapest pairs first, each cluster in one pair only. Ties keep the order of
+// the scan.
+void DepthEstimator::match_clusters(const std::vector<Cluster>& top,
+                                    const std::vector<Cluster>& bottom) {
+  candidates_.clear();
   for (std::size_t i = 0; i < top.size(); ++i) {
     for (std::size_t j = 0; j < bottom.size(); ++j) {
       if (centre(top[i]).y() <= centre(bottom[j]).y()) continue;  // disparity must be positive
       const double cost = matching_cost(top[i], bottom[j]);
-      if (cost <= config_.stereo.max_cost) matches_.push_back({cost, i, j});
+      if (cost <= config_.stereo.max_cost) candidates_.push_back({cost, i, j});
     }
   }
-  // The cheapest pairs first, each cluster in one pair only. Ties keep the order of the scan.
-  std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {
+  std::sort(candidates_.begin(), candidates_.end(), [](const Match& a, const Match& b) {
     return std::tie(a.cost, a.top, a.bottom) < std::tie(b.cost, b.top, b.bottom);
   });
+  matches_.clear();
   top_taken_.assign(top.size(), false);
   bottom_taken_.assign(bottom.size(), false);
-  for (const Match& match : matches_) {
+  for (const Match& match : candidates_) {
     if (top_taken_[match.top] || bottom_taken_[match.bottom]) continue;
     top_taken_[match.top] = bottom_taken_[match.bottom] = true;
-    const double disparity_px = centre(top[match.top]).y() - centre(bottom[match.bottom]).y();
-    const double depth_m = focal_baseline_ / disparity_px;
-    append(top[match.top], depth_m, depth_m * config_.stereo.disparity_sigma_px / disparity_px,
-           state, detections);
+    matches_.push_back(match);
   }
+}
+
+void DepthEstimator::locate_by_stereo(const View& top, const View& bottom,
+                                      const StateEstimate& state,
+                                      std::vector<Detection>& detections) {
+  match_clusters(*top.clusters, *bottom.clusters);
+  for (const Match& match : matches_) {
+    Cluster object = (*top.clusters)[match.top];
+    const Cluster& below = (*bottom.clusters)[match.bottom];
+    double disparity_px = centre(object).y() - centre(below).y();
+    if (config_.stereo.disparity == "correlation") {
+      const std::optional<double> found = correlated_disparity(top, bottom, match);
+      if (!found) continue;
+      disparity_px = *found;
+      object.rectangle = joined(object.rectangle, below.rectangle, disparity_px);
+    }
+    const double depth_m = focal_baseline_ / disparity_px;
+    append(object, depth_m, depth_m * config_.stereo.disparity_sigma_px / disparity_px, state,
+           detections);
+  }
+}
+
+// The smaller cluster is the pattern: what it shows, the other camera is likely to see as well.
+std::optional<double> DepthEstimator::correlated_disparity(const View& top, const View& bottom,
+                                                           const Match& match) const {
+  const Cluster& above = (*top.clusters)[match.top];
+  const Cluster& below = (*bottom.clusters)[match.bottom];
+  const double guess_px = centre(above).y() - centre(below).y();
+  const int least = std::max(1, static_cast<int>(std::floor(guess_px - config_.stereo.search_px)));
+  const int most = static_cast<int>(std::ceil(guess_px + config_.stereo.search_px));
+  const bool from_top = above.pixels <= below.pixels;
+  const std::optional<RowShift> found =
+      from_top ? find_row_shift(*top.averaged_rho, patch_around(above.rectangle),
+                                *bottom.averaged_rho, -most, -least)
+               : find_row_shift(*bottom.averaged_rho, patch_around(below.rectangle),
+                                *top.averaged_rho, least, most);
+  if (!found || found->correlation < config_.stereo.min_correlation) return std::nullopt;
+  return std::abs(found->shift_px);
 }
 
 void DepthEstimator::append(const Cluster& cluster, double depth_m, double depth_sigma_m,
@@ -92,13 +149,15 @@ void DepthEstimator::append(const Cluster& cluster, double depth_m, double depth
   if (depth_m < config_.min_range_m || depth_m > config_.max_range_m) return;
   if (size_m < config_.min_size_m || size_m > config_.max_size_m) return;
 
+  // The events were rotated to the window's end, but seen from where the vehicle was before.
+  const auto age_us = static_cast<TimeUs>(std::llround((1 - cluster.time) * window_us_));
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   X_WB.linear() = state.q_WB.toRotationMatrix();
-  X_WB.translation() = state.p_WB;
+  X_WB.translation() = state.p_WB - 1e-6 * static_cast<double>(age_us) * state.v_WB;
   const Eigen::Isometry3d X_WC = X_WB * camera_.X_BC;  // (11)
 
   Detection detection;
-  detection.t_us = state.t_us;
+  detection.t_us = state.t_us - age_us;
   detection.camera = 0;
   detection.depth_m = depth_m;
   detection.depth_sigma_m = depth_sigma_m;

@@ -80,8 +80,8 @@ void TimeImage::threshold(double rate_rps) {
     rho[pixel] /= static_cast<float>(count[pixel]);
     sum += rho[pixel];
   }
-  const auto mean =
-      static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(1, active_.size())));
+  mean_time_ = sum / static_cast<double>(std::max<std::size_t>(1, active_.size()));
+  const auto mean = static_cast<float>(mean_time_);
   for (const int pixel : active_) rho[pixel] -= mean;
 
   cv::swap(averaged_, previous_);

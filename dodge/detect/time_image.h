@@ -58,6 +58,9 @@ class TimeImage {
   // Opening, closing and dilation.
   void clean();
 
+  // mean(T) of (4), in window lengths after the window's start.
+  double mean_time() const { return mean_time_; }
+
   const cv::Mat1w& count() const { return count_; }        // events per pixel (2)
   const cv::Mat1f& rho() const { return rho_; }            // (4); 0 where there is no event
   const cv::Mat1f& averaged() const { return averaged_; }  // rho after the blur
@@ -71,6 +74,7 @@ class TimeImage {
   cv::Mat1f rho_;  // holds the sum of times until threshold() normalises it
   cv::Mat1f averaged_, previous_;
   cv::Mat1b threshold_mask_, obstacle_mask_;
+  double mean_time_ = 0;
   cv::Mat1f blur_kernel_;
   std::vector<int> active_;  // pixels with at least one event
 };

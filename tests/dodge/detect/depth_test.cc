@@ -17,6 +17,7 @@ class DepthTest : public ::testing::Test {
     cluster.centroid = {u, v};
     cluster.pixels = static_cast<int>(side_px * side_px);
     cluster.events = 2 * cluster.pixels;
+    cluster.time = 1;
     return cluster;
   }
 
@@ -29,8 +30,8 @@ class DepthTest : public ::testing::Test {
 
   std::vector<Detection> locate(const DepthConfig& config, const std::vector<Cluster>& top,
                                 const std::vector<Cluster>& bottom) const {
-    DepthEstimator estimator(config, cameras_);
-    const std::array<const std::vector<Cluster>*, 2> both = {&top, &bottom};
+    DepthEstimator estimator(config, cameras_, 10000);
+    const std::array<View, 2> both = {View{&top, &rho_[0]}, View{&bottom, &rho_[1]}};
     std::vector<Detection> detections;
     estimator.locate(both, state_, detections);
     return detections;
@@ -38,6 +39,7 @@ class DepthTest : public ::testing::Test {
 
   std::vector<CameraModel> cameras_ = synthetic::vertical_pair();
   StateEstimate state_;
+  std::array<cv::Mat1f, 2> rho_ = {cv::Mat1f(240, 320, 0.0F), cv::Mat1f(240, 320, 0.0F)};
 };
 
 TEST_F(DepthTest, stereo_recovers_position_and_size) {
@@ -53,6 +55,18 @@ TEST_F(DepthTest, stereo_recovers_position_and_size) {
   EXPECT_NEAR(d.depth_m, 1.2, 1e-4);  // the cameras sit 0.1 m ahead of the body's origin
   EXPECT_NEAR(d.size_m, 0.2, 1e-4);
   EXPECT_LT((d.centre_W - (state_.p_WB + state_.q_WB * p_B)).norm(), 1e-4);
+}
+
+TEST_F(DepthTest, speaks_of_the_time_of_the_events_and_the_place_of_the_vehicle_then) {
+  state_.t_us = 500000;
+  state_.v_WB = {4, 0, 0};
+  const Eigen::Vector3d p_B(1.3, 0.2, -0.1);
+  Cluster top = seen_by(0, p_B, 0.2);
+  top.time = 0.7;
+  const auto detections = locate({}, {top}, {seen_by(1, p_B, 0.2)});
+  ASSERT_EQ(detections.size(), 1U);
+  EXPECT_EQ(detections[0].t_us, 497000);
+  EXPECT_LT((detections[0].centre_W - (p_B - Eigen::Vector3d(0.012, 0, 0))).norm(), 1e-4);
 }
 
 TEST_F(DepthTest, mono_recovers_position_from_the_known_size) {
@@ -135,7 +149,7 @@ TEST_F(DepthTest, matching_cost_is_8_and_symmetric) {
   config.stereo.weight_position_1ppx = 2;
   config.stereo.weight_area = 3;
   config.stereo.weight_count = 5;
-  const DepthEstimator estimator(config, cameras_);
+  const DepthEstimator estimator(config, cameras_, 10000);
   Cluster a = square(100, 80, 10), b = square(104, 50, 20);
   a.pixels = 60;
   b.pixels = 90;
@@ -160,6 +174,41 @@ TEST_F(DepthTest, matches_two_objects_crosswise_and_each_once) {
 TEST_F(DepthTest, unlike_clusters_do_not_match) {
   EXPECT_EQ(locate({}, {square(100, 130, 20)}, {square(160, 100, 20)}).size(), 0U);
   EXPECT_EQ(locate({}, {square(160, 130, 40)}, {square(160, 100, 10)}).size(), 0U);
+}
+
+TEST_F(DepthTest, correlation_measures_depth_though_each_camera_sees_another_part) {
+  // A ring 20 px wide, 25 px of disparity; the top camera sees only its upper edge.
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 0; x < 320; ++x) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double d = std::hypot(x - 160, y - (i == 0 ? 130 : 105)) - 10;
+        rho_[i](y, x) = static_cast<float>(0.3 * std::exp(-0.5 * d * d));
+      }
+    }
+  }
+  rho_[0].rowRange(125, 240) = 0.0F;
+  Cluster top = square(160, 121.5, 20);
+  top.rectangle.size.height = 6;
+  top.pixels = 30;
+  Cluster bottom = square(160, 105, 21);
+  bottom.pixels = 60;
+
+  DepthConfig config;
+  config.stereo.max_cost = 5;
+  const double truth_m = 190.7 * 0.15 / 25;
+  auto detections = locate(config, {top}, {bottom});
+  EXPECT_TRUE(detections.empty() || detections[0].depth_m > 1.3 * truth_m);
+
+  config.stereo.disparity = "correlation";
+  detections = locate(config, {top}, {bottom});
+  ASSERT_EQ(detections.size(), 1U);
+  EXPECT_NEAR(detections[0].depth_m, truth_m, 0.01);
+  // Both cameras' rectangles together cover the whole ring.
+  const double size_m = 21 * truth_m / 190.7;
+  EXPECT_NEAR(detections[0].size_m, size_m, 0.1 * size_m);
+
+  rho_[1] = 0.0F;  // the images do not agree: no match
+  EXPECT_TRUE(locate(config, {top}, {bottom}).empty());
 }
 
 TEST_F(DepthTest, drops_what_is_too_far_too_near_too_large_or_too_small) {

@@ -1,0 +1,63 @@
+#include "dodge/detect/disparity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dodge {
+
+namespace {
+
+// An image with less than this part of the pattern's energy is not scaled up to the pattern: faint
+// noise may have the right shape.
+constexpr double kLeastEnergy = 0.25;
+
+double correlation(const cv::Mat1f& pattern, const cv::Rect& patch, const cv::Mat1f& image,
+                   int shift) {
+  double product = 0, pattern_energy = 0, image_energy = 0;
+  for (int y = patch.y; y < patch.y + patch.height; ++y) {
+    const float* a = pattern.ptr<float>(y);
+    const int row = y + shift;
+    const float* b = row >= 0 && row < image.rows ? image.ptr<float>(row) : nullptr;
+    float row_product = 0, row_pattern = 0, row_image = 0;
+    for (int x = patch.x; x < patch.x + patch.width; ++x) {
+      const float p = std::max(0.0F, a[x]);
+      row_pattern += p * p;
+      if (b == nullptr) continue;
+      const float q = std::max(0.0F, b[x]);
+      row_product += p * q;
+      row_image += q * q;
+    }
+    product += row_product;
+    pattern_energy += row_pattern;
+    image_energy += row_image;
+  }
+  if (product <= 0) return 0;
+  return product /
+         std::sqrt(pattern_energy * std::max(image_energy, kLeastEnergy * pattern_energy));
+}
+
+}  // namespace
+
+std::optional<RowShift> find_row_shift(const cv::Mat1f& pattern, const cv::Rect& patch,
+                                       const cv::Mat1f& image, int min_shift_px, int max_shift_px) {
+  const cv::Rect inside = patch & cv::Rect(0, 0, std::min(pattern.cols, image.cols), pattern.rows);
+  int best_shift = 0;
+  double best = 0;
+  for (int shift = min_shift_px; shift <= max_shift_px; ++shift) {
+    const double value = correlation(pattern, inside, image, shift);
+    if (value > best) {
+      best = value;
+      best_shift = shift;
+    }
+  }
+  if (best <= 0) return std::nullopt;
+  // The vertex of the parabola through the best value and its neighbours.
+  const double before = correlation(pattern, inside, image, best_shift - 1);
+  const double after = correlation(pattern, inside, image, best_shift + 1);
+  const double curvature = before - 2 * best + after;
+  const double offset =
+      curvature < 0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0;
+  return RowShift{best_shift + offset, best};
+}
+
+}  // namespace dodge

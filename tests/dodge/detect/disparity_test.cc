@@ -1,0 +1,63 @@
+#include "dodge/detect/disparity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace dodge {
+namespace {
+
+// A smooth ring of positive rho with a negative one inside.
+cv::Mat1f ring(double x0, double y0, double radius) {
+  cv::Mat1f image(120, 160, 0.0F);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const double d = std::hypot(x - x0, y - y0) - radius;
+      image(y, x) = static_cast<float>(0.3 * std::exp(-0.5 * d * d) -
+                                       0.3 * std::exp(-0.5 * (d + 3) * (d + 3)));
+    }
+  }
+  return image;
+}
+
+cv::Rect around(double x0, double y0, double radius) {
+  const int r = static_cast<int>(radius) + 3;
+  return {static_cast<int>(x0) - r, static_cast<int>(y0) - r, 2 * r + 1, 2 * r + 1};
+}
+
+TEST(FindRowShift, is_exact_to_a_tenth_of_a_pixel) {
+  const cv::Mat1f pattern = ring(80, 80, 8);
+  for (double shift = -40; shift < -20; shift += 0.3) {
+    const auto found =
+        find_row_shift(pattern, around(80, 80, 8), ring(80, 80 + shift, 8), -50, -10);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_NEAR(found->shift_px, shift, 0.1);
+    EXPECT_GT(found->correlation, 0.95);
+  }
+}
+
+TEST(FindRowShift, finds_a_part_of_the_outline_in_the_whole) {
+  const cv::Mat1f whole = ring(80, 50, 10);
+  cv::Mat1f part = ring(80, 80, 10);
+  part.rowRange(76, 120) = 0.0F;  // one camera sees the upper edge only
+  const auto found = find_row_shift(part, {66, 66, 28, 12}, whole, -45, -15);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NEAR(found->shift_px, -30, 0.1);
+}
+
+TEST(FindRowShift, finds_nothing_in_nothing) {
+  const cv::Mat1f empty(120, 160, 0.0F), pattern = ring(80, 60, 8);
+  EXPECT_FALSE(find_row_shift(pattern, around(80, 60, 8), empty, -20, 20).has_value());
+  EXPECT_FALSE(find_row_shift(empty, around(80, 60, 8), pattern, -20, 20).has_value());
+  EXPECT_FALSE(find_row_shift(pattern, around(80, 60, 8), pattern, 70, 90).has_value());
+}
+
+TEST(FindRowShift, cuts_patches_and_shifts_at_the_border) {
+  const cv::Mat1f pattern = ring(3, 115, 8);
+  const auto found = find_row_shift(pattern, around(3, 115, 8), ring(3, 4, 8), -200, 200);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NEAR(found->shift_px, -111, 3);
+}
+
+}  // namespace
+}  // namespace dodge
