@@ -67,6 +67,7 @@ std::vector<Vertex> tessellate_unbounded(const Surface& surface, double far_m) {
 
 std::vector<int> object_bodies(const World& world) {
   std::vector<int> bodies;
+  bodies.reserve(static_cast<std::size_t>(world.object_count()));
   for (int i = 0; i < world.object_count(); ++i) bodies.push_back(world.object_body(i));
   return bodies;
 }
