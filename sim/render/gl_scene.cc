@@ -110,6 +110,11 @@ GLuint make_framebuffer(GLuint luminance, GLuint depth, GLuint ids) {
   return framebuffer;
 }
 
+// OpenGL takes an offset into the bound buffer in the guise of a pointer.
+const void* buffer_offset(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
+}
+
 }  // namespace
 
 unsigned upload_texture(const LuminanceTexture& texture) {
@@ -156,7 +161,7 @@ VertexBuffer upload_vertices(const std::vector<Vertex>& vertices) {
   for (GLuint i = 0; i < 4; ++i) {
     glEnableVertexAttribArray(i);
     glVertexAttribPointer(i, attributes[i].components, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                          reinterpret_cast<const void*>(attributes[i].offset));
+                          buffer_offset(attributes[i].offset));
   }
   return vertex_buffer;
 }
@@ -207,7 +212,7 @@ VertexBuffer make_edge_buffer(std::size_t capacity) {
   for (GLuint i = 0; i < 3; ++i) {
     glEnableVertexAttribArray(i);
     glVertexAttribPointer(i, attributes[i].components, GL_FLOAT, GL_FALSE, sizeof(EdgeInstance),
-                          reinterpret_cast<const void*>(attributes[i].offset));
+                          buffer_offset(attributes[i].offset));
     glVertexAttribDivisor(i, 1);
   }
   return buffer;
