@@ -41,7 +41,8 @@ TimeImage::TimeImage(const TimeImageConfig& config, int width, int height)
       threshold_mask_(height, width, static_cast<std::uint8_t>(0)),
       obstacle_mask_(height, width, static_cast<std::uint8_t>(0)),
       blur_kernel_(binomial_kernel(config.blur_px)) {
-  active_.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  // One more than pixels: accumulate() writes before it knows whether the entry counts.
+  active_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + 1);
 }
 
 void TimeImage::accumulate(std::span<const std::span<const Event>> pieces,
@@ -49,11 +50,11 @@ void TimeImage::accumulate(std::span<const std::span<const Event>> pieces,
   const int width = count_.cols, height = count_.rows;
   std::uint16_t* count = count_.ptr<std::uint16_t>();
   float* time_sum = rho_.ptr<float>();
-  for (const int pixel : active_) {
+  for (const int pixel : active()) {
     count[pixel] = 0;
     time_sum[pixel] = 0;
   }
-  active_.clear();
+  active_count_ = 0;
 
   const float per_us = 1.0F / static_cast<float>(end_us - begin_us);
   for (const std::span<const Event> piece : pieces) {
@@ -66,7 +67,10 @@ void TimeImage::accumulate(std::span<const std::span<const Event>> pieces,
         continue;
       }
       const int pixel = static_cast<int>(v) * width + static_cast<int>(u);
-      if (count[pixel]++ == 0) active_.push_back(pixel);
+      // Without a branch: whether a pixel is new cannot be predicted.
+      active_[active_count_] = pixel;
+      active_count_ += count[pixel] == 0 ? 1 : 0;
+      ++count[pixel];
       time_sum[pixel] += per_us * static_cast<float>(event.t_us - begin_us);
     }
   }
@@ -76,13 +80,13 @@ void TimeImage::threshold(double rate_rps) {
   const std::uint16_t* count = count_.ptr<std::uint16_t>();
   float* rho = rho_.ptr<float>();
   double sum = 0;
-  for (const int pixel : active_) {
+  for (const int pixel : active()) {
     rho[pixel] /= static_cast<float>(count[pixel]);
     sum += rho[pixel];
   }
-  mean_time_ = sum / static_cast<double>(std::max<std::size_t>(1, active_.size()));
+  mean_time_ = sum / static_cast<double>(std::max<std::size_t>(1, active_count_));
   const auto mean = static_cast<float>(mean_time_);
-  for (const int pixel : active_) rho[pixel] -= mean;
+  for (const int pixel : active()) rho[pixel] -= mean;
 
   cv::swap(averaged_, previous_);
   cv::sepFilter2D(rho_, averaged_, CV_32F, blur_kernel_, blur_kernel_, {-1, -1}, 0,

@@ -69,6 +69,8 @@ class TimeImage {
   const cv::Mat1b& obstacle_mask() const { return obstacle_mask_; }    // 0 or 255, cleaned
 
  private:
+  std::span<const int> active() const { return std::span(active_).first(active_count_); }
+
   TimeImageConfig config_;
   cv::Mat1w count_;
   cv::Mat1f rho_;  // holds the sum of times until threshold() normalises it
@@ -76,7 +78,8 @@ class TimeImage {
   cv::Mat1b threshold_mask_, obstacle_mask_;
   double mean_time_ = 0;
   cv::Mat1f blur_kernel_;
-  std::vector<int> active_;  // pixels with at least one event
+  std::vector<int> active_;  // its first active_count_ entries are the pixels with events
+  std::size_t active_count_ = 0;
 };
 
 }  // namespace dodge
