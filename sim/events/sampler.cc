@@ -29,6 +29,7 @@ Sampler::Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics,
       intrinsics_(intrinsics),
       X_BC_(X_BC),
       object_radius_m_(std::move(object_radius_m)),
+      fast_displacement_px_(std::max(spec.fast_displacement_px, spec.max_displacement_px)),
       max_interval_us_(static_cast<TimeUs>(1e6 / spec.min_rate_hz)),
       moved_px_(1 + object_radius_m_.size()),
       speed_pxps_(1 + object_radius_m_.size()) {
@@ -44,7 +45,7 @@ Sampler::Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics,
                               half_height * (2.0 * j / (kGridRows - 1) - 1));
     }
   }
-  const double margin = kViewMarginLimits * spec.max_displacement_px / f;
+  const double margin = kViewMarginLimits * fast_displacement_px_ / f;
   const double right = half_width + margin;
   const double bottom = half_height + margin;
   for (const double sign : {-1.0, 1.0}) {
@@ -87,15 +88,24 @@ void Sampler::advance(const Snapshot& a, const Snapshot& b, double nearest_stati
   }
 }
 
-// The instant after now_us at which the next sample is due if the speeds last.
-TimeUs Sampler::next_sample(TimeUs now_us) const {
+// The instant at which something has moved limit_px since the last sample, if the speeds last.
+TimeUs Sampler::time_of_displacement(double limit_px, TimeUs now_us) const {
   double left_s = seconds(max_interval_us_);
   for (std::size_t i = 0; i < moved_px_.size(); ++i) {
-    const double left_px = std::max(0.0, spec_.max_displacement_px - moved_px_[i]);
+    const double left_px = std::max(0.0, limit_px - moved_px_[i]);
     if (speed_pxps_[i] * left_s > left_px) left_s = left_px / speed_pxps_[i];
   }
-  TimeUs t_us =
-      std::max(now_us + static_cast<TimeUs>(1e6 * left_s), last_us_ + spec_.min_interval_us);
+  return now_us + static_cast<TimeUs>(1e6 * left_s);
+}
+
+// The instant after now_us at which the next sample is due if the speeds last.
+TimeUs Sampler::next_sample(TimeUs now_us) const {
+  TimeUs t_us = time_of_displacement(spec_.max_displacement_px, now_us);
+  const TimeUs fast_us = last_us_ + spec_.fast_interval_us;
+  if (t_us < fast_us) {
+    t_us = std::min(fast_us, time_of_displacement(fast_displacement_px_, now_us));
+  }
+  t_us = std::max(t_us, last_us_ + spec_.min_interval_us);
   t_us = std::min(t_us, last_us_ + max_interval_us_);
   if (!required_us_.empty()) t_us = std::min(t_us, required_us_.front());
   return std::max(t_us, now_us + 1);

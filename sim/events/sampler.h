@@ -3,7 +3,8 @@
 // Between two samples the luminance of a pixel is taken to run linearly in time, so nothing may
 // move far from one sample to the next. For the static scene and for each object the sampler adds
 // up a bound on the distance that any of its visible points moves in the image, and asks for a
-// sample when one of them reaches SamplingSpec::max_displacement_px. Each camera has its own
+// sample when one of them reaches SamplingSpec::max_displacement_px (fast_displacement_px when that
+// happens within fast_interval_us). Each camera has its own
 // sampler.
 //
 // What a loop must do with events that are known late: an event is known at the first sample at or
@@ -56,6 +57,7 @@ class Sampler {
     Eigen::Vector3d w_C;  // angular velocity [rad/s]
   };
   CameraMotion camera_motion(const Snapshot& snapshot) const;
+  TimeUs time_of_displacement(double limit_px, TimeUs now_us) const;
   TimeUs next_sample(TimeUs now_us) const;
 
   SamplingSpec spec_;
@@ -64,6 +66,7 @@ class Sampler {
   std::vector<double> object_radius_m_;
   std::vector<Eigen::Vector2d> view_grid_;    // normalised image coordinates, corners included
   std::vector<Eigen::Vector3d> view_planes_;  // unit normals into the enlarged view
+  double fast_displacement_px_;               // never below max_displacement_px
   double max_secant_;                         // 1/cos of the angle of the corners of the view
   TimeUs max_interval_us_;
 

@@ -79,15 +79,49 @@ TEST(Sampler, SamplesExactlyWhenRequired) {
   EXPECT_EQ(times, (std::vector<TimeUs>{1000, 3100, 4001, 9001}));
 }
 
+SamplingSpec never_fast() {
+  SamplingSpec spec;
+  spec.fast_interval_us = 1;
+  return spec;
+}
+
+// How far anything may move over an interval between two samples.
+double limit_px(const SamplingSpec& spec, TimeUs interval_us) {
+  return interval_us > spec.fast_interval_us ? spec.max_displacement_px : spec.fast_displacement_px;
+}
+
+// Speed of the corners of the image [px/s] when the camera turns about y_C.
+double corner_speed(double rate_radps) {
+  const double x = 160 / kIntrinsics.f;
+  const double y = 120 / kIntrinsics.f;
+  return rate_radps * kIntrinsics.f * std::hypot(1 + x * x, x * y);
+}
+
+TEST(Sampler, TheLimitIsWiderWhereSamplesAreCloseInTimeAnyway) {
+  const SamplingSpec spec;
+  const struct {
+    double rate_radps, interval_us;
+  } cases[] = {{0.5, 1e6 * spec.max_displacement_px / corner_speed(0.5)},
+               {5, static_cast<double>(spec.fast_interval_us)},
+               {9, 1e6 * spec.fast_displacement_px / corner_speed(9)}};
+  for (const auto& c : cases) {
+    Snapshot start;
+    start.vehicle.w_W = mounted_camera().linear() * Eigen::Vector3d(0, c.rate_radps, 0);
+    Sampler sampler = sampler_for({}, spec);
+    const auto times = run(sampler, start, kFar, 50000);
+    ASSERT_GT(times.size(), 2u);
+    EXPECT_NEAR(static_cast<double>(times.back()) / static_cast<double>(times.size()),
+                c.interval_us, 0.01 * c.interval_us)
+        << c.rate_radps << " rad/s";
+  }
+}
+
 TEST(Sampler, ARotationIsSampledByItsSpeedInTheCorners) {
   Snapshot start;
   start.vehicle.w_W = mounted_camera().linear() * Eigen::Vector3d(0, 3, 0);  // about y_C
-  Sampler sampler = sampler_for({});
+  Sampler sampler = sampler_for({}, never_fast());
   const auto times = run(sampler, start, kFar, 50000);
-  const double x = 160 / kIntrinsics.f;
-  const double y = 120 / kIntrinsics.f;
-  const double corner = 3 * kIntrinsics.f * std::hypot(1 + x * x, x * y);
-  const double interval_us = 1e6 * SamplingSpec().max_displacement_px / corner;
+  const double interval_us = 1e6 * SamplingSpec().max_displacement_px / corner_speed(3);
   ASSERT_GT(times.size(), 10u);
   EXPECT_NEAR(static_cast<double>(times.back()) / static_cast<double>(times.size()), interval_us,
               2);
@@ -96,7 +130,7 @@ TEST(Sampler, ARotationIsSampledByItsSpeedInTheCorners) {
 TEST(Sampler, ATranslationIsSampledByTheNearestDepth) {
   Snapshot start;
   start.vehicle.v_W = mounted_camera().linear() * Eigen::Vector3d(2, 0, 0);  // along x_C
-  Sampler sampler = sampler_for({});
+  Sampler sampler = sampler_for({}, never_fast());
   const auto times = run(sampler, start, 1.5, 50000);
   // A point at a distance of 1.5 m in the corner of the view has the least depth.
   const double secant = Eigen::Vector3d(160, 120, kIntrinsics.f).norm() / kIntrinsics.f;
@@ -168,7 +202,7 @@ TEST(Sampler, NoPointOfAnObjectMovesFartherThanTheLimitBetweenSamples) {
             start, previous, t, 200, [&](int i, const Snapshot& s, const Eigen::Isometry3d&) {
               return Eigen::Vector3d(s.objects[0].pose() * surface[static_cast<std::size_t>(i)]);
             });
-        EXPECT_LE(moved_px, spec.max_displacement_px * 1.01);
+        EXPECT_LE(moved_px, limit_px(spec, t - previous) * 1.01);
         seen += moved_px > 0 ? 1 : 0;
         largest = std::max(largest, moved_px);
       }
@@ -205,7 +239,7 @@ TEST(Sampler, NoPointOfTheStaticSceneMovesFartherThanTheLimitBetweenSamples) {
                                       (p.y() - kIntrinsics.cy()) / kIntrinsics.f, 1);
             return Eigen::Vector3d(X_CW.inverse() * (ray.normalized() * p.z()));
           });
-      EXPECT_LE(moved_px, spec.max_displacement_px * 1.02);
+      EXPECT_LE(moved_px, limit_px(spec, t - previous) * 1.02);
       largest = std::max(largest, moved_px);
       previous = t;
     }
