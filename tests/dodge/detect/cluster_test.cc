@@ -130,6 +130,21 @@ TEST(Clusterer, connects_diagonals_and_separates_what_does_not_touch) {
   EXPECT_EQ(clusters[2].events, 24);
 }
 
+TEST(Clusterer, follows_a_group_up_and_to_the_left) {
+  MaskImage image;
+  for (int i = 0; i < 10; ++i) {
+    image.add(20 + i, 20 + i);  // down to the right ...
+    image.add(40 - i, 20 + i);  // ... and up again
+    image.add(20 - i, 30 + i);  // a tail that leaves to the left
+  }
+  image.add(30, 30);
+  image.add(21, 29);
+  for (int x = 22; x < 30; ++x) image.add(x, 30);
+  const std::vector<Cluster> clusters = find(image, separate());
+  ASSERT_EQ(clusters.size(), 1U);
+  EXPECT_EQ(clusters[0].pixels, 40);
+}
+
 TEST(Clusterer, rectangle_covers_whole_pixels) {
   MaskImage image;
   image.add_block(40, 20, 8, 4);

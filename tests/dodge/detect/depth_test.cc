@@ -144,6 +144,14 @@ TEST_F(DepthTest, disparity_must_be_positive) {
   EXPECT_EQ(locate({}, {square(160, 130, 20)}, {square(160, 100, 20)}).size(), 1U);
 }
 
+TEST_F(DepthTest, a_pair_of_negative_disparity_does_not_take_the_place_of_the_right_one) {
+  // The first top cluster equals the bottom one, but lies above it.
+  const auto detections =
+      locate({}, {square(160, 90, 20), square(161, 130, 21)}, {square(160, 100, 20)});
+  ASSERT_EQ(detections.size(), 1U);
+  EXPECT_NEAR(detections[0].depth_m, 190.7 * 0.15 / 30, 1e-4);
+}
+
 TEST_F(DepthTest, matching_cost_is_8_and_symmetric) {
   DepthConfig config;
   config.stereo.weight_position_1ppx = 2;

@@ -109,6 +109,24 @@ TEST_F(TimeImageTest, opening_removes_a_line_and_keeps_a_block) {
   EXPECT_EQ(cv::countNonZero(image.obstacle_mask()), 16);
 }
 
+TEST_F(TimeImageTest, even_kernels_leave_the_mask_in_place) {
+  std::vector<Event> events;
+  for (int i = 0; i < 20; ++i) events.push_back(at(i, 29, 1000));
+  for (int y = 10; y < 14; ++y) {
+    for (int x = 20; x < 24; ++x) events.push_back(at(x, y, 9000));
+  }
+  TimeImageConfig config = plain();
+  config.open_px = 2;
+  TimeImage opened(config, kWidth, kHeight);
+  process(opened, events);
+  EXPECT_EQ(cv::countNonZero(opened.obstacle_mask() != opened.threshold_mask()), 0);
+  config.open_px = 0;
+  config.close_px = 4;
+  TimeImage closed(config, kWidth, kHeight);
+  process(closed, events);
+  EXPECT_EQ(cv::countNonZero(closed.obstacle_mask() != closed.threshold_mask()), 0);
+}
+
 TEST_F(TimeImageTest, closing_and_dilation_fill_and_grow) {
   TimeImageConfig config = plain();
   config.close_px = 3;
