@@ -117,7 +117,7 @@ const void* buffer_offset(std::size_t bytes) {
 
 }  // namespace
 
-unsigned upload_texture(const LuminanceTexture& texture) {
+unsigned upload_texture(const LuminanceTexture& texture, bool trilinear) {
   GLuint name = 0;
   glGenTextures(1, &name);
   const GLenum target = texture.cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D;
@@ -128,7 +128,8 @@ unsigned upload_texture(const LuminanceTexture& texture) {
   glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
   glTexParameteri(target, GL_TEXTURE_WRAP_R, wrap);
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER,
+                  trilinear ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST);
   const int faces = texture.cube ? 6 : 1;
   const auto face_texels =
       static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);

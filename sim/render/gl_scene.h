@@ -28,7 +28,7 @@ struct GlProgram {
 };
 
 // Uploads. All are GL names.
-unsigned upload_texture(const LuminanceTexture& texture);
+unsigned upload_texture(const LuminanceTexture& texture, bool trilinear);
 struct VertexBuffer {
   unsigned array = 0, buffer = 0;
   int count = 0;

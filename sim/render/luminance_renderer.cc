@@ -130,7 +130,7 @@ LuminanceRenderer::Impl::Impl(const mjModel& model, const std::vector<int>& obje
       scene_(collect_scene(model, object_bodies, spec.texel_encoding == "srgb")) {
   target_ = make_target(intrinsics.width, intrinsics.height);
   for (const LuminanceTexture& texture : scene_.textures) {
-    textures_.push_back(upload_texture(texture));
+    textures_.push_back(upload_texture(texture, spec.texture_filter == "trilinear"));
   }
   for (const TriangleBatch& batch : scene_.static_triangles) {
     static_buffers_.push_back(upload_vertices(batch.vertices));

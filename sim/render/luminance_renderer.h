@@ -29,6 +29,7 @@ struct RenderSpec {
   double far_m = 2000.0;
   double sky_luminance = 0.5;
   std::string texel_encoding = "linear";
+  std::string texture_filter = "bilinear";
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -37,6 +38,10 @@ struct RenderSpec {
     v("sky_luminance", sky_luminance, 0.0, 1000.0,
       "Luminance of the background where the room has no sky texture; 1 is a white surface under "
       "full light.");
+    v("texture_filter", texture_filter, {"bilinear", "trilinear"},
+      "Reading of textures that are seen smaller than they are: bilinear within the nearest level "
+      "of "
+      "the mip-map, or trilinear between two, which takes about half as long again per picture.");
     v("texel_encoding", texel_encoding, {"linear", "srgb"},
       "What a texel's value v of 0 to 255 means: the reflectance v/255 (the rooms of this "
       "project), "
