@@ -94,6 +94,7 @@ void check_rectified(const CameraModel& top, const CameraModel& bottom) {
 Config long_range() {
   Config config;
   config.window.window_us = 20000;
+  config.cluster.min_group_pixels = 6;
   config.position.max_range_m = 3;
   config.position.stereo.disparity = "correlation";
   config.position.stereo.max_cost = 5;

@@ -172,6 +172,7 @@ TEST(Clusterer, rectangle_follows_a_slanted_object) {
 TEST(Clusterer, merges_near_groups_of_like_rho_only) {
   ClusterConfig config = separate();
   config.eps = 3;
+  config.weight_position = 0.2;
   MaskImage image;
   image.add_block(20, 20, 5, 5, 10000);
   image.add_block(34, 20, 5, 5, 10000);  // 9 px away: cost 0.2 * 9 = 1.8
@@ -189,7 +190,8 @@ TEST(Clusterer, merges_near_groups_of_like_rho_only) {
 
 TEST(Clusterer, lone_groups_are_noise_when_a_core_needs_neighbours) {
   ClusterConfig config = separate();
-  config.eps = 2;  // 10 px
+  config.eps = 2;
+  config.weight_position = 0.2;  // 10 px
   config.min_points = 3;
   MaskImage image;
   for (int i = 0; i < 4; ++i) image.add_block(10 + 12 * i, 20, 4, 4);  // a chain of four
