@@ -1,6 +1,6 @@
 #include "sim/loop.h"
 
-#include <chrono>
+#include <sstream>
 
 #include "sim/base/error.h"
 #include "sim/config/resolve_throw.h"
@@ -35,6 +35,24 @@ BodyState undisturbed_vehicle(const Scenario& scenario, int throw_index, TimeUs 
   quiet.pilot = "none";
   quiet.end_us = t_us;
   return fly(scenario, quiet).last.vehicle;
+}
+
+// A throw from behind a wall is a mistake of the scenario, not a miss.
+void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_W,
+                           const Eigen::Vector3d& launch_p_W, int throw_index) {
+  const Eigen::Vector3d ray_W = launch_p_W - vehicle_p_W;
+  constexpr mjtByte kRoomOnly[mjNGROUP] = {1, 0, 0, 0, 0, 0};
+  int geom = -1;
+  // The distance comes in lengths of the ray.
+  const double at = mj_ray(&world.model(), &world.data(), vehicle_p_W.data(), ray_W.data(),
+                           kRoomOnly, 1, -1, &geom);
+  if (geom < 0 || at >= 1) return;
+  std::ostringstream message;
+  message << "Throw " << throw_index << " starts at (" << launch_p_W.x() << ", " << launch_p_W.y()
+          << ", " << launch_p_W.z() << ") m, behind the room's \""
+          << mj_id2name(&world.model(), mjOBJ_GEOM, geom)
+          << "\": reduce throw.distance_m or move mission.start_m.";
+  throw ScenarioError(message.str());
 }
 
 FlightResult summary(const FlightRecord& record, bool thrown) {
@@ -106,10 +124,13 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
   Throw toss = resolve_throw(scenario, throw_index);
   toss.launch_us = round_to_tick(toss.launch_us);
   const BodyState vehicle = undisturbed_vehicle(scenario, throw_index, toss.arrival_us());
-  const World world({scenario.models_dir, scenario.room, scenario.vehicle, {toss.object}});
+  World world({scenario.models_dir, scenario.room, scenario.vehicle, {toss.object}});
+  world.reset(scenario.mission.start_m, 0, Eigen::Vector3d::Zero());
   const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
   const double heading_rad = std::atan2(x_W.y(), x_W.x());
-  plan.launches.push_back({toss, solve_throw(toss, world.object(0), vehicle.p_W, heading_rad)});
+  const BodyState launch = solve_throw(toss, world.object(0), vehicle.p_W, heading_rad);
+  check_launch_in_sight(world, vehicle.p_W, launch.p_W, throw_index);
+  plan.launches.push_back({toss, launch});
   plan.end_us = round_to_tick(toss.arrival_us() + microseconds(scenario.after_s));
   return plan;
 }
