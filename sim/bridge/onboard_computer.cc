@@ -16,17 +16,18 @@ OnboardComputer::OnboardComputer(const DelaySpec& delays, std::unique_ptr<dodge:
       cycle_us_(ceil_to_tick(std::max(delays.cycle_us, delays.compute_us))),
       event_delay_us_(delays.pixel_us + delays.transport_us),
       next_cycle_us_(cycle_us_),
-      packets_(event_delay_us_),
       imu_(delays.imu_us),
       states_(delays.state_estimate_us),
       ranges_(delays.range_us),
       commands_(delays.compute_us) {}
 
 void OnboardComputer::send_events(int camera, TimeUs packet_end_us, std::span<const Event> packet) {
-  Packet out{camera, {}};
-  out.events.reserve(packet.size());
-  for (const Event& e : packet) out.events.push_back({e.t_us, e.x, e.y, e.polarity});
-  packets_.push(packet_end_us, std::move(out));
+  Packet out;
+  out.reserve(packet.size());
+  for (const Event& e : packet) out.push_back({e.t_us, e.x, e.y, e.polarity});
+  const auto line = static_cast<std::size_t>(camera);
+  while (packets_.size() <= line) packets_.emplace_back(event_delay_us_);
+  packets_[line].push(packet_end_us, std::move(out));
 }
 
 void OnboardComputer::send_imu(const ImuReading& reading) {
@@ -47,8 +48,10 @@ bool OnboardComputer::run_cycle(TimeUs now_us) {
   imu_.deliver(now_us, [&](const dodge::ImuSample& sample) { pilot_->add_imu(sample); });
   states_.deliver(now_us, [&](const dodge::StateEstimate& state) { pilot_->add_state(state); });
   ranges_.deliver(now_us, [&](const dodge::RangeReading& reading) { pilot_->add_range(reading); });
-  packets_.deliver(now_us,
-                   [&](const Packet& packet) { pilot_->add_events(packet.camera, packet.events); });
+  for (int camera = 0; camera < static_cast<int>(packets_.size()); ++camera) {
+    packets_[static_cast<std::size_t>(camera)].deliver(
+        now_us, [&](const Packet& packet) { pilot_->add_events(camera, packet); });
+  }
   commands_.push(now_us, pilot_->update(now_us));
   return true;
 }

@@ -35,24 +35,23 @@ class OnboardComputer {
   // The newest command whose computation has ended by now_us, once.
   std::optional<dodge::VelocityCommand> take_command(TimeUs now_us);
 
-  // Start of the next cycle, and the end of the newest event packet that it will have received.
+  // Start of the next cycle, the end of the newest event packet that a cycle will have received,
+  // and the time from one cycle to the next.
   TimeUs next_cycle_us() const { return next_cycle_us_; }
   TimeUs newest_packet_end_us(TimeUs cycle_us) const { return cycle_us - event_delay_us_; }
+  TimeUs period_us() const { return cycle_us_; }
 
   const dodge::Pilot& pilot() const { return *pilot_; }
   dodge::Pilot& pilot() { return *pilot_; }
 
  private:
-  struct Packet {
-    int camera;
-    std::vector<dodge::Event> events;
-  };
+  using Packet = std::vector<dodge::Event>;
 
   std::unique_ptr<dodge::Pilot> pilot_;
   TimeUs cycle_us_;
   TimeUs event_delay_us_;
   TimeUs next_cycle_us_;
-  DelayLine<Packet> packets_;
+  std::vector<DelayLine<Packet>> packets_;  // by camera
   DelayLine<dodge::ImuSample> imu_;
   DelayLine<dodge::StateEstimate> states_;
   DelayLine<dodge::RangeReading> ranges_;
