@@ -8,10 +8,10 @@ namespace dodge {
 
 // u = fx X/Z + cx, v = fy Y/Z + cy for a point (X,Y,Z) in C (x right, y down, z forward).
 struct CameraModel {
-  int width = 320;   // [px]
-  int height = 240;  // [px]
-  double fx = 190.7, fy = 190.7;  // focal lengths [px]
-  double cx = 159.5, cy = 119.5;  // principal point [px]
+  int width = 320;                                // [px]
+  int height = 240;                               // [px]
+  double fx = 190.7, fy = 190.7;                  // focal lengths [px]
+  double cx = 159.5, cy = 119.5;                  // principal point [px]
   double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  // radtan distortion (OpenCV's model); 0: none
   Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();  // pose of C in B
 

@@ -91,17 +91,6 @@ void check_rectified(const CameraModel& top, const CameraModel& bottom) {
 
 }  // namespace
 
-Config long_range() {
-  Config config;
-  config.window.window_us = 20000;
-  config.cluster.min_group_pixels = 6;
-  config.position.max_range_m = 3;
-  config.position.stereo.disparity = "correlation";
-  config.position.stereo.max_cost = 5;
-  config.position.stereo.disparity_sigma_px = 0.25;
-  return config;
-}
-
 void validate(const Config& config) {
   Config copy = config;  // visit() is not const
   RangeChecker checker;

@@ -52,12 +52,6 @@ struct Config {
   }
 };
 
-// A variant that sees farther: a window of 20 ms, depth from the correlation of the two rho images,
-// and detections up to 3 m. A ball of 4 to 8 m/s moves 2 to 5 px in 20 ms, enough for its front to
-// stand out at 3 m, and the correlated disparity is good to 0.1 to 0.2 px where that of the centres
-// errs by 1 to 5 px. The price is latency and twice the events.
-Config long_range();
-
 // Throws std::invalid_argument, with a sentence that names the parameter, if a value is out of its
 // range, parameters contradict each other, or the cameras do not fit the way depth is measured.
 void validate(const Config& config);

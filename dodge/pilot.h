@@ -1,5 +1,5 @@
-// What any pilot offers to whatever carries it: the simulator's bridge, a recording player, a vehicle.
-// The paper's pilot is dodge::Dodger; a user's own dodger derives from this class too.
+// What any pilot offers to whatever carries it: the simulator's bridge, a recording player, a
+// vehicle. The paper's pilot is dodge::Dodger; a user's own dodger derives from this class too.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
 // What the flight core is handed and what it returns. Frames: W world (z up), B body (x forward,
-// y left, z up, origin at the centre of mass), C camera (x right, y down, z forward). Pixel (0,0) is
-// the centre of the top-left pixel. Time is integer microseconds on one clock.
+// y left, z up, origin at the centre of mass), C camera (x right, y down, z forward). Pixel (0,0)
+// is the centre of the top-left pixel. Time is integer microseconds on one clock.
 #pragma once
 
 #include <Eigen/Dense>
@@ -26,8 +26,8 @@ struct ImuSample {
 };
 
 struct StateEstimate {
-  TimeUs t_us = 0;                                   // the instant the estimate speaks of
-  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();    // [m]
+  TimeUs t_us = 0;                                 // the instant the estimate speaks of
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  // [m]
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();    // [m/s]
   Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  // [rad/s]
@@ -45,27 +45,27 @@ struct Goal {
 };
 
 struct VelocityCommand {
-  TimeUs t_us = 0;  // the instant of the data it was computed from
+  TimeUs t_us = 0;                                // the instant of the data it was computed from
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // desired velocity [m/s]
-  bool evading = false;  // an obstacle's repulsive force is part of v_W
+  bool evading = false;                           // an obstacle's repulsive force is part of v_W
 };
 
 // One obstacle measured in one update.
 struct Detection {
-  TimeUs t_us = 0;                      // the instant the position speaks of
-  int camera = 0;                       // the reference camera
-  std::array<Eigen::Vector3d, 6> p_W;   // four corners, near and far centre (eq. 12) [m]
+  TimeUs t_us = 0;                     // the instant the position speaks of
+  int camera = 0;                      // the reference camera
+  std::array<Eigen::Vector3d, 6> p_W;  // four corners, near and far centre (eq. 12) [m]
   Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();  // [m]
-  double depth_m = 0;                   // along the camera's optical axis
-  double depth_sigma_m = 0;             // its standard deviation
-  double size_m = 0;                    // longer side of the rotated rectangle at that depth (eq. 9)
-  int obstacle_id = -1;                 // the track it was associated with
+  double depth_m = 0;                                  // along the camera's optical axis
+  double depth_sigma_m = 0;                            // its standard deviation
+  double size_m = 0;     // longer side of the rotated rectangle at that depth (eq. 9)
+  int obstacle_id = -1;  // the track it was associated with
 };
 
 // One tracked obstacle.
 struct Obstacle {
   int id = 0;
-  TimeUs t_us = 0;            // the instant p_WO and v_WO speak of
+  TimeUs t_us = 0;  // the instant p_WO and v_WO speak of
   TimeUs last_detection_us = 0;
   int detections = 0;
   Eigen::Vector3d p_WO = Eigen::Vector3d::Zero();  // [m]

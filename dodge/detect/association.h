@@ -13,7 +13,7 @@ struct AssociationConfig {
   double first_radius_m = 0.40;
   double radius_m = 0.35;
   double widen_sigmas = 0.0;
-  int min_detections = 3;
+  int min_detections = 2;
   double max_velocity_sigma_mps = 1000.0;
   int tentative_timeout_us = 100000;
 
@@ -29,8 +29,7 @@ struct AssociationConfig {
       "detection. 0 is the paper's fixed sphere.");
     v("min_detections", min_detections, 1, 1000,
       "Detections before an obstacle is confirmed, that is, may cause an escape. One is never "
-      "enough: "
-      "it has no velocity.");
+      "enough: it has no velocity.");
     v("max_velocity_sigma_mps", max_velocity_sigma_mps, 1e-3, 1000.0,
       "An obstacle is confirmed only when the standard deviation of its velocity (root mean square "
       "over the axes) has fallen below this. 1000: no such condition, as in the paper.");

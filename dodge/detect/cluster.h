@@ -22,7 +22,7 @@ struct ClusterConfig {
   double weight_velocity = 0.1;
   double weight_rho = 15;
   int min_pixels = 6;
-  int min_events = 8;
+  int min_events = 30;
   double max_aspect = 4;
 
   template <class Visitor>
@@ -44,7 +44,10 @@ struct ClusterConfig {
       "Weight w_v of the velocity difference [1/(px per event window)] in eq. (6).");
     v("weight_rho", weight_rho, 0, 1000, "Weight w_rho of the difference in mean rho in eq. (6).");
     v("min_pixels", min_pixels, 1, 100000, "A cluster with fewer pixels with events is noise.");
-    v("min_events", min_events, 1, 100000, "A cluster with fewer events is noise.");
+    v("min_events", min_events, 1, 100000,
+      "A cluster with fewer events is noise. A ball of 10 cm at 1.5 m makes some 200 in a window, "
+      "a "
+      "patch of background noise a dozen.");
     v("max_aspect", max_aspect, 1, 1000,
       "Clusters whose rectangle is longer than this times its width are edges of the background, "
       "not obstacles.");

@@ -21,6 +21,15 @@ class DepthTest : public ::testing::Test {
     return cluster;
   }
 
+  // Disparity of the centres: most tests have clusters but no images.
+  static DepthConfig centres() {
+    DepthConfig config;
+    config.stereo.disparity = "centres";
+    config.stereo.max_cost = 2;
+    config.max_range_m = 1.5;
+    return config;
+  }
+
   // The square an object of this size would fill in a camera.
   Cluster seen_by(std::size_t camera, const Eigen::Vector3d& p_B, double size_m) const {
     const Eigen::Vector3d p_C = cameras_[camera].X_BC.inverse() * p_B;
@@ -47,7 +56,7 @@ TEST_F(DepthTest, stereo_recovers_position_and_size) {
   state_.p_WB = {1, 2, 3};
   state_.q_WB = Eigen::AngleAxisd(0.5, Eigen::Vector3d(0.2, 0.3, 1).normalized());
   const Eigen::Vector3d p_B(1.3, 0.2, -0.1);
-  const auto detections = locate({}, {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
+  const auto detections = locate(centres(), {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
   ASSERT_EQ(detections.size(), 1U);
   const Detection& d = detections[0];
   EXPECT_EQ(d.t_us, 77);
@@ -63,7 +72,7 @@ TEST_F(DepthTest, speaks_of_the_time_of_the_events_and_the_place_of_the_vehicle_
   const Eigen::Vector3d p_B(1.3, 0.2, -0.1);
   Cluster top = seen_by(0, p_B, 0.2);
   top.time = 0.7;
-  const auto detections = locate({}, {top}, {seen_by(1, p_B, 0.2)});
+  const auto detections = locate(centres(), {top}, {seen_by(1, p_B, 0.2)});
   ASSERT_EQ(detections.size(), 1U);
   EXPECT_EQ(detections[0].t_us, 497000);
   EXPECT_LT((detections[0].centre_W - (p_B - Eigen::Vector3d(0.012, 0, 0))).norm(), 1e-4);
@@ -84,7 +93,7 @@ TEST_F(DepthTest, mono_recovers_position_from_the_known_size) {
 TEST_F(DepthTest, six_points_are_the_corners_and_the_centre_moved_by_the_size) {
   // Straight ahead of the top camera, whose axes are then those of the body.
   const Eigen::Vector3d p_B(1.1, 0, 0.075);
-  auto detections = locate({}, {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
+  auto detections = locate(centres(), {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
   ASSERT_EQ(detections.size(), 1U);
   double left = 0, up = 0;
   for (int i = 0; i < 4; ++i) {
@@ -100,7 +109,7 @@ TEST_F(DepthTest, six_points_are_the_corners_and_the_centre_moved_by_the_size) {
   EXPECT_LT((detections[0].p_W[4] - Eigen::Vector3d(0.9, 0, 0.075)).norm(), 1e-4);
   EXPECT_LT((detections[0].p_W[5] - Eigen::Vector3d(1.3, 0, 0.075)).norm(), 1e-4);
 
-  DepthConfig wide;
+  DepthConfig wide = centres();
   wide.depth_margin = "size_plus_sigma";
   detections = locate(wide, {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
   EXPECT_NEAR(detections[0].p_W[5].x(), 1.3 + detections[0].depth_sigma_m, 1e-4);
@@ -113,7 +122,7 @@ TEST_F(DepthTest, whole_pixels_give_depth_within_the_quantisation_of_the_dispari
     Cluster top = seen_by(0, p_B, 0.2), bottom = seen_by(1, p_B, 0.2);
     top.rectangle.center.y = std::round(top.rectangle.center.y);
     bottom.rectangle.center.y = std::round(bottom.rectangle.center.y);
-    const auto detections = locate({}, {top}, {bottom});
+    const auto detections = locate(centres(), {top}, {bottom});
     ASSERT_EQ(detections.size(), 1U);
     const double disparity = focal_baseline / depth_m;
     EXPECT_LT(std::abs(detections[0].depth_m - depth_m),
@@ -123,9 +132,9 @@ TEST_F(DepthTest, whole_pixels_give_depth_within_the_quantisation_of_the_dispari
 
 TEST_F(DepthTest, depth_uncertainty_is_that_of_one_disparity_sigma) {
   const Eigen::Vector3d p_B(1.6 - 1e-9, 0, 0);
-  const auto detections = locate({}, {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
+  const auto detections = locate(centres(), {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
   ASSERT_EQ(detections.size(), 1U);
-  const double sigma_px = StereoConfig{}.disparity_sigma_px;
+  const double sigma_px = centres().stereo.disparity_sigma_px;
   // facts of the rig: 1.5 m is 19 px of disparity, 7.9 cm per px there
   EXPECT_NEAR(detections[0].depth_sigma_m, 0.0787 * sigma_px, 0.0005 * sigma_px);
 }
@@ -139,15 +148,15 @@ TEST_F(DepthTest, mono_uncertainty_grows_with_the_square_of_the_depth) {
 }
 
 TEST_F(DepthTest, disparity_must_be_positive) {
-  EXPECT_EQ(locate({}, {square(160, 100, 20)}, {square(160, 130, 20)}).size(), 0U);
-  EXPECT_EQ(locate({}, {square(160, 100, 20)}, {square(160, 100, 20)}).size(), 0U);
-  EXPECT_EQ(locate({}, {square(160, 130, 20)}, {square(160, 100, 20)}).size(), 1U);
+  EXPECT_EQ(locate(centres(), {square(160, 100, 20)}, {square(160, 130, 20)}).size(), 0U);
+  EXPECT_EQ(locate(centres(), {square(160, 100, 20)}, {square(160, 100, 20)}).size(), 0U);
+  EXPECT_EQ(locate(centres(), {square(160, 130, 20)}, {square(160, 100, 20)}).size(), 1U);
 }
 
 TEST_F(DepthTest, a_pair_of_negative_disparity_does_not_take_the_place_of_the_right_one) {
   // The first top cluster equals the bottom one, but lies above it.
   const auto detections =
-      locate({}, {square(160, 90, 20), square(161, 130, 21)}, {square(160, 100, 20)});
+      locate(centres(), {square(160, 90, 20), square(161, 130, 21)}, {square(160, 100, 20)});
   ASSERT_EQ(detections.size(), 1U);
   EXPECT_NEAR(detections[0].depth_m, 190.7 * 0.15 / 30, 1e-4);
 }
@@ -171,7 +180,7 @@ TEST_F(DepthTest, matches_two_objects_crosswise_and_each_once) {
   const std::vector<Cluster> top = {seen_by(0, p1, 0.1), seen_by(0, p2, 0.3)};
   const std::vector<Cluster> bottom = {seen_by(1, p2, 0.3), seen_by(1, p1, 0.1),
                                        seen_by(1, p2 + Eigen::Vector3d(0, 0.05, 0), 0.3)};
-  const auto detections = locate({}, top, bottom);
+  const auto detections = locate(centres(), top, bottom);
   ASSERT_EQ(detections.size(), 2U);
   for (const Detection& d : detections) {
     EXPECT_LT(std::min((d.centre_W - p1).norm(), (d.centre_W - p2).norm()), 1e-3);
@@ -180,8 +189,8 @@ TEST_F(DepthTest, matches_two_objects_crosswise_and_each_once) {
 }
 
 TEST_F(DepthTest, unlike_clusters_do_not_match) {
-  EXPECT_EQ(locate({}, {square(100, 130, 20)}, {square(160, 100, 20)}).size(), 0U);
-  EXPECT_EQ(locate({}, {square(160, 130, 40)}, {square(160, 100, 10)}).size(), 0U);
+  EXPECT_EQ(locate(centres(), {square(100, 130, 20)}, {square(160, 100, 20)}).size(), 0U);
+  EXPECT_EQ(locate(centres(), {square(160, 130, 40)}, {square(160, 100, 10)}).size(), 0U);
 }
 
 TEST_F(DepthTest, correlation_measures_depth_though_each_camera_sees_another_part) {
@@ -201,7 +210,7 @@ TEST_F(DepthTest, correlation_measures_depth_though_each_camera_sees_another_par
   Cluster bottom = square(160, 105, 21);
   bottom.pixels = 60;
 
-  DepthConfig config;
+  DepthConfig config = centres();
   config.stereo.max_cost = 5;
   const double truth_m = 190.7 * 0.15 / 25;
   auto detections = locate(config, {top}, {bottom});
@@ -222,7 +231,7 @@ TEST_F(DepthTest, correlation_measures_depth_though_each_camera_sees_another_par
 TEST_F(DepthTest, drops_what_is_too_far_too_near_too_large_or_too_small) {
   const auto count = [&](double x_m, double size_m) {
     const Eigen::Vector3d p_B(x_m + 0.1, 0, 0);
-    return locate({}, {seen_by(0, p_B, size_m)}, {seen_by(1, p_B, size_m)}).size();
+    return locate(centres(), {seen_by(0, p_B, size_m)}, {seen_by(1, p_B, size_m)}).size();
   };
   EXPECT_EQ(count(1.49, 0.2), 1U);
   EXPECT_EQ(count(1.51, 0.2), 0U);
