@@ -1,0 +1,299 @@
+// Whole flights of the pilots that need no eyes: physics, delays, controller, throws, referee.
+#include "sim/loop.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "sim/base/error.h"
+#include "tests/closed_loop/flights.h"
+
+namespace dodgesim {
+namespace {
+
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+constexpr const char* kHover = "mission: {start_m: [-1, 0, 2], heading_deg: 30}\n";
+constexpr const char* kGoalFlight =
+    "mission: {type: goal, start_m: [-5, 0, 2], goal_m: [4, 1, 2], speed_mps: 1.5}\n";
+
+// Throws from everywhere that the room allows, at the vehicle's centre moved by the offset.
+Scenario thrown_at(const std::string& mission, const std::string& offset_m) {
+  return scenario(mission +
+                  "throw: {distance_m: !uniform [1.5, 3], speed_mps: !uniform [3, 8],\n"
+                  "  bearing_deg: !uniform [-60, 60], size_m: !choice [0.1, 0.2],\n"
+                  "  spin_radps: 20, launch_height_m: !uniform [1, 2.5],\n"
+                  "  launch_s: !uniform [0.2, 1.5], aim_offset_m: " +
+                  offset_m + "}\nafter_s: 0.1\n");
+}
+
+FlightRecord fly_as(const std::string& pilot, const Scenario& scenario, FlightPlan plan,
+                    FlightObserver* observer = nullptr) {
+  plan.pilot = pilot;
+  return fly(scenario, plan, observer);
+}
+
+class Throws : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Missions, Throws, testing::Values(kHover, kGoalFlight),
+                         [](const auto& info) { return info.index == 0 ? "Hover" : "GoalFlight"; });
+
+TEST_P(Throws, HitAVehicleThatDoesNotDodgeWhenTheyAreAimedAtIt) {
+  const Scenario s = thrown_at(GetParam(), "0");
+  for (int k = 0; k < 4; ++k) {
+    const FlightPlan plan = plan_throw(s, k);
+    const Throw& toss = plan.launches.at(0).toss;
+    const FlightRecord record = fly_as("none", s, plan);
+    ASSERT_TRUE(record.verdict.nearest.hit) << "throw " << k;
+    // The surfaces meet before the centres do, by the radii of both (the arms reach 0.35 m).
+    const TimeUs early_us = toss.arrival_us() - record.verdict.nearest.hit_us;
+    const double reach_m = 0.5 * toss.object.size_m + 0.35;
+    EXPECT_GT(early_us, 0) << "throw " << k;
+    EXPECT_LT(seconds(early_us), reach_m / (toss.speed_mps - 1.5)) << "throw " << k;
+    EXPECT_EQ(record.last.t_us, record.verdict.nearest.hit_us);  // the flight ends there
+  }
+}
+
+TEST_P(Throws, PassTheVehicleAtTheAimOffsetAtThePlannedInstant) {
+  const Scenario s = thrown_at(GetParam(), "[1, 0.5]");
+  for (int k = 0; k < 4; ++k) {
+    const FlightPlan plan = plan_throw(s, k);
+    Diary diary;
+    const FlightRecord record = fly_as("none", s, plan, &diary);
+    EXPECT_FALSE(record.verdict.nearest.hit) << "throw " << k;
+    EXPECT_GT(record.verdict.nearest.clearance_m, 0.3) << "throw " << k;
+    const auto& [toss, launch] = plan.launches.at(0);
+    const Snapshot arrival = diary.at(toss.arrival_us());
+    // Left and up across the line of flight, for a viewer who looks at the launch point.
+    const Vector3d vehicle_W = arrival.vehicle.p_W;
+    const Vector3d aim_W = arrival.objects[0].p_W;
+    Vector3d line_W = launch.p_W - aim_W;
+    line_W.z() = 0;
+    EXPECT_NEAR(line_W.norm(), toss.distance_m, 2e-3) << "throw " << k;
+    const Vector3d left_W = Vector3d::UnitZ().cross(line_W.normalized());
+    EXPECT_LT((aim_W - vehicle_W - left_W - Vector3d(0, 0, 0.5)).norm(), 2e-3) << "throw " << k;
+  }
+}
+
+TEST_P(Throws, AreLaunchedOnTheirTickInTheirState) {
+  const Scenario s = thrown_at(GetParam(), "0");
+  const FlightPlan plan = plan_throw(s, 1);
+  const auto& [toss, launch] = plan.launches.at(0);
+  ASSERT_EQ(toss.launch_us % kTickUs, 0);
+  Diary diary;
+  fly_as("none", s, plan, &diary);
+  const Snapshot before = diary.snapshots().at(static_cast<std::size_t>(toss.launch_us / 250 - 1));
+  const Snapshot after = diary.snapshots().at(static_cast<std::size_t>(toss.launch_us / 250));
+  EXPECT_EQ(before.t_us, toss.launch_us);
+  EXPECT_FALSE(before.launched[0]);
+  EXPECT_TRUE(after.launched[0]);
+  EXPECT_LT((after.objects[0].p_W - launch.p_W - seconds(kTickUs) * launch.v_W).norm(), 1e-5);
+}
+
+TEST(Loop, TheOracleDodgesMediumThrows) {
+  const Scenario s = scenario(std::string(kHover) +
+                              "throw: {distance_m: 3.5, speed_mps: !uniform [5, 6], size_m: 0.2,\n"
+                              "  bearing_deg: !uniform [-20, 20], launch_s: 0.2}\nafter_s: 0.2\n");
+  for (int k = 0; k < 5; ++k) {
+    const FlightPlan plan = plan_throw(s, k);
+    const FlightRecord none = fly_as("none", s, plan);
+    EXPECT_TRUE(none.verdict.nearest.hit) << "throw " << k;
+    EXPECT_FALSE(none.first_command_us);
+    const FlightRecord oracle = fly_as("oracle", s, plan);
+    EXPECT_FALSE(oracle.verdict.nearest.hit) << "throw " << k;
+    EXPECT_FALSE(oracle.verdict.crashed) << "throw " << k;
+    ASSERT_TRUE(oracle.first_command_us) << "throw " << k;
+  }
+}
+
+TEST(Loop, LatencyDecidesWhetherADodgeSucceeds) {
+  const std::string text = std::string(kHover) +
+                           "throw: {distance_m: 2.5, speed_mps: 6, size_m: 0.3,\n"
+                           "  bearing_deg: !uniform [-20, 20], launch_s: 0.2}\nafter_s: 0.2\n";
+  const Scenario quick = scenario(text + "delays: {transport_us: 1000, command_us: 3000}\n");
+  const Scenario slow = scenario(text + "delays: {transport_us: 100000, command_us: 100000}\n");
+  int hits_quick = 0, hits_slow = 0;
+  for (int k = 0; k < 4; ++k) {
+    const FlightPlan plan = plan_throw(quick, k);
+    hits_quick += fly_as("oracle", quick, plan).verdict.nearest.hit;
+    hits_slow += fly_as("oracle", slow, plan_throw(slow, k)).verdict.nearest.hit;
+  }
+  EXPECT_EQ(hits_quick, 0);
+  EXPECT_EQ(hits_slow, 4);
+}
+
+// The first evasive command reaches the rotors after every link of the chain, and then at once.
+TEST(Loop, TheFirstCommandComesAfterTheSumOfTheDelays) {
+  for (const int link_us : {1000, 20000}) {
+    Scenario s = scenario(std::string(kHover) +
+                          "throw: {distance_m: 2.5, speed_mps: 6, launch_s: 0.2}\nafter_s: 0.2\n");
+    s.delays.transport_us = link_us;
+    s.delays.compute_us = 4 * link_us;
+    s.delays.command_us = 2 * link_us;
+    const FlightPlan plan = plan_throw(s, 0);
+    const FlightRecord record = fly_as("oracle", s, plan);
+    ASSERT_TRUE(record.first_command_us);
+    const TimeUs latency_us = *record.first_command_us - plan.launches[0].toss.launch_us;
+    const DelaySpec& d = s.delays;
+    const TimeUs chain_us =
+        d.pixel_us + d.transport_us + d.compute_us + d.command_us + d.flight_controller_us;
+    EXPECT_GE(latency_us, chain_us);
+    // The truth is looked at every 1 ms, the controller acts at state estimates, every 4 ms.
+    const TimeUs period_us = std::max(d.cycle_us, d.compute_us);
+    EXPECT_LE(latency_us, chain_us + period_us + 1000 + 4000 + kTickUs);
+  }
+}
+
+void expect_equal(const FlightRecord& a, const FlightRecord& b) {
+  EXPECT_EQ(a.last.t_us, b.last.t_us);
+  EXPECT_EQ(a.last.vehicle.p_W, b.last.vehicle.p_W);
+  EXPECT_EQ(a.last.vehicle.q_W.coeffs(), b.last.vehicle.q_W.coeffs());
+  EXPECT_EQ(a.last.vehicle.v_W, b.last.vehicle.v_W);
+  EXPECT_EQ(a.last.vehicle.w_W, b.last.vehicle.w_W);
+  EXPECT_EQ(a.last.objects[0].p_W, b.last.objects[0].p_W);
+  EXPECT_EQ(a.verdict.nearest.clearance_m, b.verdict.nearest.clearance_m);
+  EXPECT_EQ(a.verdict.nearest.closest_us, b.verdict.nearest.closest_us);
+  EXPECT_EQ(a.first_command_us, b.first_command_us);
+}
+
+TEST(Loop, AFlightIsTheSameBitForBitWhateverWasFlownBefore) {
+  const Scenario s = thrown_at(kHover, "!uniform [-0.2, 0.2]");
+  const FlightRecord first = fly_as("oracle", s, plan_throw(s, 2));
+  const FlightRecord again = fly_as("oracle", s, plan_throw(s, 2));
+  expect_equal(first, again);
+  for (const int k : {5, 0}) fly_as("none", s, plan_throw(s, k));
+  expect_equal(first, fly_as("oracle", s, plan_throw(s, 2)));
+}
+
+TEST(Loop, ThrowsAndSeedsDiffer) {
+  Scenario s = scenario(std::string(kHover) + "duration_s: 0.5\n");
+  const auto end = [&](int k) { return fly_as("none", s, plan_throw(s, k)).last.vehicle.p_W; };
+  const Vector3d first = end(0);
+  EXPECT_NE(first, end(1));
+  s.seed = 2;
+  EXPECT_NE(first, end(0));
+}
+
+TEST(Loop, AnObserverChangesNothing) {
+  const Scenario s = thrown_at(kHover, "0.1");
+  Diary diary;
+  const FlightPlan plan = plan_throw(s, 3);
+  expect_equal(fly_as("oracle", s, plan, &diary), fly_as("oracle", s, plan));
+}
+
+TEST(Loop, TheVehicleHoldsItsHoverDespiteNoise) {
+  for (const int seed : {1, 2, 3}) {
+    Scenario s = scenario(std::string(kHover) + "duration_s: 5\npilot: none\n");
+    s.seed = static_cast<std::uint64_t>(seed);
+    Diary diary;
+    const FlightPlan plan = plan_throw(s, 0);
+    EXPECT_TRUE(plan.launches.empty());
+    const FlightRecord record = fly(s, plan, &diary);
+    EXPECT_EQ(record.last.t_us, 5000000);
+    double farthest_m = 0, fastest_mps = 0;
+    for (const Snapshot& now : diary.snapshots()) {
+      farthest_m = std::max(farthest_m, (now.vehicle.p_W - s.mission.start_m).norm());
+      fastest_mps = std::max(fastest_mps, now.vehicle.v_W.norm());
+    }
+    EXPECT_LT(farthest_m, 0.05);
+    EXPECT_GT(fastest_mps, 1e-4);  // the noise is on
+  }
+}
+
+TEST(Loop, TheVehicleKeepsItsHeading) {
+  const Scenario s =
+      scenario("mission: {start_m: [0, 0, 2], heading_deg: 120}\nduration_s: 2\npilot: none\n");
+  const FlightRecord record = fly(s, plan_throw(s, 0));
+  const Vector3d x_W = record.last.vehicle.q_W * Vector3d::UnitX();
+  EXPECT_NEAR(std::atan2(x_W.y(), x_W.x()) * 180 / M_PI, 120, 3);
+}
+
+TEST(Loop, GoalFlightCruisesAtItsSpeedAndStopsAtTheGoal) {
+  const Scenario s = scenario(std::string(kGoalFlight) + "duration_s: 11\npilot: none\n");
+  Diary diary;
+  const FlightRecord record = fly(s, plan_throw(s, 0), &diary);
+  EXPECT_LT((record.last.vehicle.p_W - *s.mission.goal_m).norm(), 0.1);
+  EXPECT_LT(record.last.vehicle.v_W.norm(), 0.1);
+  EXPECT_FALSE(record.verdict.crashed);
+  const Vector3d course_W = (*s.mission.goal_m - s.mission.start_m).normalized();
+  for (double t_s = 2; t_s <= 5; t_s += 0.1) {
+    const Vector3d v_W = diary.at(static_cast<TimeUs>(1e6 * t_s)).vehicle.v_W;
+    EXPECT_NEAR(v_W.dot(course_W), 1.5, 0.1) << "at " << t_s << " s";
+    EXPECT_LT((v_W - v_W.dot(course_W) * course_W).norm(), 0.1) << "at " << t_s << " s";
+  }
+}
+
+TEST(Loop, ALaunchFromBehindAWallIsAMistakeOfTheScenario) {
+  const Scenario s =
+      scenario("mission: {start_m: [3, 0, 2]}\nthrow: {distance_m: 4, launch_s: 0.2}\n");
+  try {
+    plan_throw(s, 7);
+    FAIL() << "no error";
+  } catch (const ScenarioError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("Throw 7 "));
+    EXPECT_THAT(error.what(), HasSubstr("wall_front"));
+    EXPECT_THAT(error.what(), HasSubstr("throw.distance_m"));
+  }
+  EXPECT_THROW(fly_throw(s, 7), ScenarioError);
+}
+
+TEST(Loop, AnErrorInsideTheSimulationCostsThatFlightOnly) {
+  Scenario s = thrown_at(kHover, "0");
+  s.pilot = "oracle";
+  s.fly_oracle = false;
+  // The pilot's first evasive command is not a number.
+  s.dodger.repulsive.k_r0 = std::numeric_limits<double>::infinity();
+  const ThrowResult result = fly_throw(s, 0);
+  EXPECT_EQ(result.flown.status, "error");
+  EXPECT_THAT(result.flown.error, HasSubstr("diverged"));
+  EXPECT_EQ(result.none.status, "ok");
+  EXPECT_TRUE(result.none.hit);
+}
+
+TEST(Loop, DivergedPhysicsEndTheFlightWithTheReason) {
+  const Scenario s = thrown_at(kHover, "0");
+  FlightPlan plan = plan_throw(s, 0);
+  plan.launches[0].state.v_W.x() = 1e12;
+  EXPECT_THROW(fly_as("none", s, plan), SimulationError);
+}
+
+TEST(Loop, AResultSaysWhatWasThrownAndHowItEnded) {
+  Scenario s = thrown_at(kHover, "[0.1, -0.05]");
+  s.pilot = "oracle";
+  const ThrowResult result = fly_throw(s, 4);
+  const FlightPlan plan = plan_throw(s, 4);
+  const Throw& toss = plan.launches[0].toss;
+  EXPECT_EQ(result.index, 4);
+  EXPECT_EQ(result.object, "ball");
+  EXPECT_EQ(result.size_m, toss.object.size_m);
+  EXPECT_EQ(result.speed_mps, toss.speed_mps);
+  EXPECT_EQ(result.distance_m, toss.distance_m);
+  EXPECT_EQ(result.bearing_deg, toss.bearing_deg);
+  EXPECT_THAT(result.aim_offset_m, testing::ElementsAre(0.1, -0.05));
+  EXPECT_EQ(result.launch_us, toss.launch_us);
+  EXPECT_TRUE(result.none.hit);
+  EXPECT_EQ(result.none.clearance_m, 0);
+  EXPECT_EQ(result.none.closest_us, result.none.hit_us);
+  EXPECT_EQ(result.flown.clearance_m, result.oracle.clearance_m);  // the same pilot
+  EXPECT_TRUE(result.evaded);
+  EXPECT_GT(*result.first_command_us, result.launch_us);
+  s.fly_oracle = false;
+  EXPECT_EQ(fly_throw(s, 4).oracle.status, "not flown");
+}
+
+TEST(Loop, WithoutAThrowOnlyTheScenariosPilotFlies) {
+  const Scenario s = scenario(std::string(kHover) + "duration_s: 0.3\npilot: oracle\n");
+  const ThrowResult result = fly_throw(s, 0);
+  EXPECT_FALSE(result.thrown());
+  EXPECT_EQ(result.flown.status, "ok");
+  EXPECT_FALSE(result.flown.clearance_m);
+  EXPECT_EQ(result.none.status, "not flown");
+  EXPECT_EQ(result.oracle.status, "not flown");
+  EXPECT_EQ(result.duration_us, 300000);
+  EXPECT_FALSE(result.evaded);
+}
+
+}  // namespace
+}  // namespace dodgesim
