@@ -8,6 +8,7 @@
 #include "sim/campaign/csv.h"
 #include "sim/film.h"
 #include "sim/loop.h"
+#include "sim/poster.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -18,8 +19,9 @@ struct Arguments {
   std::string directory;
   std::string models_dir;
   int throw_index = 0;
-  std::string video;   // empty: none
-  std::string stages;  // empty: none
+  std::string video;    // empty: none
+  std::string stages;   // empty: none
+  std::string picture;  // empty: none
 };
 
 // Hands everything on to several observers.
@@ -82,7 +84,10 @@ int replay(const Arguments& arguments) {
     stages = std::make_unique<StageFilm>(arguments.stages);
     observers.add(stages.get());
   }
+  Poster poster(intrinsics(scenario.sensors.camera));
+  if (!arguments.picture.empty()) observers.add(&poster);
   const ThrowResult result = fly_throw(scenario, arguments.throw_index, &observers);
+  if (!arguments.picture.empty()) poster.save(arguments.picture);
   if (film) {
     film->close();
     std::cout << "Video: " << arguments.video << "\n";

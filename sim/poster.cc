@@ -1,0 +1,93 @@
+#include "sim/poster.h"
+
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "dodge/dodger.h"
+#include "sim/base/error.h"
+#include "sim/film.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr int kSceneWidth = 1280, kSceneHeight = 600;
+constexpr TimeUs kDotEveryUs = 10000;
+
+const Eigen::Vector4f kVehicleColour(0.1F, 0.6F, 1.0F, 1.0F);
+const Eigen::Vector4f kObjectColour(1.0F, 0.35F, 0.1F, 1.0F);
+
+// What the top camera has in view, as a grey picture [BGR] of log luminance.
+cv::Mat3b log_picture(const World& world, const Intrinsics& intrinsics) {
+  LuminanceRenderer renderer(world, intrinsics, RenderSpec{});
+  cv::Mat1f luminance(intrinsics.height, intrinsics.width);
+  const Snapshot& now = world.snapshot();
+  renderer.render(now, now.vehicle.pose() * world.vehicle().X_BC.front(),
+                  {0, 0, intrinsics.width, intrinsics.height}, luminance.ptr<float>(), nullptr);
+  cv::log(luminance + 1e-3F, luminance);
+  cv::Mat1b grey;
+  cv::normalize(luminance, grey, 0, 255, cv::NORM_MINMAX, CV_8U);
+  cv::Mat3b picture;
+  cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
+  return picture;
+}
+
+}  // namespace
+
+void Poster::on_start(dodge::Pilot& pilot) {
+  if (auto* dodger = dynamic_cast<dodge::Dodger*>(&pilot)) dodger->set_capture(true);
+}
+
+void Poster::on_tick(const World& world) {
+  world_ = &world;
+  const Snapshot& now = world.snapshot();
+  if (now.objects.empty() || !now.launched.front()) return;
+  if (now.t_us % kDotEveryUs == 0) {
+    trail_.push_back({now.vehicle.p_W, 0.015, kVehicleColour});
+    trail_.push_back({now.objects.front().p_W, 0.015, kObjectColour});
+  }
+  const double distance_m = (now.objects.front().p_W - now.vehicle.p_W).norm();
+  if (distance_m >= nearest_m_) return;
+  nearest_m_ = distance_m;
+  if (now.t_us % kDotEveryUs == 0) draw_scene(world);
+}
+
+void Poster::draw_scene(const World& world) {
+  if (!scenes_) scenes_ = std::make_unique<ScenePictures>(world, kSceneWidth, kSceneHeight);
+  const Snapshot& now = world.snapshot();
+  const Eigen::Vector3d forward_W = now.vehicle.q_W * Eigen::Vector3d::UnitX();
+  PictureView view;
+  view.look_at_W = trail_.front().p_W + 1.1 * Eigen::Vector3d(forward_W.x(), forward_W.y(), 0);
+  view.distance_m = 3.6;
+  view.azimuth_deg = std::atan2(forward_W.y(), forward_W.x()) * 180 / std::numbers::pi + 60;
+  view.elevation_deg = -15;
+  scene_.create(kSceneHeight, kSceneWidth);
+  scenes_->draw(now, view, trail_, scene_.data);
+  cv::cvtColor(scene_, scene_, cv::COLOR_RGB2BGR);
+}
+
+void Poster::on_cycle(TimeUs /*now_us*/, const dodge::Pilot& pilot) {
+  const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);
+  if (dodger == nullptr || world_ == nullptr || !stages_.empty()) return;
+  if (pilot.detections().empty() || trail_.empty()) return;
+  stages_ = stage_panels(*dodger, 0);
+  luminance_ = log_picture(*world_, intrinsics_);
+}
+
+void Poster::save(const std::string& path) const {
+  if (scene_.empty() || stages_.empty()) {
+    throw ScenarioError("There is no picture to make: nothing was thrown, or nothing detected.");
+  }
+  const int width = intrinsics_.width;
+  cv::Mat3b strip;
+  const auto panel = [&](int i) { return stages_(cv::Rect(i * width, 0, width, stages_.rows)); };
+  cv::hconcat(std::vector<cv::Mat>{luminance_, panel(0), panel(2), panel(4)}, strip);
+  cv::resize(strip, strip, {scene_.cols, strip.rows * scene_.cols / strip.cols});
+  cv::Mat3b picture;
+  cv::vconcat(scene_, strip, picture);
+  if (!cv::imwrite(path, picture)) throw IoError("The picture " + path + " could not be written.");
+}
+
+}  // namespace dodgesim
