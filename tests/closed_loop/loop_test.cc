@@ -72,6 +72,9 @@ TEST_P(Throws, PassTheVehicleAtTheAimOffsetAtThePlannedInstant) {
     Vector3d line_W = launch.p_W - aim_W;
     line_W.z() = 0;
     EXPECT_NEAR(line_W.norm(), toss.distance_m, 2e-3) << "throw " << k;
+    const Vector3d x_W = arrival.vehicle.q_W * Vector3d::UnitX();
+    const double bearing_rad = std::atan2(line_W.y(), line_W.x()) - std::atan2(x_W.y(), x_W.x());
+    EXPECT_NEAR(bearing_rad * 180 / M_PI, toss.bearing_deg, 0.1) << "throw " << k;
     const Vector3d left_W = Vector3d::UnitZ().cross(line_W.normalized());
     EXPECT_LT((aim_W - vehicle_W - left_W - Vector3d(0, 0, 0.5)).norm(), 2e-3) << "throw " << k;
   }
@@ -132,6 +135,7 @@ TEST(Loop, TheFirstCommandComesAfterTheSumOfTheDelays) {
     s.delays.transport_us = link_us;
     s.delays.compute_us = 4 * link_us;
     s.delays.command_us = 2 * link_us;
+    s.delays.flight_controller_us = 3 * link_us;
     const FlightPlan plan = plan_throw(s, 0);
     const FlightRecord record = fly_as("oracle", s, plan);
     ASSERT_TRUE(record.first_command_us);
@@ -167,13 +171,30 @@ TEST(Loop, AFlightIsTheSameBitForBitWhateverWasFlownBefore) {
   expect_equal(first, fly_as("oracle", s, plan_throw(s, 2)));
 }
 
-TEST(Loop, ThrowsAndSeedsDiffer) {
-  Scenario s = scenario(std::string(kHover) + "duration_s: 0.5\n");
-  const auto end = [&](int k) { return fly_as("none", s, plan_throw(s, k)).last.vehicle.p_W; };
-  const Vector3d first = end(0);
-  EXPECT_NE(first, end(1));
+// The first reading of each sensor.
+class FirstReadings : public FlightObserver {
+ public:
+  void on_imu(const ImuReading& reading) override {
+    if (imu.t_us == 0) imu = reading;
+  }
+  void on_state(const StateReading& reading) override {
+    if (state.t_us == 0) state = reading;
+  }
+  ImuReading imu;
+  StateReading state;
+};
+
+TEST(Loop, EveryThrowAndEverySeedHasItsOwnNoise) {
+  Scenario s = scenario(std::string(kHover) + "duration_s: 0.1\npilot: none\n");
+  FirstReadings first, other_throw, other_seed;
+  fly(s, plan_throw(s, 0), &first);
+  fly(s, plan_throw(s, 1), &other_throw);
   s.seed = 2;
-  EXPECT_NE(first, end(0));
+  fly(s, plan_throw(s, 0), &other_seed);
+  for (const FirstReadings* other : {&other_throw, &other_seed}) {
+    EXPECT_NE(first.imu.w_B_radps, other->imu.w_B_radps);
+    EXPECT_NE(first.state.p_W, other->state.p_W);
+  }
 }
 
 TEST(Loop, AnObserverChangesNothing) {
