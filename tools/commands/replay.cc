@@ -126,6 +126,10 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->add_option("--stages", arguments->stages,
                    "Write the pilot's stages, a PNG for each of its cycles")
       ->type_name("DIR2");
+  command
+      ->add_option("--picture", arguments->picture,
+                   "Write one picture: both flight paths and what the pilot first noticed")
+      ->type_name("FILE.png");
   add_models_option(*command, arguments->models_dir);
   command->callback([arguments, &exit_code] { exit_code = replay(*arguments); });
 }
