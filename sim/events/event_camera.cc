@@ -121,11 +121,28 @@ void EventCamera::reset(TimeUs t_us, const float* luminance) {
   }
   background_.reset(t_us);
   hot_pixels_.reset(t_us);
+  patches_.clear();
+  patch_luminance_.clear();
+}
+
+void EventCamera::add_region(TimeUs t_us, const Rect& region, const float* luminance) {
+  if (t_us <= (patches_.empty() ? t_us_ : patches_.back().t_us)) {
+    throw std::invalid_argument("The samples of an event camera must follow each other in time.");
+  }
+  if (region.empty()) return;
+  if (region.x0 < 0 || region.y0 < 0 || region.x1 > width_ || region.y1 > height_) {
+    throw std::invalid_argument("A region of an event camera's picture must lie in the picture.");
+  }
+  patches_.push_back({t_us, region, patch_luminance_.size()});
+  for (std::ptrdiff_t y = region.y0; y < region.y1; ++y) {
+    const float* const row = luminance + y * width_;
+    patch_luminance_.insert(patch_luminance_.end(), row + region.x0, row + region.x1);
+  }
 }
 
 void EventCamera::update(TimeUs t_us, const float* luminance, std::vector<Event>& out) {
-  if (t_us <= t_us_ || t_us - t_us_ > kMaxIntervalUs) {
-    throw std::invalid_argument("The pictures of an event camera must follow each other in time.");
+  if (t_us <= (patches_.empty() ? t_us_ : patches_.back().t_us) || t_us - t_us_ > kMaxIntervalUs) {
+    throw std::invalid_argument("The samples of an event camera must follow each other in time.");
   }
   noise_.clear();
   background_.take_until(t_us, noise_);
@@ -146,25 +163,27 @@ void EventCamera::update(TimeUs t_us, const float* luminance, std::vector<Event>
                    static_cast<std::int8_t>((key & 1) != 0 ? 1 : -1)});
   }
   t_us_ = t_us;
+  patches_.clear();
+  patch_luminance_.clear();
 }
 
 void EventCamera::update_row(int y, TimeUs t_us, const float* luminance) {
   const std::size_t begin = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
   const float* const now = luminance + begin;
-  const float* const previous = previous_.data() + begin;
-  find_candidates(begin, now);
-  for (Candidate& candidate : candidates_) {
-    candidate.l0 = log_luminance(previous[candidate.x]);
-    candidate.l1 = log_luminance(checked(now[candidate.x]));
+  row_patches_.clear();
+  for (const Patch& patch : patches_) {
+    if (y >= patch.rect.y0 && y < patch.rect.y1) row_patches_.push_back(&patch);
   }
-  for (const Candidate& candidate : candidates_)
-    update_pixel(begin + candidate.x, y, t_us, candidate);
+  find_candidates(begin, y, now);
+  knots_.clear();
+  for (Candidate& candidate : candidates_) add_knots(begin, y, t_us, now, candidate);
+  for (const Candidate& candidate : candidates_) update_pixel(begin + candidate.x, y, candidate);
   std::copy_n(now, width_, previous_.begin() + static_cast<std::ptrdiff_t>(begin));
 }
 
 // Lists the pixels of the row that start at `begin` whose luminance left its bounds or that have a
 // background event.
-void EventCamera::find_candidates(std::size_t begin, const float* now) {
+void EventCamera::find_candidates(std::size_t begin, int y, const float* now) {
   const auto width = static_cast<std::size_t>(width_);
   const float* const low = low_.data() + begin;
   const float* const high = high_.data() + begin;
@@ -173,6 +192,7 @@ void EventCamera::find_candidates(std::size_t begin, const float* now) {
   for (std::size_t x = 0; x < width; ++x) {
     flags[x] = static_cast<std::uint8_t>(!((now[x] > low[x]) & (now[x] < high[x])));
   }
+  flag_patches(begin, y);
   for (std::size_t n = next_noise_; n < noise_.size() && noise_[n].pixel < begin + width; ++n) {
     flags[noise_[n].pixel - begin] = 1;
   }
@@ -189,22 +209,61 @@ void EventCamera::find_candidates(std::size_t begin, const float* now) {
   }
 }
 
-void EventCamera::update_pixel(std::size_t index, int y, TimeUs t_us, const Candidate& candidate) {
+// Marks the pixels of the row that left their bounds in one of the regions.
+void EventCamera::flag_patches(std::size_t begin, int y) {
+  for (const Patch* patch : row_patches_) {
+    const auto x0 = static_cast<std::size_t>(patch->rect.x0);
+    const auto width = static_cast<std::size_t>(patch->rect.x1) - x0;
+    const float* const luminance = row_of(*patch, y);
+    const float* const low = low_.data() + begin + x0;
+    const float* const high = high_.data() + begin + x0;
+    std::uint8_t* const flags = row_flags_.data() + x0;
+    for (std::size_t x = 0; x < width; ++x) {
+      flags[x] |= static_cast<std::uint8_t>(!((luminance[x] > low[x]) & (luminance[x] < high[x])));
+    }
+  }
+}
+
+// Lists what the samples since the last picture show at a pixel.
+void EventCamera::add_knots(std::size_t begin, int y, TimeUs t_us, const float* now,
+                            Candidate& candidate) {
+  candidate.first_knot = knots_.size();
+  knots_.push_back({t_us_, log_luminance(previous_[begin + candidate.x])});
+  const int x = static_cast<int>(candidate.x);
+  for (const Patch* patch : row_patches_) {
+    if (x < patch->rect.x0 || x >= patch->rect.x1) continue;
+    knots_.push_back({patch->t_us, log_luminance(checked(row_of(*patch, y)[x - patch->rect.x0]))});
+  }
+  knots_.push_back({t_us, log_luminance(checked(now[candidate.x]))});
+  candidate.end_knot = knots_.size();
+}
+
+const float* EventCamera::row_of(const Patch& patch, int y) const {
+  const std::ptrdiff_t width = patch.rect.x1 - patch.rect.x0;
+  return patch_luminance_.data() + patch.first + (y - patch.rect.y0) * width;
+}
+
+void EventCamera::update_pixel(std::size_t index, int y, const Candidate& candidate) {
   Pixel& pixel = pixels_[index];
-  const Line line = {static_cast<double>(t_us_), static_cast<double>(t_us), candidate.l0,
-                     candidate.l1};
   const std::uint64_t address = static_cast<std::uint64_t>(y) << kRowShift |
                                 static_cast<std::uint64_t>(candidate.x) << kColumnShift;
-  for (; next_noise_ < noise_.size() && noise_[next_noise_].pixel == index; ++next_noise_) {
-    const BackgroundEvent& event = noise_[next_noise_];
-    fire_crossings(pixel, line, event.t_us, address);
-    if (pixel.held_until_us != kArmed) continue;
-    const auto t = static_cast<double>(event.t_us);
-    emit(event.t_us, address, event.on);
-    pixel.reference = line.at(t);
-    if (refractory_us_ > 0) pixel.held_until_us = t + refractory_us_;
+  for (std::size_t k = candidate.first_knot + 1; k < candidate.end_knot; ++k) {
+    const Knot& a = knots_[k - 1];
+    const Knot& b = knots_[k];
+    const Line line = {static_cast<double>(a.t_us), static_cast<double>(b.t_us), a.l, b.l};
+    for (; next_noise_ < noise_.size() && noise_[next_noise_].pixel == index &&
+           noise_[next_noise_].t_us <= b.t_us;
+         ++next_noise_) {
+      const BackgroundEvent& event = noise_[next_noise_];
+      fire_crossings(pixel, line, event.t_us, address);
+      if (pixel.held_until_us != kArmed) continue;
+      const auto t = static_cast<double>(event.t_us);
+      emit(event.t_us, address, event.on);
+      pixel.reference = line.at(t);
+      if (refractory_us_ > 0) pixel.held_until_us = t + refractory_us_;
+    }
+    fire_crossings(pixel, line, b.t_us, address);
   }
-  fire_crossings(pixel, line, t_us, address);
   set_bounds(index);
 }
 
@@ -227,8 +286,9 @@ void EventCamera::fire_crossings(Pixel& pixel, const Line& line, TimeUs until_us
     const double crossing = line.time_of(level);
     // The stamp is rounded to the clock (halves of a microsecond are counted and halved) and kept
     // in (t0, until].
-    const TimeUs t_us = t_us_ + (static_cast<TimeUs>(2 * (crossing - line.t0_us)) + 1) / 2;
-    emit(std::clamp(t_us, t_us_ + 1, until_us), address, on);
+    const auto t0_us = static_cast<TimeUs>(line.t0_us);
+    const TimeUs t_us = t0_us + (static_cast<TimeUs>(2 * (crossing - line.t0_us)) + 1) / 2;
+    emit(std::clamp(t_us, t0_us + 1, until_us), address, on);
     if (refractory_us_ > 0) pixel.held_until_us = crossing + refractory_us_;
   }
 }
@@ -243,6 +303,9 @@ void EventCamera::emit(TimeUs t_us, std::uint64_t address, bool on) {
 }
 
 void EventCamera::rebase(const float* luminance) {
+  if (!patches_.empty()) {
+    throw std::invalid_argument("An event camera is rebased at the instant of a whole picture.");
+  }
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     if (luminance[i] == previous_[i]) continue;
     pixels_[i].reference += log_luminance(checked(luminance[i])) - log_luminance(previous_[i]);

@@ -1,10 +1,11 @@
 // The event camera: turns luminance pictures into events.
 //
-// A pixel answers to L = ln(eps + I), which runs linearly from sample to sample. It fires an ON
-// event when L reaches reference + C_on and an OFF event when L falls to reference - C_off, stamped
-// at that crossing (Lichtsteiner et al. 2008; the event model (1) of Falanga et al. 2020); the
-// reference then moves to the level that was crossed, so one interval may hold several events of a
-// pixel.
+// A pixel answers to L = ln(eps + I), which runs linearly from sample to sample. A sample is a
+// whole picture or, in between, a region of one: only the pixels in it then have a sample. A pixel
+// fires an ON event when L reaches reference + C_on and an OFF event when L falls to reference -
+// C_off, stamped at that crossing (Lichtsteiner et al. 2008; the event model (1) of Falanga et al.
+// 2020); the reference then moves to the level that was crossed, so one interval may hold several
+// events of a pixel.
 //
 // Refractory period: as in the real pixel, whose differencing amplifier is kept in reset after an
 // event, the pixel is held for `refractory_us` and re-armed at its end with reference = L at that
@@ -26,6 +27,7 @@
 #include "sim/events/background.h"
 #include "sim/events/event.h"
 #include "sim/events/spec.h"
+#include "sim/render/camera.h"
 
 namespace dodgesim {
 
@@ -49,12 +51,19 @@ class EventCamera {
   // Pictures: width x height, row-major from the top left, linear luminance, finite and >= 0.
   void reset(TimeUs t_us, const float* luminance);
 
-  // The next picture, of t_us later than the last. Appends the events in (previous sample, t_us] in
-  // (t, y, x, polarity) order. Throws SimulationError for luminance that is negative or not finite.
+  // A part of the picture of the instant t_us, which is later than the last sample, be it a picture
+  // or a region. `luminance` is width x height; only the pixels of `region`, which must lie in the
+  // image, are read and kept. The next update() makes events of them.
+  void add_region(TimeUs t_us, const Rect& region, const float* luminance);
+
+  // The next picture, of t_us later than the last sample. Appends the events in (previous picture,
+  // t_us] in (t, y, x, polarity) order. Throws SimulationError for luminance that is negative or
+  // not finite, also in the regions since the previous picture.
   void update(TimeUs t_us, const float* luminance, std::vector<Event>& out);
 
-  // Another picture of the instant of the last sample, after a change that is no event of the scene
-  // (a thrown object comes into existence). References move with it, so that it makes no events.
+  // Another picture of the instant of the last picture, after a change that is no event of the
+  // scene (a thrown object comes into existence). References move with it, so that it makes no
+  // events. No region may have come since.
   void rebase(const float* luminance);
 
   int width() const { return width_; }
@@ -79,15 +88,29 @@ class EventCamera {
     double time_of(double l) const;
   };
 
-  // A pixel that may fire in this update, with its L at both samples.
+  // A sample of one pixel.
+  struct Knot {
+    TimeUs t_us;
+    double l;
+  };
+  // A pixel that may fire in this update, with its samples from picture to picture.
   struct Candidate {
     std::uint32_t x;
-    double l0, l1;
+    std::size_t first_knot, end_knot;  // in knots_
+  };
+  // The sample of a region since the last picture.
+  struct Patch {
+    TimeUs t_us;
+    Rect rect;
+    std::size_t first;  // its luminance in patch_luminance_, row by row
   };
 
   void update_row(int y, TimeUs t_us, const float* luminance);
-  void find_candidates(std::size_t begin, const float* now);
-  void update_pixel(std::size_t index, int y, TimeUs t_us, const Candidate& candidate);
+  void flag_patches(std::size_t begin, int y);
+  void find_candidates(std::size_t begin, int y, const float* now);
+  void add_knots(std::size_t begin, int y, TimeUs t_us, const float* now, Candidate& candidate);
+  const float* row_of(const Patch& patch, int y) const;
+  void update_pixel(std::size_t index, int y, const Candidate& candidate);
   void fire_crossings(Pixel& pixel, const Line& line, TimeUs until_us, std::uint64_t address);
   void emit(TimeUs t_us, std::uint64_t address, bool on);
   void set_bounds(std::size_t index);
@@ -109,10 +132,15 @@ class EventCamera {
   std::vector<float> high_;
   std::vector<float> previous_;  // the last picture
 
+  std::vector<Patch> patches_;  // since the last picture, in order
+  std::vector<float> patch_luminance_;
+
   // Scratch of one update.
-  std::vector<std::uint8_t> row_flags_;  // candidates of the current row
-  std::vector<Candidate> candidates_;    // of the current row
-  std::vector<BackgroundEvent> noise_;   // by (pixel, time)
+  std::vector<const Patch*> row_patches_;  // that have pixels of the current row
+  std::vector<std::uint8_t> row_flags_;    // candidates of the current row
+  std::vector<Candidate> candidates_;      // of the current row
+  std::vector<Knot> knots_;                // of the candidates
+  std::vector<BackgroundEvent> noise_;     // by (pixel, time)
   std::size_t next_noise_ = 0;
   std::vector<std::uint64_t> keys_;  // events as sortable words
   std::vector<std::uint64_t> sorted_keys_;
