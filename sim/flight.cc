@@ -168,16 +168,26 @@ void Flight::see() {
   const Snapshot& now = world_.snapshot();
   if (truth_pilot_ != nullptr && now.t_us % kTruthEveryUs == 0) truth_pilot_->observe(now);
   if (!rig_) return;
-  // The last packet that the pilot's next cycle will have must be complete by then.
-  const TimeUs read_us = computer_.newest_packet_end_us(computer_.next_cycle_us());
-  const TimeUs packet_end_us = read_us / scenario_.delays.packet_us * scenario_.delays.packet_us;
-  if (packet_end_us > before_.t_us && packet_end_us <= now.t_us) rig_->require(packet_end_us);
+  require_packet();
   rig_->advance(before_, now, [this](int camera, const Packet& packet) {
     computer_.send_events(camera, packet.end_us, packet.events);
     if (observer_ != nullptr) observer_->on_events(camera, packet);
   });
   history_.push_back(now);
   while (history_.front().t_us < now.t_us - kHistoryUs) history_.pop_front();
+}
+
+// The last packet that a cycle of the pilot will have must be complete by then. With a slow link
+// that is not the next cycle but a later one.
+void Flight::require_packet() {
+  const TimeUs packet_us = scenario_.delays.packet_us;
+  TimeUs cycle_us = computer_.next_cycle_us();
+  TimeUs end_us = 0;
+  while (end_us <= before_.t_us) {
+    end_us = computer_.newest_packet_end_us(cycle_us) / packet_us * packet_us;
+    cycle_us += computer_.period_us();
+  }
+  if (end_us <= now_us()) rig_->require(end_us);
 }
 
 void Flight::decide() {

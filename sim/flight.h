@@ -107,6 +107,7 @@ class Flight {
   std::unique_ptr<dodge::Pilot> make_pilot();
   std::unique_ptr<dodge::Pilot> make_dodger() const;
   std::unique_ptr<EventRig> make_rig() const;
+  void require_packet();
   double true_range_m() const;
   const Snapshot* truth_at(TimeUs t_us) const;
   void log_detections();
