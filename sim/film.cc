@@ -40,9 +40,10 @@ void EventPicture::clear() { image_.setTo(kGrey); }
 
 Film::Film(std::string path, const Intrinsics& intrinsics)
     : path_(std::move(path)),
-      eyes_(2, EventPicture(intrinsics.width, intrinsics.height)),
       picture_(kSceneHeight,
                kSceneWidth + intrinsics.width * (kSceneHeight / 2) / intrinsics.height, kBlack) {
+  // One by one: copies would share their pixels.
+  for (int i = 0; i < 2; ++i) eyes_.emplace_back(intrinsics.width, intrinsics.height);
   writer_.open(path_, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), kShownPerSecond,
                picture_.size());
   if (!writer_.isOpened())

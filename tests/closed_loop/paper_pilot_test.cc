@@ -1,0 +1,125 @@
+// The whole chain: pictures, events, packets, the paper's pilot, controller, motors.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/closed_loop/flights.h"
+
+namespace dodgesim {
+namespace {
+
+constexpr const char* kThrow =
+    "mission: {start_m: [-2, 0, 2]}\n"
+    "throw: {distance_m: 3, speed_mps: 5, size_m: 0.2, launch_height_m: 1.7, launch_s: 0.2}\n"
+    "after_s: 0.1\n"
+    "dodger: {position: {max_range_m: 3}}\n";
+
+TEST(PaperPilot, DetectsAThrowThenEvades) {
+  const Scenario s = scenario(kThrow);
+  FlightPlan plan = plan_throw(s, 0);
+  plan.end_us = plan.launches.at(0).toss.launch_us + 400000;  // at 1 m; what is near costs time
+  const Throw& toss = plan.launches.at(0).toss;
+  Diary diary;
+  const FlightRecord record = fly(s, plan, &diary);
+  ASSERT_TRUE(record.first_detection_us);
+  ASSERT_TRUE(record.first_command_us);
+  EXPECT_GT(record.events[0], 1000);
+  EXPECT_GT(record.events[1], 1000);
+
+  // Nothing acts before light, link, computer and command could have done their part.
+  const DelaySpec& d = s.delays;
+  const TimeUs seeing_us = d.pixel_us + d.transport_us;
+  EXPECT_GT(*record.first_detection_us, toss.launch_us + seeing_us + d.compute_us);
+  EXPECT_GE(*record.first_command_us,
+            *record.first_detection_us + d.command_us + d.flight_controller_us);
+  EXPECT_LT(*record.first_command_us, toss.arrival_us());
+
+  ASSERT_GT(record.rows.size(), 2u);
+  EXPECT_EQ(static_cast<int>(record.rows.size()), record.detections);
+  std::vector<double> errors_m;
+  for (const DetectionRow& row : record.rows) {
+    EXPECT_GT(row.t_us, toss.launch_us);
+    EXPECT_GE(row.output_us, row.t_us + seeing_us + d.compute_us);
+    ASSERT_TRUE(row.object && row.true_p_W && row.position_error_m && row.true_depth_m);
+    EXPECT_EQ(*row.object, 0);
+    // The truth is that of the instant of which the detection speaks, to a tick's
+    // motion.
+    const Snapshot truth = diary.at(row.t_us);
+    const Eigen::Map<const Eigen::Vector3d> logged_W(row.true_p_W->data());
+    EXPECT_LT((logged_W - truth.objects[0].p_W).norm(), 2 * 5 * seconds(kTickUs));
+    const Eigen::Map<const Eigen::Vector3d> p_W(row.p_W.data());
+    EXPECT_NEAR((p_W - logged_W).norm(), *row.position_error_m, 1e-12);
+    errors_m.push_back(*row.position_error_m);
+  }
+  // Detections of the ball, not of something else.
+  std::sort(errors_m.begin(), errors_m.end());
+  EXPECT_LT(errors_m[errors_m.size() / 2], 0.3);
+}
+
+// Ends the flight early: the plan says when.
+FlightRecord first_part(const Scenario& scenario, FlightPlan plan) {
+  plan.end_us = plan.launches.at(0).toss.launch_us + 100000;
+  return fly(scenario, plan);
+}
+
+TEST(PaperPilot, TheSameThrowGivesTheSameEventsAndDetections) {
+  Scenario s = scenario(kThrow);
+  s.toss->launch_s = Distribution::constant(0.1);
+  const FlightPlan plan = plan_throw(s, 0);
+  const FlightRecord a = first_part(s, plan), b = first_part(s, plan);
+  EXPECT_EQ(a.events_hash, b.events_hash);
+  EXPECT_EQ(a.events, b.events);
+  EXPECT_EQ(a.last.vehicle.p_W, b.last.vehicle.p_W);
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  EXPECT_GT(a.rows.size(), 1u);
+  for (std::size_t i = 0; i < a.rows.size(); ++i) {
+    EXPECT_EQ(a.rows[i].t_us, b.rows[i].t_us);
+    EXPECT_EQ(a.rows[i].p_W, b.rows[i].p_W);
+    EXPECT_EQ(a.rows[i].size_m, b.rows[i].size_m);
+    EXPECT_EQ(a.rows[i].position_error_m, b.rows[i].position_error_m);
+  }
+  s.seed = 2;
+  EXPECT_NE(first_part(s, plan).events_hash, a.events_hash);
+}
+
+TEST(PaperPilot, DodgesNothingInAQuietHover) {
+  const Scenario s = scenario("mission: {start_m: [-2, 0, 2]}\nduration_s: 1\n");
+  const FlightRecord record = fly(s, plan_throw(s, 0));
+  EXPECT_FALSE(record.first_command_us);
+  EXPECT_GT(record.events[0], 10000);  // it does look, and sees noise
+}
+
+// Counts the packets that come later than the start of the first cycle that should have them.
+class LatePackets : public FlightObserver {
+ public:
+  explicit LatePackets(const DelaySpec& delays) : delays_(delays) {}
+  void on_tick(const World& world) override { now_us_ = world.snapshot().t_us; }
+  void on_events(int /*camera*/, const Packet& packet) override {
+    const TimeUs arrival_us = packet.end_us + delays_.pixel_us + delays_.transport_us;
+    const TimeUs cycle_us = (arrival_us + delays_.cycle_us - 1) / delays_.cycle_us;
+    late_ += now_us_ > cycle_us * delays_.cycle_us;
+    ++count_;
+  }
+  int late() const { return late_; }
+  int count() const { return count_; }
+
+ private:
+  DelaySpec delays_;
+  TimeUs now_us_ = 0;
+  int late_ = 0, count_ = 0;
+};
+
+TEST(PaperPilot, NoPacketIsLateWhateverTheTransportTakes) {
+  for (const int transport_us : {1000, 3300, 4500, 9000}) {
+    Scenario s = scenario("mission: {start_m: [-2, 0, 2]}\nduration_s: 0.1\n");
+    s.sensors.sampling.min_rate_hz = 20;
+    s.delays.transport_us = transport_us;
+    LatePackets packets(s.delays);
+    fly(s, plan_throw(s, 0), &packets);
+    EXPECT_GT(packets.count(), 100);
+    EXPECT_EQ(packets.late(), 0) << transport_us;
+  }
+}
+
+}  // namespace
+}  // namespace dodgesim
