@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "tests/closed_loop/flights.h"
 
@@ -87,6 +88,36 @@ TEST(PaperPilot, DodgesNothingInAQuietHover) {
   const FlightRecord record = fly(s, plan_throw(s, 0));
   EXPECT_FALSE(record.first_command_us);
   EXPECT_GT(record.events[0], 10000);  // it does look, and sees noise
+}
+
+// Events of the top camera, by the packet's end.
+class EventCounts : public FlightObserver {
+ public:
+  void on_events(int camera, const Packet& packet) override {
+    if (camera == 0) counts_[packet.end_us] += packet.events.size();
+  }
+  double mean(TimeUs after_us, TimeUs until_us) const {
+    double sum = 0;
+    for (const auto& [end_us, count] : counts_) {
+      if (end_us > after_us && end_us <= until_us) sum += static_cast<double>(count);
+    }
+    return sum / (1e-3 * static_cast<double>(until_us - after_us));
+  }
+
+ private:
+  std::map<TimeUs, std::size_t> counts_;
+};
+
+TEST(PaperPilot, ABallThatComesIntoExistenceIsNoFlash) {
+  Scenario s = scenario(kThrow);
+  s.toss->launch_s = Distribution::constant(0.1);
+  s.toss->distance_m = Distribution::constant(1.5);  // large in the image: 600 px
+  FlightPlan plan = plan_throw(s, 0);
+  plan.end_us = 104000;
+  EventCounts counts;
+  fly(s, plan, &counts);
+  const double before = counts.mean(90000, 100000), after = counts.mean(100000, 102000);
+  EXPECT_LT(after, before + 150);
 }
 
 // Counts the packets that come later than the start of the first cycle that should have them.
