@@ -1,6 +1,7 @@
 # No truth leaks: the flight core includes nothing from the simulator and nothing beyond Eigen and
 # OpenCV's core, imgproc and video, and a copy of it configures and builds by itself.
-# cmake -D SOURCE_DIR=<repository> -D WORK_DIR=<scratch> [-D BUILD=ON] -P core_alone.cmake
+# cmake -D SOURCE_DIR=<repository> [-D BUILD=ON -D WORK_DIR=<scratch> -D GENERATOR=Ninja]
+#       -P core_alone.cmake
 file(GLOB_RECURSE files ${SOURCE_DIR}/dodge/*.h ${SOURCE_DIR}/dodge/*.cc)
 if(NOT files)
   message(FATAL_ERROR "There are no sources in ${SOURCE_DIR}/dodge.")
@@ -20,7 +21,9 @@ endforeach()
 if(BUILD)
   file(REMOVE_RECURSE ${WORK_DIR})
   file(COPY ${SOURCE_DIR}/dodge DESTINATION ${WORK_DIR})
-  foreach(step "-S;${WORK_DIR}/dodge;-B;${WORK_DIR}/build;-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}"
+  set(configure -S ${WORK_DIR}/dodge -B ${WORK_DIR}/build -G ${GENERATOR}
+                -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+  foreach(step "${configure}"
                "--build;${WORK_DIR}/build;--parallel;2")
     execute_process(COMMAND ${CMAKE_COMMAND} ${step} RESULT_VARIABLE failed OUTPUT_VARIABLE output
                     ERROR_VARIABLE output)
