@@ -62,7 +62,9 @@ struct EventRig::Eye {
 EventRig::EventRig(const World& world, const EventRigSetup& setup)
     : world_(world),
       setup_(setup),
-      renderer_(world.model(), object_bodies(world), setup.intrinsics, setup.render) {
+      renderer_(world.model(), object_bodies(world), setup.intrinsics, setup.render),
+      region_luminance_(static_cast<std::size_t>(setup.intrinsics.width) *
+                        static_cast<std::size_t>(setup.intrinsics.height)) {
   for (int i = 0; i < setup.cameras; ++i) {
     eyes_.push_back(std::make_unique<Eye>(world, setup, i));
   }
@@ -70,13 +72,16 @@ EventRig::EventRig(const World& world, const EventRigSetup& setup)
 
 EventRig::~EventRig() = default;
 
-void EventRig::draw(Eye& eye, const Snapshot& snapshot) {
+void EventRig::draw(const Eye& eye, const Snapshot& snapshot, const Rect& region,
+                    std::vector<float>& luminance) {
   const auto start = WallClock::now();
-  const Rect whole{0, 0, setup_.intrinsics.width, setup_.intrinsics.height};
-  renderer_.render(snapshot, snapshot.vehicle.pose() * eye.X_BC, whole, eye.luminance.data(),
-                   nullptr);
-  ++frames_;
+  renderer_.render(snapshot, snapshot.vehicle.pose() * eye.X_BC, region, luminance.data(), nullptr);
   render_s_ += seconds_since(start);
+}
+
+void EventRig::draw(Eye& eye, const Snapshot& snapshot) {
+  draw(eye, snapshot, {0, 0, setup_.intrinsics.width, setup_.intrinsics.height}, eye.luminance);
+  ++frames_;
 }
 
 void EventRig::start() {
@@ -102,20 +107,35 @@ void EventRig::require(TimeUs t_us) {
 
 void EventRig::advance(const Snapshot& a, const Snapshot& b, const Sink& sink) {
   for (auto& eye : eyes_) {
-    sample_times_.clear();
-    eye->sampler.advance(a, b, eye->view.nearest_m(world_, b, eye->X_BC), sample_times_);
-    for (const TimeUs t_us : sample_times_) {
-      draw(*eye, interpolate(a, b, t_us));
-      const auto start = WallClock::now();
-      events_.clear();
-      eye->pixels.update(t_us, eye->luminance.data(), events_);
-      eye->hash.add(events_);
-      eye->count += static_cast<std::int64_t>(events_.size());
-      eye->packets.push(events_, t_us);
-      emulate_s_ += seconds_since(start);
+    samples_.clear();
+    eye->sampler.advance(a, b, eye->view.nearest_m(world_, b, eye->X_BC), samples_);
+    for (const Sample& sample : samples_) {
+      look(*eye, sample, interpolate(a, b, sample.t_us));
       while (const std::optional<Packet> packet = eye->packets.take()) sink(eye->index, *packet);
     }
   }
+}
+
+// Takes a sample.
+void EventRig::look(Eye& eye, const Sample& sample, const Snapshot& snapshot) {
+  const Rect region = eye.sampler.region(sample, snapshot);
+  if (region.empty()) return;
+  if (sample.object != Sample::kWholeImage) {
+    draw(eye, snapshot, region, region_luminance_);
+    ++regions_;
+    const auto start = WallClock::now();
+    eye.pixels.add_region(sample.t_us, region, region_luminance_.data());
+    emulate_s_ += seconds_since(start);
+    return;
+  }
+  draw(eye, snapshot);
+  const auto start = WallClock::now();
+  events_.clear();
+  eye.pixels.update(sample.t_us, eye.luminance.data(), events_);
+  eye.hash.add(events_);
+  eye.count += static_cast<std::int64_t>(events_.size());
+  eye.packets.push(events_, sample.t_us);
+  emulate_s_ += seconds_since(start);
 }
 
 std::int64_t EventRig::event_count(int camera) const {

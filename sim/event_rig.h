@@ -49,27 +49,33 @@ class EventRig {
   void advance(const Snapshot& a, const Snapshot& b, const Sink& sink);
 
   std::int64_t event_count(int camera) const;
-  std::uint64_t events_hash() const;  // of all events of all cameras
-  std::int64_t frames() const { return frames_; }
-  double render_s() const { return render_s_; }    // wall clock, for reports only
-  double emulate_s() const { return emulate_s_; }  // wall clock, for reports only
+  std::uint64_t events_hash() const;                 // of all events of all cameras
+  std::int64_t frames() const { return frames_; }    // whole pictures drawn
+  std::int64_t regions() const { return regions_; }  // pictures drawn of an object's region only
+  double render_s() const { return render_s_; }      // wall clock, for reports only
+  double emulate_s() const { return emulate_s_; }    // wall clock, for reports only
 
-  // The last picture of a camera: width x height, linear luminance.
+  // The last whole picture of a camera: width x height, linear luminance.
   const std::vector<float>& luminance(int camera) const;
   const LuminanceRenderer& renderer() const { return renderer_; }
 
  private:
   struct Eye;
 
+  void draw(const Eye& eye, const Snapshot& snapshot, const Rect& region,
+            std::vector<float>& luminance);
   void draw(Eye& eye, const Snapshot& snapshot);
+  void look(Eye& eye, const Sample& sample, const Snapshot& snapshot);
 
   const World& world_;
   EventRigSetup setup_;
   LuminanceRenderer renderer_;
   std::vector<std::unique_ptr<Eye>> eyes_;
-  std::vector<TimeUs> sample_times_;
+  std::vector<Sample> samples_;
+  std::vector<float> region_luminance_;  // full size
   std::vector<Event> events_;
   std::int64_t frames_ = 0;
+  std::int64_t regions_ = 0;
   double render_s_ = 0;
   double emulate_s_ = 0;
 };

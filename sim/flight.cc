@@ -287,6 +287,7 @@ FlightTiming Flight::timing() const {
     timing.render_s = rig_->render_s();
     timing.emulate_s = rig_->emulate_s();
     timing.frames = rig_->frames();
+    timing.regions = rig_->regions();
   }
   return timing;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -21,6 +22,11 @@ constexpr double kNearestM = 1e-3;
 // at constant speed: the sample after it crossed that line still comes before it enters.
 constexpr double kViewMarginLimits = 4;
 
+// A region's margin beyond what the object may move until its next sample [px].
+constexpr double kRegionMarginPx = 1;
+
+constexpr TimeUs kNever = std::numeric_limits<TimeUs>::max();
+
 }  // namespace
 
 Sampler::Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics,
@@ -31,8 +37,8 @@ Sampler::Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics,
       object_radius_m_(std::move(object_radius_m)),
       fast_displacement_px_(std::max(spec.fast_displacement_px, spec.max_displacement_px)),
       max_interval_us_(static_cast<TimeUs>(1e6 / spec.min_rate_hz)),
-      moved_px_(1 + object_radius_m_.size()),
-      speed_pxps_(1 + object_radius_m_.size()) {
+      parts_(1 + object_radius_m_.size()),
+      last_seen_(object_radius_m_.size()) {
   if (!(spec.max_displacement_px > 0) || max_interval_us_ < 1 || spec.min_interval_us < 1) {
     throw std::invalid_argument("The sampling of an event camera needs positive limits.");
   }
@@ -56,59 +62,103 @@ Sampler::Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics,
 }
 
 void Sampler::reset(TimeUs t_us) {
-  last_us_ = t_us;
   required_us_.clear();
-  std::fill(moved_px_.begin(), moved_px_.end(), 0.0);
+  sampled({t_us, Sample::kWholeImage});
+  std::fill(last_seen_.begin(), last_seen_.end(), ImageBox());
 }
 
 void Sampler::require(TimeUs t_us) {
-  if (t_us <= last_us_) return;
+  if (t_us <= parts_[0].last_us) return;
   const auto place = std::lower_bound(required_us_.begin(), required_us_.end(), t_us);
   if (place == required_us_.end() || *place != t_us) required_us_.insert(place, t_us);
 }
 
 void Sampler::advance(const Snapshot& a, const Snapshot& b, double nearest_static_m,
-                      std::vector<TimeUs>& sample_times) {
-  speed_pxps_[0] = std::max(static_speed(a, nearest_static_m), static_speed(b, nearest_static_m));
+                      std::vector<Sample>& samples) {
+  parts_[0].speed_pxps =
+      std::max(static_speed(a, nearest_static_m), static_speed(b, nearest_static_m));
   for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
-    speed_pxps_[1 + i] = std::max(object_speed(a, i), object_speed(b, i));
+    parts_[1 + i].speed_pxps = std::max(object_speed(a, i), object_speed(b, i));
   }
   TimeUs now_us = a.t_us;
   while (true) {
-    const TimeUs t_us = next_sample(now_us);
-    const double dt_s = seconds(std::min(t_us, b.t_us) - now_us);
-    for (std::size_t i = 0; i < moved_px_.size(); ++i) moved_px_[i] += speed_pxps_[i] * dt_s;
-    if (t_us > b.t_us) return;
-    sample_times.push_back(t_us);
-    now_us = t_us;
-    last_us_ = t_us;
-    std::fill(moved_px_.begin(), moved_px_.end(), 0.0);
-    const auto later = std::upper_bound(required_us_.begin(), required_us_.end(), t_us);
-    required_us_.erase(required_us_.begin(), later);
+    const Sample sample = next_sample(now_us);
+    const double dt_s = seconds(std::min(sample.t_us, b.t_us) - now_us);
+    for (Part& part : parts_) part.moved_px += part.speed_pxps * dt_s;
+    if (sample.t_us > b.t_us) return;
+    samples.push_back(sample);
+    now_us = sample.t_us;
+    sampled(sample);
   }
 }
 
-// The instant at which something has moved limit_px since the last sample, if the speeds last.
-TimeUs Sampler::time_of_displacement(double limit_px, TimeUs now_us) const {
-  double left_s = seconds(max_interval_us_);
-  for (std::size_t i = 0; i < moved_px_.size(); ++i) {
-    const double left_px = std::max(0.0, limit_px - moved_px_[i]);
-    if (speed_pxps_[i] * left_s > left_px) left_s = left_px / speed_pxps_[i];
+void Sampler::sampled(const Sample& sample) {
+  if (sample.object != Sample::kWholeImage) {
+    Part& part = parts_[1 + static_cast<std::size_t>(sample.object)];
+    part.last_us = sample.t_us;
+    part.moved_px = 0;
+    return;
   }
-  return now_us + static_cast<TimeUs>(1e6 * left_s);
+  for (Part& part : parts_) {
+    part.last_us = sample.t_us;
+    part.moved_px = 0;
+  }
+  const auto later = std::upper_bound(required_us_.begin(), required_us_.end(), sample.t_us);
+  required_us_.erase(required_us_.begin(), later);
 }
 
-// The instant after now_us at which the next sample is due if the speeds last.
-TimeUs Sampler::next_sample(TimeUs now_us) const {
-  TimeUs t_us = time_of_displacement(spec_.max_displacement_px, now_us);
-  const TimeUs fast_us = last_us_ + spec_.fast_interval_us;
+// The instant at which a part has moved limit_px since its last sample, if the speed lasts.
+TimeUs Sampler::time_of_displacement(std::size_t i, double limit_px, TimeUs now_us) const {
+  const Part& part = parts_[i];
+  const double left_px = std::max(0.0, limit_px - part.moved_px);
+  // Beyond the longest interval nobody asks.
+  if (part.speed_pxps * seconds(max_interval_us_) <= left_px) return kNever;
+  return now_us + static_cast<TimeUs>(1e6 * left_px / part.speed_pxps);
+}
+
+// The instant at which the motion of a part asks for its next sample, if the speed lasts.
+TimeUs Sampler::time_of_motion(std::size_t i, TimeUs now_us) const {
+  const TimeUs last_us = parts_[i].last_us;
+  TimeUs t_us = time_of_displacement(i, spec_.max_displacement_px, now_us);
+  const TimeUs fast_us = last_us + spec_.fast_interval_us;
   if (t_us < fast_us) {
-    t_us = std::min(fast_us, time_of_displacement(fast_displacement_px_, now_us));
+    t_us = std::min(fast_us, time_of_displacement(i, fast_displacement_px_, now_us));
   }
-  t_us = std::max(t_us, last_us_ + spec_.min_interval_us);
-  t_us = std::min(t_us, last_us_ + max_interval_us_);
-  if (!required_us_.empty()) t_us = std::min(t_us, required_us_.front());
-  return std::max(t_us, now_us + 1);
+  return std::max(t_us, last_us + spec_.min_interval_us);
+}
+
+// The sample after now_us that is due first if the speeds last.
+Sample Sampler::next_sample(TimeUs now_us) const {
+  Sample next{std::min(time_of_motion(0, now_us), parts_[0].last_us + max_interval_us_),
+              Sample::kWholeImage};
+  if (!required_us_.empty()) next.t_us = std::min(next.t_us, required_us_.front());
+  next.t_us = std::max(next.t_us, now_us + 1);
+  for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
+    const TimeUs t_us = std::max(time_of_motion(1 + i, now_us), now_us + 1);
+    if (t_us < next.t_us) next = {t_us, static_cast<int>(i)};
+  }
+  return next;
+}
+
+ImageBox Sampler::bounds(const Snapshot& snapshot, std::size_t object) const {
+  if (!snapshot.launched[object]) return ImageBox();
+  const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * X_BC_;
+  return sphere_bounds(intrinsics_, X_WC.inverse() * snapshot.objects[object].p_W,
+                       object_radius_m_[object]);
+}
+
+Rect Sampler::region(const Sample& sample, const Snapshot& snapshot) {
+  if (sample.object == Sample::kWholeImage) {
+    for (std::size_t i = 0; i < last_seen_.size(); ++i) last_seen_[i] = bounds(snapshot, i);
+    return {0, 0, intrinsics_.width, intrinsics_.height};
+  }
+  const auto object = static_cast<std::size_t>(sample.object);
+  const ImageBox box = bounds(snapshot, object);
+  const ImageBox both = last_seen_[object].merged(box);
+  last_seen_[object] = box;
+  const double until_next_px = object_speed(snapshot, object) * seconds(spec_.min_interval_us);
+  return pixels_about(both, std::max(fast_displacement_px_, until_next_px) + kRegionMarginPx,
+                      intrinsics_);
 }
 
 Sampler::CameraMotion Sampler::camera_motion(const Snapshot& snapshot) const {

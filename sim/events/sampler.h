@@ -1,11 +1,15 @@
-// Decides at which instants a camera is sampled, from the true motion.
+// Decides at which instants which part of a camera's image is sampled, from the true motion.
 //
 // Between two samples the luminance of a pixel is taken to run linearly in time, so nothing may
 // move far from one sample to the next. For the static scene and for each object the sampler adds
 // up a bound on the distance that any of its visible points moves in the image, and asks for a
 // sample when one of them reaches SamplingSpec::max_displacement_px (fast_displacement_px when that
-// happens within fast_interval_us). Each camera has its own
-// sampler.
+// happens within fast_interval_us): of the whole image for the static scene, of the region about
+// the object for an object. Each camera has its own sampler.
+//
+// A region reaches so far beyond the object that it holds the pixels that the object enters or
+// leaves until its next sample. Each pixel's curve then bends where the object's edge comes and
+// goes, and runs straight while it shows the static scene.
 //
 // What a loop must do with events that are known late: an event is known at the first sample at or
 // after its stamp, and a packet that ends at T is complete at the first sample at or after T (see
@@ -19,10 +23,21 @@
 
 #include "sim/base/time.h"
 #include "sim/events/spec.h"
+#include "sim/events/sphere_bounds.h"
 #include "sim/render/camera.h"
 #include "sim/world/snapshot.h"
 
 namespace dodgesim {
+
+// A picture that is wanted.
+struct Sample {
+  TimeUs t_us = 0;
+  int object = kWholeImage;  // the index of the object whose region is wanted
+
+  static constexpr int kWholeImage = -1;
+
+  bool operator==(const Sample&) const = default;
+};
 
 class Sampler {
  public:
@@ -32,18 +47,24 @@ class Sampler {
   Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics, const Eigen::Isometry3d& X_BC,
           std::vector<double> object_radius_m);
 
-  // A sample has been taken at t_us. Forgets what was required.
+  // The whole image has been sampled at t_us. Forgets what was required.
   void reset(TimeUs t_us);
 
-  // Asks for a sample exactly at t_us, which lies after the end of the last advance().
+  // Asks for a sample of the whole image exactly at t_us, which lies after the end of the last
+  // advance().
   void require(TimeUs t_us);
 
-  // Appends the instants in (a.t_us, b.t_us] at which to sample, in order. a and b are a tick
-  // apart, and consecutive calls follow each other. `nearest_static_m` is a lower bound on the
-  // distance from the camera to the static scene in its view. Objects that are not launched do not
-  // count.
+  // Appends the samples to take in (a.t_us, b.t_us], in order, no two at the same instant. a and b
+  // are a tick apart, and consecutive calls follow each other. `nearest_static_m` is a lower bound
+  // on the distance from the camera to the static scene in its view. Objects that are not launched
+  // do not count.
   void advance(const Snapshot& a, const Snapshot& b, double nearest_static_m,
-               std::vector<TimeUs>& sample_times);
+               std::vector<Sample>& samples);
+
+  // The pixels that a sample is of, which may be none. `snapshot` is of the sample's instant. To be
+  // called for every sample, in order: an object's region also holds its place in the sample
+  // before.
+  Rect region(const Sample& sample, const Snapshot& snapshot);
 
   // Bounds on the speed in the image at one instant [px/s].
   double static_speed(const Snapshot& snapshot, double nearest_static_m) const;
@@ -57,8 +78,11 @@ class Sampler {
     Eigen::Vector3d w_C;  // angular velocity [rad/s]
   };
   CameraMotion camera_motion(const Snapshot& snapshot) const;
-  TimeUs time_of_displacement(double limit_px, TimeUs now_us) const;
-  TimeUs next_sample(TimeUs now_us) const;
+  TimeUs time_of_displacement(std::size_t part, double limit_px, TimeUs now_us) const;
+  TimeUs time_of_motion(std::size_t part, TimeUs now_us) const;
+  Sample next_sample(TimeUs now_us) const;
+  void sampled(const Sample& sample);
+  ImageBox bounds(const Snapshot& snapshot, std::size_t object) const;
 
   SamplingSpec spec_;
   Intrinsics intrinsics_;
@@ -70,10 +94,16 @@ class Sampler {
   double max_secant_;                         // 1/cos of the angle of the corners of the view
   TimeUs max_interval_us_;
 
-  TimeUs last_us_ = 0;               // of the last sample
-  std::vector<TimeUs> required_us_;  // later than the last sample, in order
-  std::vector<double> moved_px_;     // since the last sample: static scene, then each object
-  std::vector<double> speed_pxps_;   // over the current tick
+  std::vector<TimeUs> required_us_;  // later than the last sample of the whole image, in order
+
+  // The static scene or an object.
+  struct Part {
+    TimeUs last_us = 0;     // of its last sample
+    double moved_px = 0;    // since then
+    double speed_pxps = 0;  // over the current tick
+  };
+  std::vector<Part> parts_;          // the static scene, then each object
+  std::vector<ImageBox> last_seen_;  // each object at its last region()
 };
 
 }  // namespace dodgesim

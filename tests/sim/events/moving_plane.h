@@ -66,10 +66,12 @@ inline std::vector<TimeUs> sample_times(const MovingPlane& plane, const Sampling
                                         double nearest_m, TimeUs end_us) {
   Sampler sampler(spec, plane.intrinsics, MovingPlane::X_BC(), {});
   sampler.reset(0);
-  std::vector<TimeUs> times;
+  std::vector<Sample> samples;
   for (TimeUs t = 0; t < end_us; t += kTickUs) {
-    sampler.advance(plane.snapshot(t), plane.snapshot(t + kTickUs), nearest_m, times);
+    sampler.advance(plane.snapshot(t), plane.snapshot(t + kTickUs), nearest_m, samples);
   }
+  std::vector<TimeUs> times;
+  for (const Sample& sample : samples) times.push_back(sample.t_us);
   return times;
 }
 

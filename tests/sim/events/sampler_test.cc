@@ -42,13 +42,24 @@ Snapshot scene(const Snapshot& start, TimeUs t_us) {
   return s;
 }
 
-std::vector<TimeUs> run(Sampler& sampler, const Snapshot& start, double nearest_m, TimeUs end_us) {
-  std::vector<TimeUs> times;
+std::vector<Sample> run_samples(Sampler& sampler, const Snapshot& start, double nearest_m,
+                                TimeUs end_us) {
+  std::vector<Sample> samples;
   sampler.reset(0);
   for (TimeUs t = 0; t < end_us; t += kTickUs) {
-    sampler.advance(scene(start, t), scene(start, t + kTickUs), nearest_m, times);
+    sampler.advance(scene(start, t), scene(start, t + kTickUs), nearest_m, samples);
   }
+  return samples;
+}
+
+std::vector<TimeUs> times_of(const std::vector<Sample>& samples) {
+  std::vector<TimeUs> times;
+  for (const Sample& sample : samples) times.push_back(sample.t_us);
   return times;
+}
+
+std::vector<TimeUs> run(Sampler& sampler, const Snapshot& start, double nearest_m, TimeUs end_us) {
+  return times_of(run_samples(sampler, start, nearest_m, end_us));
 }
 
 Sampler sampler_for(std::vector<double> radii, const SamplingSpec& spec = SamplingSpec()) {
@@ -66,17 +77,17 @@ TEST(Sampler, SamplesExactlyWhenRequired) {
   sampler.require(3100);
   sampler.require(1000);
   sampler.require(1000);
-  std::vector<TimeUs> times;
+  std::vector<Sample> samples;
   const auto go = [&](TimeUs from, TimeUs to) {
     for (TimeUs t = from; t < to; t += kTickUs) {
-      sampler.advance(scene({}, t), scene({}, t + kTickUs), 1.0, times);
+      sampler.advance(scene({}, t), scene({}, t + kTickUs), 1.0, samples);
     }
   };
   go(0, 4000);
   sampler.require(4001);
   sampler.require(2000);  // too late, and harmless
   go(4000, 10000);
-  EXPECT_EQ(times, (std::vector<TimeUs>{1000, 3100, 4001, 9001}));
+  EXPECT_EQ(times_of(samples), (std::vector<TimeUs>{1000, 3100, 4001, 9001}));
 }
 
 SamplingSpec never_fast() {
@@ -287,8 +298,118 @@ TEST(Sampler, AnObjectThatFillsTheViewIsSampledAtTheMinimumInterval) {
   start.objects[0].v_W = Eigen::Vector3d(0, 0.5, 0);
   Sampler sampler = sampler_for({0.3});
   const auto times = run(sampler, start, kFar, 10000);
-  EXPECT_EQ(times.size(), 100u);
-  for (std::size_t i = 1; i < times.size(); ++i) EXPECT_EQ(times[i] - times[i - 1], 100);
+  EXPECT_EQ(times.size(), 40u);
+  for (std::size_t i = 1; i < times.size(); ++i) EXPECT_EQ(times[i] - times[i - 1], 250);
+}
+
+// A ball that crosses the view of a camera at rest.
+Snapshot crossing_ball(const Eigen::Vector3d& p_C, const Eigen::Vector3d& v_C) {
+  Snapshot start;
+  start.launched = {true};
+  start.objects.resize(1);
+  start.objects[0].p_W = mounted_camera() * p_C;
+  start.objects[0].v_W = mounted_camera().linear() * v_C;
+  return start;
+}
+
+TEST(Sampler, AFastObjectAsksForItsRegionAndNotForTheWholeImage) {
+  Sampler sampler = sampler_for({0.1});
+  const auto samples =
+      run_samples(sampler, crossing_ball({-1, 0, 2}, {6, 0, 0}), 1.0, 4 * kLongest);
+  std::vector<TimeUs> whole;
+  int regions = 0;
+  TimeUs previous = 0;
+  for (const Sample& sample : samples) {
+    EXPECT_GT(sample.t_us, previous);
+    previous = sample.t_us;
+    if (sample.object == Sample::kWholeImage) {
+      whole.push_back(sample.t_us);
+    } else {
+      EXPECT_EQ(sample.object, 0);
+      ++regions;
+    }
+  }
+  EXPECT_EQ(whole, (std::vector<TimeUs>{5000, 10000, 15000, 20000}));
+  // 600 px/s or a little more, half a pixel each.
+  EXPECT_GT(regions, 20);
+  EXPECT_LT(regions, 36);
+}
+
+TEST(Sampler, SamplesOfTheWholeImageComeAsIfThereWereNoObjects) {
+  RandomStream random(4, 0, "sampler");
+  for (int trial = 0; trial < 50; ++trial) {
+    Snapshot start = random_scene(random);
+    Sampler sampler = sampler_for({0.15});
+    std::vector<TimeUs> whole;
+    for (const Sample& sample : run_samples(sampler, start, 1.0, 20000)) {
+      if (sample.object == Sample::kWholeImage) whole.push_back(sample.t_us);
+    }
+    start.launched = {false};
+    const auto alone = run(sampler, start, 1.0, 20000);
+    ASSERT_EQ(whole.size(), alone.size());
+    // Sums of displacements round differently when there are more stops on the way.
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      EXPECT_LE(std::abs(whole[i] - alone[i]), static_cast<TimeUs>(i + 1));
+    }
+  }
+}
+
+TEST(Sampler, EveryPixelThatAnObjectEntersOrLeavesIsInTheSamplesBeforeAndAfter) {
+  RandomStream random(5, 0, "sampler");
+  const double radius = 0.15;
+  int regions = 0;
+  for (int trial = 0; trial < 25; ++trial) {
+    Snapshot start = random_scene(random);
+    start.vehicle.v_W *= 0.2;
+    start.vehicle.w_W *= 0.2;
+    // In view, at its border or just beside.
+    const Eigen::Vector3d ray(random.uniform(-1, 1), random.uniform(-0.75, 0.75), 1);
+    start.objects[0].p_W = mounted_camera() * Eigen::Vector3d(random.uniform(1.2, 3) * ray);
+    start.objects[0].v_W = random_vector(random, random.uniform(3, 10));
+    Sampler sampler = sampler_for({radius});
+    const auto centre_C = [&](TimeUs t_us) {
+      const Snapshot s = scene(start, t_us);
+      return Eigen::Vector3d((s.vehicle.pose() * mounted_camera()).inverse() * s.objects[0].p_W);
+    };
+    const auto covered = [&](const Eigen::Vector3d& c, int x, int y) {
+      const Eigen::Vector3d ray((x - kIntrinsics.cx()) / kIntrinsics.f,
+                                (y - kIntrinsics.cy()) / kIntrinsics.f, 1);
+      return c.dot(ray) > 0 && c.cross(ray).norm() < radius * ray.norm();
+    };
+    Rect previous{0, 0, kIntrinsics.width, kIntrinsics.height};
+    TimeUs previous_us = 0;
+    for (const Sample& sample : run_samples(sampler, start, kFar, 8000)) {
+      const Eigen::Vector3d a = centre_C(previous_us);
+      const Eigen::Vector3d b = centre_C(sample.t_us);
+      const Rect region = sampler.region(sample, scene(start, sample.t_us));
+      const auto inside = [](const Rect& r, int x, int y) {
+        return x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
+      };
+      for (int y = 0; y < kIntrinsics.height; ++y) {
+        for (int x = 0; x < kIntrinsics.width; ++x) {
+          if (inside(previous, x, y) && inside(region, x, y)) continue;
+          ASSERT_EQ(covered(a, x, y), covered(b, x, y)) << trial << " " << sample.t_us;
+        }
+      }
+      regions += !region.empty() && sample.object == 0 ? 1 : 0;
+      previous = region;
+      previous_us = sample.t_us;
+    }
+  }
+  EXPECT_GT(regions, 200);
+}
+
+TEST(Sampler, ARegionIsLittleLargerThanTheObject) {
+  const Snapshot ball = crossing_ball({0, 0, 2}, {1, 0, 0});
+  Sampler sampler = sampler_for({0.1});
+  sampler.reset(0);
+  const double outline_px = kIntrinsics.f * 0.1 / std::sqrt(4 - 0.01);
+  const Rect region = sampler.region({250, 0}, scene(ball, 250));
+  for (const int side : {region.x1 - region.x0, region.y1 - region.y0}) {
+    EXPECT_GE(side, 2 * outline_px + 4);
+    EXPECT_LE(side, 2 * outline_px + 4 + 2);
+  }
+  EXPECT_TRUE(sampler_for({0.1}).region({250, 0}, crossing_ball({5, 0, 2}, {0, 0, 0})).empty());
 }
 
 TEST(Sampler, RefusesLimitsThatAllowNoSampling) {
