@@ -2,9 +2,13 @@
 // speed, against which the real one is held.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -16,6 +20,11 @@ namespace dodgesim::testing {
 struct Frame {
   TimeUs t_us = 0;
   std::vector<float> luminance;
+  std::optional<Rect> region = std::nullopt;  // if set, only these pixels are sampled
+
+  bool shows(int x, int y) const {
+    return !region || (x >= region->x0 && x < region->x1 && y >= region->y0 && y < region->y1);
+  }
 };
 
 using Frames = std::vector<Frame>;
@@ -46,7 +55,12 @@ inline std::vector<Event> emulate(EventCamera& camera, const Frames& frames) {
   std::vector<Event> events;
   camera.reset(frames.front().t_us, frames.front().luminance.data());
   for (std::size_t i = 1; i < frames.size(); ++i) {
-    camera.update(frames[i].t_us, frames[i].luminance.data(), events);
+    const Frame& frame = frames[i];
+    if (frame.region) {
+      camera.add_region(frame.t_us, *frame.region, frame.luminance.data());
+    } else {
+      camera.update(frame.t_us, frame.luminance.data(), events);
+    }
   }
   return events;
 }
@@ -68,15 +82,19 @@ inline std::vector<ReferenceEvent> reference_events(const EventCamera& camera, c
     for (int x = 0; x < camera.width(); ++x) {
       const PixelState pixel = camera.pixel(x, y);
       const auto index = static_cast<std::size_t>(y * camera.width() + x);
+      std::vector<const Frame*> samples;  // of this pixel
+      for (const Frame& frame : frames) {
+        if (frame.shows(x, y)) samples.push_back(&frame);
+      }
       const auto value = [&](std::size_t i) {
-        return std::log(log_epsilon + static_cast<double>(frames[i].luminance[index]));
+        return std::log(log_epsilon + static_cast<double>(samples[i]->luminance[index]));
       };
       double reference = value(0);
-      double now = static_cast<double>(frames.front().t_us);  // the pixel is settled up to here
+      double now = static_cast<double>(samples.front()->t_us);  // the pixel is settled up to here
       bool held = false;  // if so, now is the end of the refractory period
-      for (std::size_t i = 1; i < frames.size(); ++i) {
-        const auto t0 = static_cast<double>(frames[i - 1].t_us);
-        const auto t1 = static_cast<double>(frames[i].t_us);
+      for (std::size_t i = 1; i < samples.size(); ++i) {
+        const auto t0 = static_cast<double>(samples[i - 1]->t_us);
+        const auto t1 = static_cast<double>(samples[i]->t_us);
         const double slope = (value(i) - value(i - 1)) / (t1 - t0);
         while (now <= t1) {
           if (held) {
@@ -107,6 +125,23 @@ inline std::vector<ReferenceEvent> reference_events(const EventCamera& camera, c
   std::sort(events.begin(), events.end(),
             [](const auto& a, const auto& b) { return event_order(a.event, b.event); });
   return events;
+}
+
+// Pixel by pixel, because two pixels may swap places when their stamps round differently.
+inline void expect_same(const std::vector<Event>& events,
+                        const std::vector<ReferenceEvent>& expected) {
+  ASSERT_EQ(events.size(), expected.size());
+  std::map<std::pair<int, int>, std::vector<Event>> by_pixel;
+  for (const Event& event : events) by_pixel[{event.x, event.y}].push_back(event);
+  std::map<std::pair<int, int>, std::size_t> next;
+  for (const auto& [t_us, event] : expected) {
+    const auto& stream = by_pixel[{event.x, event.y}];
+    const std::size_t i = next[{event.x, event.y}]++;
+    ASSERT_LT(i, stream.size());
+    EXPECT_EQ(stream[i].polarity, event.polarity);
+    // Rounded to the microsecond; at the start of an interval pushed into it.
+    EXPECT_LE(std::abs(static_cast<double>(stream[i].t_us) - t_us), 1 + 1e-6);
+  }
 }
 
 }  // namespace dodgesim::testing
