@@ -371,10 +371,22 @@ TEST(Sampler, EveryPixelThatAnObjectEntersOrLeavesIsInTheSamplesBeforeAndAfter) 
       const Snapshot s = scene(start, t_us);
       return Eigen::Vector3d((s.vehicle.pose() * mounted_camera()).inverse() * s.objects[0].p_W);
     };
+    // Which of the corners of a pixel are covered, as bits.
     const auto covered = [&](const Eigen::Vector3d& c, int x, int y) {
-      const Eigen::Vector3d ray((x - kIntrinsics.cx()) / kIntrinsics.f,
-                                (y - kIntrinsics.cy()) / kIntrinsics.f, 1);
-      return c.dot(ray) > 0 && c.cross(ray).norm() < radius * ray.norm();
+      int corners = 0;
+      for (const double dx : {-0.5, 0.5}) {
+        for (const double dy : {-0.5, 0.5}) {
+          const Eigen::Vector3d ray(x + dx - kIntrinsics.cx(), y + dy - kIntrinsics.cy(),
+                                    kIntrinsics.f);
+          const double along = c.dot(ray);
+          corners =
+              2 * corners +
+              (along > 0 && along * along > (c.squaredNorm() - radius * radius) * ray.squaredNorm()
+                   ? 1
+                   : 0);
+        }
+      }
+      return corners;
     };
     Rect previous{0, 0, kIntrinsics.width, kIntrinsics.height};
     TimeUs previous_us = 0;
@@ -397,6 +409,21 @@ TEST(Sampler, EveryPixelThatAnObjectEntersOrLeavesIsInTheSamplesBeforeAndAfter) 
     }
   }
   EXPECT_GT(regions, 200);
+}
+
+TEST(Sampler, ARegionHoldsThePlaceOfTheObjectInTheSampleBefore) {
+  const Snapshot ball = crossing_ball({0, 0, 2}, {40, 0, 0});  // under-sampled
+  for (const int before : {Sample::kWholeImage, 0}) {
+    Sampler sampler = sampler_for({0.1});
+    sampler.reset(0);
+    const Rect first = sampler.region({1000, 0}, scene(ball, 1000));
+    sampler.region({2000, before}, scene(ball, 2000));
+    const Rect both = sampler.region({3000, 0}, scene(ball, 3000));
+    const Rect third = sampler_for({0.1}).region({3000, 0}, scene(ball, 3000));
+    EXPECT_EQ(both.x1, third.x1);
+    EXPECT_NEAR(both.x0, first.x0 + kIntrinsics.f * 40 * 1e-3 / 2, 1);
+    EXPECT_NEAR(third.x0, both.x0 + kIntrinsics.f * 40 * 1e-3 / 2, 1);
+  }
 }
 
 TEST(Sampler, ARegionIsLittleLargerThanTheObject) {
