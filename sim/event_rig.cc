@@ -16,12 +16,6 @@ double seconds_since(WallClock::time_point start) {
   return std::chrono::duration<double>(WallClock::now() - start).count();
 }
 
-std::vector<int> object_bodies(const World& world) {
-  std::vector<int> bodies;
-  for (int i = 0; i < world.object_count(); ++i) bodies.push_back(world.object_body(i));
-  return bodies;
-}
-
 std::vector<double> object_radii(const World& world) {
   std::vector<double> radii;
   for (int i = 0; i < world.object_count(); ++i) {
@@ -62,7 +56,7 @@ struct EventRig::Eye {
 EventRig::EventRig(const World& world, const EventRigSetup& setup)
     : world_(world),
       setup_(setup),
-      renderer_(world.model(), object_bodies(world), setup.intrinsics, setup.render),
+      renderer_(world, setup.intrinsics, setup.render),
       region_luminance_(static_cast<std::size_t>(setup.intrinsics.width) *
                         static_cast<std::size_t>(setup.intrinsics.height)) {
   for (int i = 0; i < setup.cameras; ++i) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "dodge/dodger.h"
+#include "sim/world/room_ray.h"
 
 namespace dodgesim {
 
@@ -220,11 +221,8 @@ void Flight::judge() { referee_.observe(world_); }
 double Flight::true_range_m() const {
   const Eigen::Isometry3d X_WR = world_.snapshot().vehicle.pose() * world_.vehicle().X_BR;
   const Eigen::Vector3d down_W = X_WR.linear() * Eigen::Vector3d::UnitZ();
-  constexpr mjtByte kRoomOnly[mjNGROUP] = {1, 0, 0, 0, 0, 0};
-  int geom = -1;
-  const double distance_m = mj_ray(&world_.model(), &world_.data(), X_WR.translation().data(),
-                                   down_W.data(), kRoomOnly, 1, -1, &geom);
-  return geom >= 0 ? distance_m : std::numeric_limits<double>::infinity();
+  const std::optional<RoomHit> hit = room_along(world_, X_WR.translation(), down_W);
+  return hit ? hit->distance : std::numeric_limits<double>::infinity();
 }
 
 const Snapshot* Flight::truth_at(TimeUs t_us) const {

@@ -4,6 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/config/resolve_throw.h"
+#include "sim/world/room_ray.h"
 
 namespace dodgesim {
 
@@ -41,16 +42,11 @@ BodyState undisturbed_vehicle(const Scenario& scenario, int throw_index, TimeUs 
 void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_W,
                            const Eigen::Vector3d& launch_p_W, int throw_index) {
   const Eigen::Vector3d ray_W = launch_p_W - vehicle_p_W;
-  constexpr mjtByte kRoomOnly[mjNGROUP] = {1, 0, 0, 0, 0, 0};
-  int geom = -1;
-  // The distance comes in lengths of the ray.
-  const double at = mj_ray(&world.model(), &world.data(), vehicle_p_W.data(), ray_W.data(),
-                           kRoomOnly, 1, -1, &geom);
-  if (geom < 0 || at >= 1) return;
+  const std::optional<RoomHit> hit = room_along(world, vehicle_p_W, ray_W);
+  if (!hit || hit->distance >= 1) return;
   std::ostringstream message;
   message << "Throw " << throw_index << " starts at (" << launch_p_W.x() << ", " << launch_p_W.y()
-          << ", " << launch_p_W.z() << ") m, behind the room's \""
-          << mj_id2name(&world.model(), mjOBJ_GEOM, geom)
+          << ", " << launch_p_W.z() << ") m, behind the room's \"" << geom_name(world, hit->geom)
           << "\": reduce throw.distance_m or move mission.start_m.";
   throw ScenarioError(message.str());
 }

@@ -1,6 +1,9 @@
 #include "sim/world/view_distance.h"
 
+#include <algorithm>
 #include <limits>
+
+#include "sim/world/room_ray.h"
 
 namespace dodgesim {
 
@@ -33,15 +36,11 @@ double ViewDistance::nearest_m(const World& world, const Snapshot& now,
 }
 
 void ViewDistance::cast(const World& world, const Eigen::Isometry3d& X_WC) {
-  constexpr mjtByte kRoomOnly[mjNGROUP] = {1, 0, 0, 0, 0, 0};
   cast_p_W_ = X_WC.translation();
   cast_m_ = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& ray_C : rays_C_) {
-    const Eigen::Vector3d ray_W = X_WC.linear() * ray_C;
-    int geom = -1;
-    const double distance = mj_ray(&world.model(), &world.data(), cast_p_W_.data(), ray_W.data(),
-                                   kRoomOnly, 1, -1, &geom);
-    if (geom >= 0 && distance < cast_m_) cast_m_ = distance;
+    const auto hit = room_along(world, cast_p_W_, X_WC.linear() * ray_C);
+    if (hit) cast_m_ = std::min(cast_m_, hit->distance);
   }
 }
 
