@@ -1,6 +1,9 @@
 #include "sim/event_rig.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstddef>
 #include <string>
 
 #include "sim/events/event_log.h"
@@ -29,6 +32,12 @@ std::string camera_name(int camera) { return camera == 0 ? "top" : "bottom"; }
 
 }  // namespace
 
+// A sample that waits for the key at its end.
+struct EventRig::Look {
+  Sample sample;
+  Snapshot snapshot;  // of the sample's instant
+};
+
 // One camera.
 struct EventRig::Eye {
   Eye(const World& world, const EventRigSetup& setup, int camera)
@@ -39,8 +48,14 @@ struct EventRig::Eye {
                setup.throw_index, camera_name(camera)),
         packets(setup.packet_us),
         view(setup.intrinsics),
+        before(setup.intrinsics, max_turn_px(setup)),
+        now(setup.intrinsics, max_turn_px(setup)),
         luminance(static_cast<std::size_t>(setup.intrinsics.width) *
                   static_cast<std::size_t>(setup.intrinsics.height)) {}
+
+  static int max_turn_px(const EventRigSetup& setup) {
+    return static_cast<int>(std::ceil(setup.sampling.max_turn_px));
+  }
 
   int index;
   Eigen::Isometry3d X_BC;
@@ -48,6 +63,9 @@ struct EventRig::Eye {
   EventCamera pixels;
   Packetizer packets;
   ViewDistance view;
+  TurnedPicture before, now;  // the static scene at the last two keys
+  TimeUs before_us = 0, now_us = 0;
+  std::vector<Look> looks;  // since the last key
   std::vector<float> luminance;
   EventHash hash;
   std::int64_t count = 0;
@@ -56,41 +74,93 @@ struct EventRig::Eye {
 EventRig::EventRig(const World& world, const EventRigSetup& setup)
     : world_(world),
       setup_(setup),
-      renderer_(world, setup.intrinsics, setup.render),
-      region_luminance_(static_cast<std::size_t>(setup.intrinsics.width) *
-                        static_cast<std::size_t>(setup.intrinsics.height)) {
+      renderer_(world, TurnedPicture(setup.intrinsics, Eye::max_turn_px(setup)).intrinsics(),
+                setup.render) {
   for (int i = 0; i < setup.cameras; ++i) {
     eyes_.push_back(std::make_unique<Eye>(world, setup, i));
   }
+  region_luminance_.resize(eyes_.front()->luminance.size());
+  const Intrinsics& wide = eyes_.front()->now.intrinsics();
+  drawn_luminance_.resize(static_cast<std::size_t>(wide.width) *
+                          static_cast<std::size_t>(wide.height));
 }
 
 EventRig::~EventRig() = default;
 
-void EventRig::draw(const Eye& eye, const Snapshot& snapshot, const Rect& region,
-                    std::vector<float>& luminance) {
+// A part of the view as it is, objects and all.
+void EventRig::draw_region(const Eye& eye, const Snapshot& snapshot, const Rect& region,
+                           std::vector<float>& luminance) {
+  const int margin = eye.now.margin_px();
+  const Rect part = {region.x0 + margin, region.y0 + margin, region.x1 + margin,
+                     region.y1 + margin};
+  renderer_.render(snapshot, snapshot.vehicle.pose() * eye.X_BC, part, drawn_luminance_.data(),
+                   nullptr);
+  const std::ptrdiff_t stride = eye.now.intrinsics().width;
+  for (std::ptrdiff_t y = region.y0; y < region.y1; ++y) {
+    std::copy_n(drawn_luminance_.begin() + (y + margin) * stride + part.x0, region.x1 - region.x0,
+                luminance.begin() + y * setup_.intrinsics.width + region.x0);
+  }
+}
+
+// Draws the objects over a picture of the static scene.
+void EventRig::draw_objects(Eye& eye, const Snapshot& snapshot) {
+  for (std::size_t i = 0; i < snapshot.objects.size(); ++i) {
+    const Rect outline = eye.sampler.outline(snapshot, i);
+    if (!outline.empty()) draw_region(eye, snapshot, outline, eye.luminance);
+  }
+}
+
+// Draws the static scene of a key.
+void EventRig::draw_key(Eye& eye, const Snapshot& snapshot) {
   const auto start = WallClock::now();
-  renderer_.render(snapshot, snapshot.vehicle.pose() * eye.X_BC, region, luminance.data(), nullptr);
+  std::swap(eye.before, eye.now);
+  eye.before_us = eye.now_us;
+  eye.now_us = snapshot.t_us;
+  still_ = snapshot;
+  still_.launched.assign(snapshot.launched.size(), false);
+  const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
+  const Intrinsics& wide = eye.now.intrinsics();
+  renderer_.render(still_, X_WC, {0, 0, wide.width, wide.height}, drawn_luminance_.data(), nullptr);
+  eye.now.set(X_WC.linear(), drawn_luminance_);
+  ++drawn_;
   render_s_ += seconds_since(start);
 }
 
-void EventRig::draw(Eye& eye, const Snapshot& snapshot) {
-  draw(eye, snapshot, {0, 0, setup_.intrinsics.width, setup_.intrinsics.height}, eye.luminance);
-  ++frames_;
+// The whole picture of the last key's instant.
+void EventRig::show_key(Eye& eye, const Snapshot& snapshot) {
+  const auto start = WallClock::now();
+  eye.now.copy_view(eye.luminance);
+  draw_objects(eye, snapshot);
+  render_s_ += seconds_since(start);
+}
+
+// The whole picture of an instant between the last two keys.
+void EventRig::show_turned(Eye& eye, const Snapshot& snapshot) {
+  const auto start = WallClock::now();
+  const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
+  const double share = static_cast<double>(snapshot.t_us - eye.before_us) /
+                       static_cast<double>(eye.now_us - eye.before_us);
+  blend_turned(setup_.intrinsics, eye.before, eye.now, X_WC.linear(), share, eye.luminance);
+  draw_objects(eye, snapshot);
+  ++turned_;
+  render_s_ += seconds_since(start);
 }
 
 void EventRig::start() {
   const Snapshot& now = world_.snapshot();
   for (auto& eye : eyes_) {
-    draw(*eye, now);
+    draw_key(*eye, now);
+    show_key(*eye, now);
     eye->pixels.reset(now.t_us, eye->luminance.data());
     eye->sampler.reset(now.t_us);
     eye->packets.reset();
+    eye->looks.clear();
   }
 }
 
 void EventRig::rebase() {
   for (auto& eye : eyes_) {
-    draw(*eye, world_.snapshot());
+    show_key(*eye, world_.snapshot());
     eye->pixels.rebase(eye->luminance.data());
   }
 }
@@ -104,31 +174,45 @@ void EventRig::advance(const Snapshot& a, const Snapshot& b, const Sink& sink) {
     samples_.clear();
     eye->sampler.advance(a, b, eye->view.nearest_m(world_, b, eye->X_BC), samples_);
     for (const Sample& sample : samples_) {
-      look(*eye, sample, interpolate(a, b, sample.t_us));
-      while (const std::optional<Packet> packet = eye->packets.take()) sink(eye->index, *packet);
+      eye->looks.push_back({sample, interpolate(a, b, sample.t_us)});
+      if (sample.is_key()) take_looks(*eye, sink);
     }
   }
 }
 
-// Takes a sample.
-void EventRig::look(Eye& eye, const Sample& sample, const Snapshot& snapshot) {
-  const Rect region = eye.sampler.region(sample, snapshot);
-  if (region.empty()) return;
-  if (sample.object != Sample::kWholeImage) {
-    draw(eye, snapshot, region, region_luminance_);
-    ++regions_;
-    const auto start = WallClock::now();
-    eye.pixels.add_region(sample.t_us, region, region_luminance_.data());
-    emulate_s_ += seconds_since(start);
-    return;
+// Takes the samples that have waited for the key that is the last of them.
+void EventRig::take_looks(Eye& eye, const Sink& sink) {
+  draw_key(eye, eye.looks.back().snapshot);
+  for (const Look& look : eye.looks) {
+    const Rect region = eye.sampler.region(look.sample, look.snapshot);
+    if (look.sample.object != Sample::kWholeImage) {
+      if (!region.empty()) take_region(eye, region, look.snapshot);
+      continue;
+    }
+    look.sample.turned ? show_turned(eye, look.snapshot) : show_key(eye, look.snapshot);
+    take_picture(eye, look.sample.t_us);
+    while (const std::optional<Packet> packet = eye.packets.take()) sink(eye.index, *packet);
   }
-  draw(eye, snapshot);
+  eye.looks.clear();
+}
+
+void EventRig::take_region(Eye& eye, const Rect& region, const Snapshot& snapshot) {
+  auto start = WallClock::now();
+  draw_region(eye, snapshot, region, region_luminance_);
+  ++regions_;
+  render_s_ += seconds_since(start);
+  start = WallClock::now();
+  eye.pixels.add_region(snapshot.t_us, region, region_luminance_.data());
+  emulate_s_ += seconds_since(start);
+}
+
+void EventRig::take_picture(Eye& eye, TimeUs t_us) {
   const auto start = WallClock::now();
   events_.clear();
-  eye.pixels.update(sample.t_us, eye.luminance.data(), events_);
+  eye.pixels.update(t_us, eye.luminance.data(), events_);
   eye.hash.add(events_);
   eye.count += static_cast<std::int64_t>(events_.size());
-  eye.packets.push(events_, sample.t_us);
+  eye.packets.push(events_, t_us);
   emulate_s_ += seconds_since(start);
 }
 

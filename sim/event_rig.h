@@ -1,5 +1,6 @@
 // The vehicle's event cameras: decides when each looks, draws what it sees, turns that into events
-// and packs them for the USB link.
+// and packs them for the USB link. What lies between two drawn pictures waits for the second of
+// them; as every instant that is required is one, nothing is known late.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include "sim/events/packetizer.h"
 #include "sim/events/sampler.h"
 #include "sim/render/luminance_renderer.h"
+#include "sim/render/turned_picture.h"
 #include "sim/world/world.h"
 
 namespace dodgesim {
@@ -50,31 +52,40 @@ class EventRig {
 
   std::int64_t event_count(int camera) const;
   std::uint64_t events_hash() const;                 // of all events of all cameras
-  std::int64_t frames() const { return frames_; }    // whole pictures drawn
+  std::int64_t drawn() const { return drawn_; }      // whole pictures that were drawn
+  std::int64_t turned() const { return turned_; }    // whole pictures that follow from two drawn
   std::int64_t regions() const { return regions_; }  // pictures drawn of an object's region only
   double render_s() const { return render_s_; }      // wall clock, for reports only
   double emulate_s() const { return emulate_s_; }    // wall clock, for reports only
 
   // The last whole picture of a camera: width x height, linear luminance.
   const std::vector<float>& luminance(int camera) const;
-  const LuminanceRenderer& renderer() const { return renderer_; }
 
  private:
   struct Eye;
+  struct Look;
 
-  void draw(const Eye& eye, const Snapshot& snapshot, const Rect& region,
-            std::vector<float>& luminance);
-  void draw(Eye& eye, const Snapshot& snapshot);
-  void look(Eye& eye, const Sample& sample, const Snapshot& snapshot);
+  void draw_key(Eye& eye, const Snapshot& snapshot);
+  void draw_region(const Eye& eye, const Snapshot& snapshot, const Rect& region,
+                   std::vector<float>& luminance);
+  void draw_objects(Eye& eye, const Snapshot& snapshot);
+  void show_key(Eye& eye, const Snapshot& snapshot);
+  void show_turned(Eye& eye, const Snapshot& snapshot);
+  void take_looks(Eye& eye, const Sink& sink);
+  void take_region(Eye& eye, const Rect& region, const Snapshot& snapshot);
+  void take_picture(Eye& eye, TimeUs t_us);
 
   const World& world_;
   EventRigSetup setup_;
-  LuminanceRenderer renderer_;
+  LuminanceRenderer renderer_;  // of the view with its margin
   std::vector<std::unique_ptr<Eye>> eyes_;
   std::vector<Sample> samples_;
-  std::vector<float> region_luminance_;  // full size
+  Snapshot still_;                       // the scene without its objects
+  std::vector<float> drawn_luminance_;   // as the renderer draws it, with margin
+  std::vector<float> region_luminance_;  // width x height
   std::vector<Event> events_;
-  std::int64_t frames_ = 0;
+  std::int64_t drawn_ = 0;
+  std::int64_t turned_ = 0;
   std::int64_t regions_ = 0;
   double render_s_ = 0;
   double emulate_s_ = 0;

@@ -284,7 +284,8 @@ FlightTiming Flight::timing() const {
   if (rig_) {
     timing.render_s = rig_->render_s();
     timing.emulate_s = rig_->emulate_s();
-    timing.frames = rig_->frames();
+    timing.drawn = rig_->drawn();
+    timing.turned = rig_->turned();
     timing.regions = rig_->regions();
   }
   return timing;

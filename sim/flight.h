@@ -73,7 +73,8 @@ struct FlightTiming {
   double render_s = 0;
   double emulate_s = 0;
   double pilot_s = 0;
-  std::int64_t frames = 0;   // whole pictures
+  std::int64_t drawn = 0;    // whole pictures drawn
+  std::int64_t turned = 0;   // whole pictures turned from drawn ones
   std::int64_t regions = 0;  // pictures of an object's region only
 };
 

@@ -98,7 +98,7 @@ def main():
     write_png(out / "panel.png", dead_leaves(2, 0.40, 0.65, 0.12, upright=1.0, leaves=2000))
     write_png(out / "floor.png", dead_leaves(3, 0.25, 0.40, 0.08, upright=0.3, leaves=4000))
     write_png(out / "ceiling.png", dead_leaves(4, 0.70, 0.88, 0.15, upright=1.0, leaves=1500))
-    write_png(out / "print.png", dead_leaves(5, 0.10, 0.80, 0.06, upright=0.6, leaves=400, texels=128))
+    write_png(out / "print.png", dead_leaves(5, 0.15, 0.75, 0.30, upright=0.6, leaves=60, texels=128))
     write_png(out / "ground.png", dead_leaves(6, 0.12, 0.30, 0.05, upright=0.0, leaves=12000))
 
 

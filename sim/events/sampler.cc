@@ -39,7 +39,8 @@ Sampler::Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics,
       max_interval_us_(static_cast<TimeUs>(1e6 / spec.min_rate_hz)),
       parts_(1 + object_radius_m_.size()),
       last_seen_(object_radius_m_.size()) {
-  if (!(spec.max_displacement_px > 0) || max_interval_us_ < 1 || spec.min_interval_us < 1) {
+  if (!(spec.max_displacement_px > 0) || !(spec.max_parallax_px > 0) || max_interval_us_ < 1 ||
+      spec.min_interval_us < 1) {
     throw std::invalid_argument("The sampling of an event camera needs positive limits.");
   }
   const double f = intrinsics.f;
@@ -73,18 +74,25 @@ void Sampler::require(TimeUs t_us) {
   if (place == required_us_.end() || *place != t_us) required_us_.insert(place, t_us);
 }
 
-void Sampler::advance(const Snapshot& a, const Snapshot& b, double nearest_static_m,
-                      std::vector<Sample>& samples) {
-  parts_[0].speed_pxps =
-      std::max(static_speed(a, nearest_static_m), static_speed(b, nearest_static_m));
+void Sampler::set_speeds(const Snapshot& a, const Snapshot& b, double nearest_static_m) {
+  const StaticSpeed at_a = static_speed(a, nearest_static_m);
+  const StaticSpeed at_b = static_speed(b, nearest_static_m);
+  parts_[0].speed_pxps = turn_.speed_pxps = std::max(at_a.total, at_b.total);
+  parallax_.speed_pxps = std::max(at_a.parallax, at_b.parallax);
   for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
     parts_[1 + i].speed_pxps = std::max(object_speed(a, i), object_speed(b, i));
   }
+}
+
+void Sampler::advance(const Snapshot& a, const Snapshot& b, double nearest_static_m,
+                      std::vector<Sample>& samples) {
+  set_speeds(a, b, nearest_static_m);
   TimeUs now_us = a.t_us;
   while (true) {
     const Sample sample = next_sample(now_us);
     const double dt_s = seconds(std::min(sample.t_us, b.t_us) - now_us);
     for (Part& part : parts_) part.moved_px += part.speed_pxps * dt_s;
+    for (Part* part : {&turn_, &parallax_}) part->moved_px += part->speed_pxps * dt_s;
     if (sample.t_us > b.t_us) return;
     samples.push_back(sample);
     now_us = sample.t_us;
@@ -93,23 +101,24 @@ void Sampler::advance(const Snapshot& a, const Snapshot& b, double nearest_stati
 }
 
 void Sampler::sampled(const Sample& sample) {
-  if (sample.object != Sample::kWholeImage) {
-    Part& part = parts_[1 + static_cast<std::size_t>(sample.object)];
+  const auto restart = [&sample](Part& part) {
     part.last_us = sample.t_us;
     part.moved_px = 0;
+  };
+  if (sample.object != Sample::kWholeImage) {
+    restart(parts_[1 + static_cast<std::size_t>(sample.object)]);
     return;
   }
-  for (Part& part : parts_) {
-    part.last_us = sample.t_us;
-    part.moved_px = 0;
-  }
+  for (Part& part : parts_) restart(part);
+  if (sample.turned) return;
+  restart(turn_);
+  restart(parallax_);
   const auto later = std::upper_bound(required_us_.begin(), required_us_.end(), sample.t_us);
   required_us_.erase(required_us_.begin(), later);
 }
 
 // The instant at which a part has moved limit_px since its last sample, if the speed lasts.
-TimeUs Sampler::time_of_displacement(std::size_t i, double limit_px, TimeUs now_us) const {
-  const Part& part = parts_[i];
+TimeUs Sampler::time_of_displacement(const Part& part, double limit_px, TimeUs now_us) const {
   const double left_px = std::max(0.0, limit_px - part.moved_px);
   // Beyond the longest interval nobody asks.
   if (part.speed_pxps * seconds(max_interval_us_) <= left_px) return kNever;
@@ -117,24 +126,32 @@ TimeUs Sampler::time_of_displacement(std::size_t i, double limit_px, TimeUs now_
 }
 
 // The instant at which the motion of a part asks for its next sample, if the speed lasts.
-TimeUs Sampler::time_of_motion(std::size_t i, TimeUs now_us) const {
-  const TimeUs last_us = parts_[i].last_us;
-  TimeUs t_us = time_of_displacement(i, spec_.max_displacement_px, now_us);
-  const TimeUs fast_us = last_us + spec_.fast_interval_us;
+TimeUs Sampler::time_of_motion(const Part& part, TimeUs now_us) const {
+  TimeUs t_us = time_of_displacement(part, spec_.max_displacement_px, now_us);
+  const TimeUs fast_us = part.last_us + spec_.fast_interval_us;
   if (t_us < fast_us) {
-    t_us = std::min(fast_us, time_of_displacement(i, fast_displacement_px_, now_us));
+    t_us = std::min(fast_us, time_of_displacement(part, fast_displacement_px_, now_us));
   }
-  return std::max(t_us, last_us + spec_.min_interval_us);
+  return std::max(t_us, part.last_us + spec_.min_interval_us);
+}
+
+// The instant at which the next key is due at the latest, if the speeds last.
+TimeUs Sampler::time_of_key(TimeUs now_us) const {
+  TimeUs t_us = std::min(time_of_displacement(turn_, spec_.max_turn_px, now_us),
+                         time_of_displacement(parallax_, spec_.max_parallax_px, now_us));
+  t_us = std::min(std::max(t_us, turn_.last_us + spec_.min_interval_us),
+                  turn_.last_us + max_interval_us_);
+  return required_us_.empty() ? t_us : std::min(t_us, required_us_.front());
 }
 
 // The sample after now_us that is due first if the speeds last.
 Sample Sampler::next_sample(TimeUs now_us) const {
-  Sample next{std::min(time_of_motion(0, now_us), parts_[0].last_us + max_interval_us_),
-              Sample::kWholeImage};
-  if (!required_us_.empty()) next.t_us = std::min(next.t_us, required_us_.front());
-  next.t_us = std::max(next.t_us, now_us + 1);
+  const TimeUs key_us = std::max(time_of_key(now_us), now_us + 1);
+  Sample next{key_us};
+  const TimeUs between_us = std::max(time_of_motion(parts_[0], now_us), now_us + 1);
+  if (between_us < key_us) next = {between_us, Sample::kWholeImage, true};
   for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
-    const TimeUs t_us = std::max(time_of_motion(1 + i, now_us), now_us + 1);
+    const TimeUs t_us = std::max(time_of_motion(parts_[1 + i], now_us), now_us + 1);
     if (t_us < next.t_us) next = {t_us, static_cast<int>(i)};
   }
   return next;
@@ -145,6 +162,10 @@ ImageBox Sampler::bounds(const Snapshot& snapshot, std::size_t object) const {
   const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * X_BC_;
   return sphere_bounds(intrinsics_, X_WC.inverse() * snapshot.objects[object].p_W,
                        object_radius_m_[object]);
+}
+
+Rect Sampler::outline(const Snapshot& snapshot, std::size_t object) const {
+  return pixels_about(bounds(snapshot, object), kRegionMarginPx, intrinsics_);
 }
 
 Rect Sampler::region(const Sample& sample, const Snapshot& snapshot) {
@@ -172,12 +193,13 @@ Sampler::CameraMotion Sampler::camera_motion(const Snapshot& snapshot) const {
   return camera;
 }
 
-double Sampler::static_speed(const Snapshot& snapshot, double nearest_static_m) const {
+Sampler::StaticSpeed Sampler::static_speed(const Snapshot& snapshot,
+                                           double nearest_static_m) const {
   const CameraMotion camera = camera_motion(snapshot);
   const Eigen::Vector3d& w = camera.w_C;
   const Eigen::Vector3d& v = camera.v_C;
   const double distance = std::max(nearest_static_m, kNearestM);
-  double fastest = 0;
+  StaticSpeed fastest;
   for (const Eigen::Vector2d& p : view_grid_) {
     const double x = p.x();
     const double y = p.y();
@@ -187,9 +209,11 @@ double Sampler::static_speed(const Snapshot& snapshot, double nearest_static_m) 
     const double inverse_depth = std::sqrt(1 + p.squaredNorm()) / distance;
     const Eigen::Vector2d shift(-v.x() + x * v.z(), -v.y() + y * v.z());
     // The speed is a convex function of the inverse depth: its maximum is at one of the ends.
-    fastest = std::max({fastest, turn.norm(), (turn + inverse_depth * shift).norm()});
+    const Eigen::Vector2d parallax = inverse_depth * shift;
+    fastest.total = std::max({fastest.total, turn.norm(), (turn + parallax).norm()});
+    fastest.parallax = std::max(fastest.parallax, parallax.norm());
   }
-  return intrinsics_.f * fastest;
+  return {intrinsics_.f * fastest.total, intrinsics_.f * fastest.parallax};
 }
 
 double Sampler::object_speed(const Snapshot& snapshot, std::size_t object) const {

@@ -7,6 +7,12 @@
 // happens within fast_interval_us): of the whole image for the static scene, of the region about
 // the object for an object. Each camera has its own sampler.
 //
+// Of the whole image most samples need not be drawn: where the static scene moves because the
+// camera turns, a picture of it follows from the pictures before and after (turned_picture.h). So a
+// sample of the whole image is a key, which is drawn, or lies between two keys. Between two keys
+// the static scene moves no farther than SamplingSpec::max_turn_px, of which max_parallax_px are
+// due to the camera's translation. What is required is always a key: it ends what is known.
+//
 // A region reaches so far beyond the object that it holds the pixels that the object enters or
 // leaves until its next sample. Each pixel's curve then bends where the object's edge comes and
 // goes, and runs straight while it shows the static scene.
@@ -33,8 +39,10 @@ namespace dodgesim {
 struct Sample {
   TimeUs t_us = 0;
   int object = kWholeImage;  // the index of the object whose region is wanted
+  bool turned = false;       // of the whole image: not drawn but turned from the keys around it
 
   static constexpr int kWholeImage = -1;
+  bool is_key() const { return object == kWholeImage && !turned; }
 
   bool operator==(const Sample&) const = default;
 };
@@ -61,13 +69,20 @@ class Sampler {
   void advance(const Snapshot& a, const Snapshot& b, double nearest_static_m,
                std::vector<Sample>& samples);
 
+  // Where an object is, to be drawn over a picture of the static scene; may be empty.
+  Rect outline(const Snapshot& snapshot, std::size_t object) const;
+
   // The pixels that a sample is of, which may be none. `snapshot` is of the sample's instant. To be
   // called for every sample, in order: an object's region also holds its place in the sample
   // before.
   Rect region(const Sample& sample, const Snapshot& snapshot);
 
   // Bounds on the speed in the image at one instant [px/s].
-  double static_speed(const Snapshot& snapshot, double nearest_static_m) const;
+  struct StaticSpeed {
+    double total = 0;
+    double parallax = 0;  // due to the camera's translation alone
+  };
+  StaticSpeed static_speed(const Snapshot& snapshot, double nearest_static_m) const;
   double object_speed(const Snapshot& snapshot, std::size_t object) const;  // 0: out of view
 
  private:
@@ -78,8 +93,16 @@ class Sampler {
     Eigen::Vector3d w_C;  // angular velocity [rad/s]
   };
   CameraMotion camera_motion(const Snapshot& snapshot) const;
-  TimeUs time_of_displacement(std::size_t part, double limit_px, TimeUs now_us) const;
-  TimeUs time_of_motion(std::size_t part, TimeUs now_us) const;
+  // What moves, and how far it has moved since it was last sampled.
+  struct Part {
+    TimeUs last_us = 0;     // of its last sample
+    double moved_px = 0;    // since then
+    double speed_pxps = 0;  // over the current tick
+  };
+  TimeUs time_of_displacement(const Part& part, double limit_px, TimeUs now_us) const;
+  TimeUs time_of_motion(const Part& part, TimeUs now_us) const;
+  TimeUs time_of_key(TimeUs now_us) const;
+  void set_speeds(const Snapshot& a, const Snapshot& b, double nearest_static_m);
   Sample next_sample(TimeUs now_us) const;
   void sampled(const Sample& sample);
   ImageBox bounds(const Snapshot& snapshot, std::size_t object) const;
@@ -96,13 +119,8 @@ class Sampler {
 
   std::vector<TimeUs> required_us_;  // later than the last sample of the whole image, in order
 
-  // The static scene or an object.
-  struct Part {
-    TimeUs last_us = 0;     // of its last sample
-    double moved_px = 0;    // since then
-    double speed_pxps = 0;  // over the current tick
-  };
   std::vector<Part> parts_;          // the static scene, then each object
+  Part turn_, parallax_;             // the static scene since the last key
   std::vector<ImageBox> last_seen_;  // each object at its last region()
 };
 

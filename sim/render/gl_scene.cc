@@ -136,7 +136,7 @@ unsigned upload_texture(const LuminanceTexture& texture, bool trilinear) {
   for (int face = 0; face < faces; ++face) {
     const GLenum image =
         texture.cube ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face) : GL_TEXTURE_2D;
-    glTexImage2D(image, 0, GL_R32F, texture.width, texture.height, 0, GL_RED, GL_FLOAT,
+    glTexImage2D(image, 0, GL_R16, texture.width, texture.height, 0, GL_RED, GL_FLOAT,
                  texture.texels.data() + static_cast<std::size_t>(face) * face_texels);
   }
   glGenerateMipmap(target);
