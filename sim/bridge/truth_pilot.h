@@ -1,6 +1,7 @@
 // Pilots that need no perception. `oracle` knows the true state of every object in its range, as
-// late as an event would tell; `none` sees nothing and only flies to the goal. Both use the flight
-// core's avoidance and fly through the same delays, controller and motors as the paper's pilot.
+// late as an event would tell, and forgets those that move away from it; `none` sees nothing and
+// only flies to the goal. Both use the flight core's avoidance and fly through the same delays,
+// controller and motors as the paper's pilot.
 #pragma once
 
 #include <vector>

@@ -69,9 +69,16 @@ std::unique_ptr<TruthPilot> pilot(const TruthPilot::Setup& s) {
   return out;
 }
 
+// A ball that flies from p_W to the vehicle.
+Snapshot aimed(const Eigen::Vector3d& p_W) {
+  Snapshot out = scene(0, {p_W});
+  out.objects[0].v_W = 6 * (kVehicle_p_W - p_W).normalized();
+  return out;
+}
+
 bool sees(const TruthPilot::Setup& s, const Eigen::Vector3d& p_W) {
   const auto p = pilot(s);
-  p->observe(scene(0, {p_W}));
+  p->observe(aimed(p_W));
   p->update(kDelayUs);
   return p->obstacles().size() == 1;
 }
@@ -145,7 +152,7 @@ TEST(TruthPilot, TheRangeTurnsWithTheVehicle) {
   s.oracle.range_cap_m = 2;
   const auto p = pilot(s);
   // Turned round, the camera is on the other side: 12 cm nearer to what is behind.
-  Snapshot turned = scene(0, {kVehicle_p_W - Eigen::Vector3d(2.1, 0, 0)});
+  Snapshot turned = aimed(kVehicle_p_W - Eigen::Vector3d(2.1, 0, 0));
   turned.vehicle.q_W = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ());
   p->observe(turned);
   p->update(kDelayUs);
@@ -192,6 +199,25 @@ TEST(TruthPilot, AnObjectThatIsNoLongerSeenIsRememberedAndDecays) {
   const dodge::VelocityCommand after = p->update(500001);
   EXPECT_TRUE(p->obstacles().empty());
   EXPECT_FALSE(after.evading);
+}
+
+TEST(TruthPilot, AnObjectThatMovesAwayIsForgotten) {
+  const auto p = pilot(setup());
+  Snapshot truth = scene(0, {from_camera(2, 0.3, 0)});
+  p->observe(truth);
+  p->update(kDelayUs);
+  ASSERT_EQ(p->obstacles().size(), 1u);
+  truth.t_us = 4000;
+  truth.objects[0].p_W = kVehicle_p_W + Eigen::Vector3d(-0.1, 0.3, 0);  // has passed
+  p->observe(truth);
+  p->update(4000 + kDelayUs);
+  EXPECT_TRUE(p->obstacles().empty());
+  // Also where the vehicle is the faster one.
+  truth.t_us = 8000;
+  truth.vehicle.v_W = Eigen::Vector3d(-8, 0, 0);
+  p->observe(truth);
+  p->update(8000 + kDelayUs);
+  EXPECT_EQ(p->obstacles().size(), 1u);
 }
 
 TEST(TruthPilot, KeepsSeveralObjectsApart) {
