@@ -126,21 +126,28 @@ void EventRig::draw_key(Eye& eye, const Snapshot& snapshot) {
   render_s_ += seconds_since(start);
 }
 
-// The whole picture of the last key's instant.
-void EventRig::show_key(Eye& eye, const Snapshot& snapshot) {
+// The whole picture as it is at the last key, or follows from it alone.
+void EventRig::show_last(Eye& eye, const Snapshot& snapshot) {
   const auto start = WallClock::now();
-  eye.now.copy_view(eye.luminance);
+  if (snapshot.t_us == eye.now_us) {
+    eye.now.copy_view(eye.luminance);
+  } else {
+    const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
+    dodgesim::turn(setup_.intrinsics, eye.now, X_WC.linear(), eye.luminance);
+    ++turned_;
+  }
   draw_objects(eye, snapshot);
   render_s_ += seconds_since(start);
 }
 
 // The whole picture of an instant between the last two keys.
-void EventRig::show_turned(Eye& eye, const Snapshot& snapshot) {
+void EventRig::show_between(Eye& eye, const Snapshot& snapshot) {
   const auto start = WallClock::now();
   const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
   const double share = static_cast<double>(snapshot.t_us - eye.before_us) /
                        static_cast<double>(eye.now_us - eye.before_us);
-  blend_turned(setup_.intrinsics, eye.before, eye.now, X_WC.linear(), share, eye.luminance);
+  blend_turned(setup_.intrinsics, eye.before, eye.now, X_WC.linear(), share, region_luminance_,
+               eye.luminance);
   draw_objects(eye, snapshot);
   ++turned_;
   render_s_ += seconds_since(start);
@@ -150,7 +157,7 @@ void EventRig::start() {
   const Snapshot& now = world_.snapshot();
   for (auto& eye : eyes_) {
     draw_key(*eye, now);
-    show_key(*eye, now);
+    show_last(*eye, now);
     eye->pixels.reset(now.t_us, eye->luminance.data());
     eye->sampler.reset(now.t_us);
     eye->packets.reset();
@@ -160,7 +167,7 @@ void EventRig::start() {
 
 void EventRig::rebase() {
   for (auto& eye : eyes_) {
-    show_key(*eye, world_.snapshot());
+    show_last(*eye, world_.snapshot());
     eye->pixels.rebase(eye->luminance.data());
   }
 }
@@ -175,21 +182,22 @@ void EventRig::advance(const Snapshot& a, const Snapshot& b, const Sink& sink) {
     eye->sampler.advance(a, b, eye->view.nearest_m(world_, b, eye->X_BC), samples_);
     for (const Sample& sample : samples_) {
       eye->looks.push_back({sample, interpolate(a, b, sample.t_us)});
-      if (sample.is_key()) take_looks(*eye, sink);
+      if (sample.is_key() || sample.due) take_looks(*eye, sink);
     }
   }
 }
 
-// Takes the samples that have waited for the key that is the last of them.
+// Takes the samples that have waited for the last of them.
 void EventRig::take_looks(Eye& eye, const Sink& sink) {
-  draw_key(eye, eye.looks.back().snapshot);
+  const bool key = eye.looks.back().sample.is_key();
+  if (key) draw_key(eye, eye.looks.back().snapshot);
   for (const Look& look : eye.looks) {
     const Rect region = eye.sampler.region(look.sample, look.snapshot);
     if (look.sample.object != Sample::kWholeImage) {
       if (!region.empty()) take_region(eye, region, look.snapshot);
       continue;
     }
-    look.sample.turned ? show_turned(eye, look.snapshot) : show_key(eye, look.snapshot);
+    key&& look.sample.turned ? show_between(eye, look.snapshot) : show_last(eye, look.snapshot);
     take_picture(eye, look.sample.t_us);
     while (const std::optional<Packet> packet = eye.packets.take()) sink(eye.index, *packet);
   }

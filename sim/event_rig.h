@@ -1,6 +1,6 @@
 // The vehicle's event cameras: decides when each looks, draws what it sees, turns that into events
 // and packs them for the USB link. What lies between two drawn pictures waits for the second of
-// them; as every instant that is required is one, nothing is known late.
+// them, but no longer than until an instant that is required.
 #pragma once
 
 #include <cstdint>
@@ -69,8 +69,8 @@ class EventRig {
   void draw_region(const Eye& eye, const Snapshot& snapshot, const Rect& region,
                    std::vector<float>& luminance);
   void draw_objects(Eye& eye, const Snapshot& snapshot);
-  void show_key(Eye& eye, const Snapshot& snapshot);
-  void show_turned(Eye& eye, const Snapshot& snapshot);
+  void show_last(Eye& eye, const Snapshot& snapshot);
+  void show_between(Eye& eye, const Snapshot& snapshot);
   void take_looks(Eye& eye, const Sink& sink);
   void take_region(Eye& eye, const Rect& region, const Snapshot& snapshot);
   void take_picture(Eye& eye, TimeUs t_us);

@@ -110,9 +110,13 @@ void Sampler::sampled(const Sample& sample) {
     return;
   }
   for (Part& part : parts_) restart(part);
-  if (sample.turned) return;
-  restart(turn_);
-  restart(parallax_);
+  if (!sample.turned) {
+    restart(turn_);
+    restart(parallax_);
+  } else if (!sample.due) {
+    return;
+  }
+  last_due_us_ = sample.t_us;
   const auto later = std::upper_bound(required_us_.begin(), required_us_.end(), sample.t_us);
   required_us_.erase(required_us_.begin(), later);
 }
@@ -135,23 +139,38 @@ TimeUs Sampler::time_of_motion(const Part& part, TimeUs now_us) const {
   return std::max(t_us, part.last_us + spec_.min_interval_us);
 }
 
-// The instant at which the next key is due at the latest, if the speeds last.
+// The instant at which the static scene's motion asks for its next key, if the speeds last.
 TimeUs Sampler::time_of_key(TimeUs now_us) const {
-  TimeUs t_us = std::min(time_of_displacement(turn_, spec_.max_turn_px, now_us),
-                         time_of_displacement(parallax_, spec_.max_parallax_px, now_us));
-  t_us = std::min(std::max(t_us, turn_.last_us + spec_.min_interval_us),
-                  turn_.last_us + max_interval_us_);
-  return required_us_.empty() ? t_us : std::min(t_us, required_us_.front());
+  const TimeUs t_us = std::min(time_of_displacement(turn_, spec_.max_turn_px, now_us),
+                               time_of_displacement(parallax_, spec_.max_parallax_px, now_us));
+  return std::max(t_us, turn_.last_us + spec_.min_interval_us);
+}
+
+// The instant at which what was seen must be known.
+TimeUs Sampler::time_due() const {
+  const TimeUs longest_us = last_due_us_ + max_interval_us_;
+  return required_us_.empty() ? longest_us : std::min(longest_us, required_us_.front());
+}
+
+// Whether a sample that is due at t_us must be drawn.
+bool Sampler::needs_key(TimeUs t_us, TimeUs now_us) const {
+  const double left_s = seconds(t_us - now_us);
+  return turn_.moved_px + turn_.speed_pxps * left_s > spec_.max_turn_px ||
+         parallax_.moved_px + parallax_.speed_pxps * left_s > spec_.max_drift_px;
 }
 
 // The sample after now_us that is due first if the speeds last.
 Sample Sampler::next_sample(TimeUs now_us) const {
-  const TimeUs key_us = std::max(time_of_key(now_us), now_us + 1);
-  Sample next{key_us};
-  const TimeUs between_us = std::max(time_of_motion(parts_[0], now_us), now_us + 1);
-  if (between_us < key_us) next = {between_us, Sample::kWholeImage, true};
+  const auto later = [now_us](TimeUs t_us) { return std::max(t_us, now_us + 1); };
+  Sample next{later(time_of_key(now_us))};
+  const TimeUs due_us = later(time_due());
+  if (due_us <= next.t_us) {
+    next = {due_us, Sample::kWholeImage, !needs_key(due_us, now_us), true};
+  }
+  const TimeUs between_us = later(time_of_motion(parts_[0], now_us));
+  if (between_us < next.t_us) next = {between_us, Sample::kWholeImage, true};
   for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
-    const TimeUs t_us = std::max(time_of_motion(parts_[1 + i], now_us), now_us + 1);
+    const TimeUs t_us = later(time_of_motion(parts_[1 + i], now_us));
     if (t_us < next.t_us) next = {t_us, static_cast<int>(i)};
   }
   return next;

@@ -9,9 +9,10 @@
 //
 // Of the whole image most samples need not be drawn: where the static scene moves because the
 // camera turns, a picture of it follows from the pictures before and after (turned_picture.h). So a
-// sample of the whole image is a key, which is drawn, or lies between two keys. Between two keys
-// the static scene moves no farther than SamplingSpec::max_turn_px, of which max_parallax_px are
-// due to the camera's translation. What is required is always a key: it ends what is known.
+// sample of the whole image is a key, which is drawn, or turned. Between two keys the static scene
+// moves no farther than SamplingSpec::max_turn_px, of which max_parallax_px are due to the camera's
+// translation. What is due cannot wait for the next key: it is a key itself, or turned from the
+// last key alone where translation has moved nothing by more than max_drift_px since.
 //
 // A region reaches so far beyond the object that it holds the pixels that the object enters or
 // leaves until its next sample. Each pixel's curve then bends where the object's edge comes and
@@ -40,6 +41,7 @@ struct Sample {
   TimeUs t_us = 0;
   int object = kWholeImage;  // the index of the object whose region is wanted
   bool turned = false;       // of the whole image: not drawn but turned from the keys around it
+  bool due = false;          // of the whole image: no later sample can be waited for
 
   static constexpr int kWholeImage = -1;
   bool is_key() const { return object == kWholeImage && !turned; }
@@ -102,6 +104,8 @@ class Sampler {
   TimeUs time_of_displacement(const Part& part, double limit_px, TimeUs now_us) const;
   TimeUs time_of_motion(const Part& part, TimeUs now_us) const;
   TimeUs time_of_key(TimeUs now_us) const;
+  TimeUs time_due() const;
+  bool needs_key(TimeUs t_us, TimeUs now_us) const;
   void set_speeds(const Snapshot& a, const Snapshot& b, double nearest_static_m);
   Sample next_sample(TimeUs now_us) const;
   void sampled(const Sample& sample);
@@ -117,7 +121,8 @@ class Sampler {
   double max_secant_;                         // 1/cos of the angle of the corners of the view
   TimeUs max_interval_us_;
 
-  std::vector<TimeUs> required_us_;  // later than the last sample of the whole image, in order
+  std::vector<TimeUs> required_us_;  // later than the last sample that was due, in order
+  TimeUs last_due_us_ = 0;           // a key counts
 
   std::vector<Part> parts_;          // the static scene, then each object
   Part turn_, parallax_;             // the static scene since the last key

@@ -59,6 +59,7 @@ struct SamplingSpec {
   std::int64_t fast_interval_us = 500;
   double max_turn_px = 16;
   double max_parallax_px = 1;
+  double max_drift_px = 0.1;
   double min_rate_hz = 200;
   std::int64_t min_interval_us = 250;
 
@@ -78,6 +79,9 @@ struct SamplingSpec {
     v("max_parallax_px", max_parallax_px, 0.01, 100,
       "Farthest motion in the image between two drawn pictures due to the camera's translation, "
       "which is taken to run linearly in time.");
+    v("max_drift_px", max_drift_px, 0, 100,
+      "The same between a picture that is drawn and one that is turned from it alone, because the "
+      "next cannot be waited for; a tenth of a pixel is as much as edges are out of place anyway.");
     v("min_rate_hz", min_rate_hz, 1, 4000,
       "Rate of the samples of the whole image when nothing moves; its inverse bounds how late an "
       "event is known.");

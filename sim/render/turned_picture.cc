@@ -63,43 +63,37 @@ struct Reading {
   return top + fv * (bottom - top);
 }
 
-[[gnu::always_inline]] inline void blend_row(const Reading& a, const Reading& b, float share_b,
-                                             int row, int width, float* __restrict out) {
-  const float* const fine_a = a.fine;
-  const float* const fine_b = b.fine;
-  const Homography map_a = a.map, map_b = b.map;
-  const int stride = a.stride;
-  const auto last_column = static_cast<float>(a.stride - 2);
-  const auto last_row = static_cast<float>(a.rows - 2);
+[[gnu::always_inline]] inline void read_row(const Reading& reading, int row, int width,
+                                            float* __restrict out) {
+  const float* const fine = reading.fine;
+  const Homography map = reading.map;
+  const int stride = reading.stride;
+  const auto last_column = static_cast<float>(reading.stride - 2);
+  const auto last_row = static_cast<float>(reading.rows - 2);
   const auto y = static_cast<float>(row);
   for (int column = 0; column < width; ++column) {
-    const auto x = static_cast<float>(column);
-    const float from_a = read(fine_a, stride, last_column, last_row, map_a, x, y);
-    const float from_b = read(fine_b, stride, last_column, last_row, map_b, x, y);
-    out[column] = from_a + share_b * (from_b - from_a);
+    out[column] = read(fine, stride, last_column, last_row, map, static_cast<float>(column), y);
   }
 }
 
-using BlendRow = void (*)(const Reading&, const Reading&, float, int, int, float*);
+using ReadRow = void (*)(const Reading&, int, int, float*);
 
-void blend_row_portable(const Reading& a, const Reading& b, float share_b, int row, int width,
-                        float* out) {
-  blend_row(a, b, share_b, row, width, out);
+void read_row_portable(const Reading& reading, int row, int width, float* out) {
+  read_row(reading, row, width, out);
 }
 
 #if defined(__x86_64__)
 // Without fused multiply-add: the same operations, eight at a time.
-[[gnu::target("avx2")]] void blend_row_avx2(const Reading& a, const Reading& b, float share_b,
-                                            int row, int width, float* out) {
-  blend_row(a, b, share_b, row, width, out);
+[[gnu::target("avx2")]] void read_row_avx2(const Reading& reading, int row, int width, float* out) {
+  read_row(reading, row, width, out);
 }
 #endif
 
-BlendRow fastest_blend_row() {
+ReadRow fastest_read_row() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return blend_row_avx2;
+  if (__builtin_cpu_supports("avx2")) return read_row_avx2;
 #endif
-  return blend_row_portable;
+  return read_row_portable;
 }
 
 }  // namespace
@@ -164,17 +158,25 @@ void TurnedPicture::refine() {
   }
 }
 
-void blend_turned(const Intrinsics& view, TurnedPicture& a, TurnedPicture& b,
-                  const Eigen::Matrix3d& R_WC, double share_b, std::vector<float>& luminance) {
-  static const BlendRow blend = fastest_blend_row();
-  const auto reading = [&](TurnedPicture& picture) {
-    return Reading{picture.fine().data(), picture.fine_width(), 2 * picture.intrinsics().height,
-                   fine_from_view(view, picture.intrinsics(), picture.R_WC(), R_WC)};
-  };
-  const Reading from_a = reading(a), from_b = reading(b);
+void turn(const Intrinsics& view, TurnedPicture& picture, const Eigen::Matrix3d& R_WC,
+          std::vector<float>& luminance) {
+  static const ReadRow read_row = fastest_read_row();
+  const Reading reading{picture.fine().data(), picture.fine_width(),
+                        2 * picture.intrinsics().height,
+                        fine_from_view(view, picture.intrinsics(), picture.R_WC(), R_WC)};
   for (int row = 0; row < view.height; ++row) {
-    blend(from_a, from_b, static_cast<float>(share_b), row, view.width,
-          luminance.data() + std::ptrdiff_t{row} * view.width);
+    read_row(reading, row, view.width, luminance.data() + std::ptrdiff_t{row} * view.width);
+  }
+}
+
+void blend_turned(const Intrinsics& view, TurnedPicture& a, TurnedPicture& b,
+                  const Eigen::Matrix3d& R_WC, double share_b, std::vector<float>& scratch,
+                  std::vector<float>& luminance) {
+  turn(view, a, R_WC, luminance);
+  turn(view, b, R_WC, scratch);
+  const auto share = static_cast<float>(share_b);
+  for (std::size_t i = 0; i < luminance.size(); ++i) {
+    luminance[i] += share * (scratch[i] - luminance[i]);
   }
 }
 

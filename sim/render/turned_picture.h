@@ -53,9 +53,15 @@ class TurnedPicture {
   bool is_fine_ = false;
 };
 
-// The view of a camera of orientation R_WC, of which `share_b` (0 to 1) is b's. `luminance` is
-// written: view.width x view.height. Equal on every processor, bit for bit.
+// The view of a camera of orientation R_WC, from one picture. `luminance` is written: view.width x
+// view.height. Equal on every processor, bit for bit.
+void turn(const Intrinsics& view, TurnedPicture& picture, const Eigen::Matrix3d& R_WC,
+          std::vector<float>& luminance);
+
+// The same from two, of which `share_b` (0 to 1) is b's. `scratch` is as large as
+// `luminance`.
 void blend_turned(const Intrinsics& view, TurnedPicture& a, TurnedPicture& b,
-                  const Eigen::Matrix3d& R_WC, double share_b, std::vector<float>& luminance);
+                  const Eigen::Matrix3d& R_WC, double share_b, std::vector<float>& scratch,
+                  std::vector<float>& luminance);
 
 }  // namespace dodgesim

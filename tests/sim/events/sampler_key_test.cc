@@ -24,10 +24,27 @@ std::vector<TimeUs> keys(const std::vector<Sample>& samples) {
   return times;
 }
 
-TEST(SamplerKeys, EverySampleIsOneWhileLittleMoves) {
+TEST(SamplerKeys, ACameraThatOnlyTurnsALittleNeedsNone) {
   Sampler sampler = sampler_for({});
-  const auto samples = run_samples(sampler, turning(0.2), kFar, 10 * kLongest);
-  EXPECT_EQ(keys(samples), times_of(samples));
+  const auto samples = run_samples(sampler, turning(0.05), kFar, 10 * kLongest);
+  EXPECT_EQ(samples.size(), 10u);
+  EXPECT_TRUE(keys(samples).empty());
+  for (const Sample& sample : samples) EXPECT_TRUE(sample.due);
+}
+
+TEST(SamplerKeys, WhatIsDueIsOneWhereTranslationMovesIt) {
+  const double limit_px = SamplingSpec().max_drift_px;
+  const double ray = std::hypot(1, 160 / kIntrinsics.f, 120 / kIntrinsics.f);
+  for (const double share : {0.9, 1.1}) {
+    Snapshot start;
+    const double speed_mps = share * limit_px / seconds(kLongest) / kIntrinsics.f / ray;
+    start.vehicle.v_W = mounted_camera().linear() * Eigen::Vector3d(speed_mps, 0, 0);
+    Sampler sampler = sampler_for({});
+    const auto samples = run_samples(sampler, start, 1.0, kLongest);
+    ASSERT_EQ(samples.size(), 1u);
+    EXPECT_EQ(samples[0].is_key(), share > 1);
+    EXPECT_TRUE(samples[0].due);
+  }
 }
 
 TEST(SamplerKeys, ATurnIsMostlySeenBetweenThem) {
@@ -63,7 +80,7 @@ TEST(SamplerKeys, ATranslationAsksForThem) {
               2);
 }
 
-TEST(SamplerKeys, WhatIsRequiredIsOne) {
+TEST(SamplerKeys, WhatIsRequiredIsDue) {
   Sampler sampler = sampler_for({});
   sampler.reset(0);
   sampler.require(1234);
@@ -72,7 +89,13 @@ TEST(SamplerKeys, WhatIsRequiredIsOne) {
   for (TimeUs t = 0; t < 3000; t += kTickUs) {
     sampler.advance(scene(start, t), scene(start, t + kTickUs), kFar, samples);
   }
-  EXPECT_EQ(keys(samples), std::vector<TimeUs>{1234});
+  int due = 0;
+  for (const Sample& sample : samples) {
+    if (!sample.due) continue;
+    EXPECT_EQ(sample.t_us, 1234);
+    ++due;
+  }
+  EXPECT_EQ(due, 1);
 }
 
 }  // namespace

@@ -51,7 +51,8 @@ inline Eigen::Matrix3d turn(double rad, const Eigen::Vector3d& axis) {
 inline std::vector<float> blended(TurnedPicture& a, TurnedPicture& b, const Eigen::Matrix3d& R_WC,
                                   double share) {
   std::vector<float> out(static_cast<std::size_t>(view().width * view().height));
-  blend_turned(view(), a, b, R_WC, share, out);
+  std::vector<float> scratch = out;
+  blend_turned(view(), a, b, R_WC, share, scratch, out);
   return out;
 }
 
