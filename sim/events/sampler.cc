@@ -168,7 +168,10 @@ Sample Sampler::next_sample(TimeUs now_us) const {
     next = {due_us, Sample::kWholeImage, !needs_key(due_us, now_us), true};
   }
   const TimeUs between_us = later(time_of_motion(parts_[0], now_us));
-  if (between_us < next.t_us) next = {between_us, Sample::kWholeImage, true};
+  if (between_us < next.t_us) {
+    const bool turned = between_us - parts_[0].last_us <= spec_.turn_interval_us;
+    next = {between_us, Sample::kWholeImage, turned};
+  }
   for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
     const TimeUs t_us = later(time_of_motion(parts_[1 + i], now_us));
     if (t_us < next.t_us) next = {t_us, static_cast<int>(i)};

@@ -24,22 +24,35 @@ std::vector<TimeUs> keys(const std::vector<Sample>& samples) {
   return times;
 }
 
-TEST(SamplerKeys, ACameraThatOnlyTurnsALittleNeedsNone) {
+SamplingSpec drifting() {
+  SamplingSpec spec;
+  spec.max_drift_px = 0.1;
+  return spec;
+}
+
+TEST(SamplerKeys, EverySampleIsOneWhileSamplesAreFarApart) {
   Sampler sampler = sampler_for({});
+  const auto samples = run_samples(sampler, turning(0.8), kFar, 10 * kLongest);
+  EXPECT_GT(samples.size(), 20u);
+  EXPECT_EQ(keys(samples), times_of(samples));
+}
+
+TEST(SamplerKeys, ACameraThatOnlyTurnsALittleNeedsNoneWhereDriftIsAllowed) {
+  Sampler sampler = sampler_for({}, drifting());
   const auto samples = run_samples(sampler, turning(0.05), kFar, 10 * kLongest);
   EXPECT_EQ(samples.size(), 10u);
   EXPECT_TRUE(keys(samples).empty());
   for (const Sample& sample : samples) EXPECT_TRUE(sample.due);
 }
 
-TEST(SamplerKeys, WhatIsDueIsOneWhereTranslationMovesIt) {
-  const double limit_px = SamplingSpec().max_drift_px;
+TEST(SamplerKeys, WhatIsDueIsOneWhereTranslationMovesItFartherThanTheDrift) {
+  const double limit_px = drifting().max_drift_px;
   const double ray = std::hypot(1, 160 / kIntrinsics.f, 120 / kIntrinsics.f);
   for (const double share : {0.9, 1.1}) {
     Snapshot start;
     const double speed_mps = share * limit_px / seconds(kLongest) / kIntrinsics.f / ray;
     start.vehicle.v_W = mounted_camera().linear() * Eigen::Vector3d(speed_mps, 0, 0);
-    Sampler sampler = sampler_for({});
+    Sampler sampler = sampler_for({}, drifting());
     const auto samples = run_samples(sampler, start, 1.0, kLongest);
     ASSERT_EQ(samples.size(), 1u);
     EXPECT_EQ(samples[0].is_key(), share > 1);
