@@ -32,7 +32,7 @@ std::string camera_name(int camera) { return camera == 0 ? "top" : "bottom"; }
 
 }  // namespace
 
-// A sample that waits for the key at its end.
+// A sample that waits until it can be shown.
 struct EventRig::Look {
   Sample sample;
   Snapshot snapshot;  // of the sample's instant
@@ -65,7 +65,7 @@ struct EventRig::Eye {
   ViewDistance view;
   TurnedPicture before, now;  // the static scene at the last two keys
   TimeUs before_us = 0, now_us = 0;
-  std::vector<Look> looks;  // since the last key
+  std::vector<Look> looks;  // not yet taken
   std::vector<float> luminance;
   EventHash hash;
   std::int64_t count = 0;
@@ -133,7 +133,7 @@ void EventRig::show_last(Eye& eye, const Snapshot& snapshot) {
     eye.now.copy_view(eye.luminance);
   } else {
     const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
-    dodgesim::turn(setup_.intrinsics, eye.now, X_WC.linear(), eye.luminance);
+    turn(setup_.intrinsics, eye.now, X_WC.linear(), eye.luminance);
     ++turned_;
   }
   draw_objects(eye, snapshot);
@@ -197,7 +197,11 @@ void EventRig::take_looks(Eye& eye, const Sink& sink) {
       if (!region.empty()) take_region(eye, region, look.snapshot);
       continue;
     }
-    key&& look.sample.turned ? show_between(eye, look.snapshot) : show_last(eye, look.snapshot);
+    if (key && look.sample.turned) {
+      show_between(eye, look.snapshot);
+    } else {
+      show_last(eye, look.snapshot);
+    }
     take_picture(eye, look.sample.t_us);
     while (const std::optional<Packet> packet = eye.packets.take()) sink(eye.index, *packet);
   }

@@ -3,6 +3,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -130,13 +131,17 @@ unsigned upload_texture(const LuminanceTexture& texture, bool trilinear) {
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(target, GL_TEXTURE_MIN_FILTER,
                   trilinear ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST);
+  // 16 bits hold 8-bit texels exactly, and llvmpipe filters them in float, unlike 8 bits. A bright
+  // tint may take texels beyond 1.
+  const float brightest = *std::max_element(texture.texels.begin(), texture.texels.end());
+  const GLint format = brightest > 1.0f ? GL_R32F : GL_R16;
   const int faces = texture.cube ? 6 : 1;
   const auto face_texels =
       static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height);
   for (int face = 0; face < faces; ++face) {
     const GLenum image =
         texture.cube ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face) : GL_TEXTURE_2D;
-    glTexImage2D(image, 0, GL_R16, texture.width, texture.height, 0, GL_RED, GL_FLOAT,
+    glTexImage2D(image, 0, format, texture.width, texture.height, 0, GL_RED, GL_FLOAT,
                  texture.texels.data() + static_cast<std::size_t>(face) * face_texels);
   }
   glGenerateMipmap(target);

@@ -6,8 +6,8 @@
 // and capsules, by 64 rays a pixel for their ends and for thrown boxes (spheres, ellipsoids,
 // capsules and all thrown solids but meshes are ray-cast), and by edge_smoother.h for what is
 // static and made of triangles (planes, boxes, cylinders, meshes). Not smoothed: thrown meshes, the
-// horizon of an unbounded plane, and where a ray-cast solid cuts into something. Textures are
-// filtered trilinearly.
+// horizon of an unbounded plane, and where a ray-cast solid cuts into something. Textures are read
+// once a pixel, filtered as RenderSpec::texture_filter says.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -40,8 +40,7 @@ struct RenderSpec {
       "full light.");
     v("texture_filter", texture_filter, {"bilinear", "trilinear"},
       "Reading of textures that are seen smaller than they are: bilinear within the nearest level "
-      "of "
-      "the mip-map, or trilinear between two, which takes about half as long again per picture.");
+      "of the mip-map, or trilinear between two, which takes about half as long again per picture.");
     v("texel_encoding", texel_encoding, {"linear", "srgb"},
       "What a texel's value v of 0 to 255 means: the reflectance v/255 (the rooms of this "
       "project), "
