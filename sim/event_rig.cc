@@ -21,6 +21,7 @@ double seconds_since(WallClock::time_point start) {
 
 std::vector<double> object_radii(const World& world) {
   std::vector<double> radii;
+  radii.reserve(static_cast<std::size_t>(world.object_count()));
   for (int i = 0; i < world.object_count(); ++i) {
     radii.push_back(world.object(i).bounding_radius_m);
   }

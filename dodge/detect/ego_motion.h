@@ -70,7 +70,9 @@ class EgoMotion {
     const auto last = static_cast<std::ptrdiff_t>(bins_.size()) - 1;
     const Eigen::Matrix3f& H =
         bins_[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(bin, 0, last))];
-    const Eigen::Vector2f& d = bearings_[static_cast<std::size_t>(event.y * width_ + event.x)];
+    const Eigen::Vector2f& d =
+        bearings_[static_cast<std::size_t>(event.y) * static_cast<std::size_t>(width_) +
+                  static_cast<std::size_t>(event.x)];
     const Eigen::Vector3f p = H.col(0) * d.x() + H.col(1) * d.y() + H.col(2);
     const float scale = 1.0F / p.z();
     return {p.x() * scale, p.y() * scale};

@@ -40,7 +40,8 @@ struct RenderSpec {
       "full light.");
     v("texture_filter", texture_filter, {"bilinear", "trilinear"},
       "Reading of textures that are seen smaller than they are: bilinear within the nearest level "
-      "of the mip-map, or trilinear between two, which takes about half as long again per picture.");
+      "of the mip-map, or trilinear between two, which takes about half as long again per "
+      "picture.");
     v("texel_encoding", texel_encoding, {"linear", "srgb"},
       "What a texel's value v of 0 to 255 means: the reflectance v/255 (the rooms of this "
       "project), "

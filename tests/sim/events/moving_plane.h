@@ -71,6 +71,7 @@ inline std::vector<TimeUs> sample_times(const MovingPlane& plane, const Sampling
     sampler.advance(plane.snapshot(t), plane.snapshot(t + kTickUs), nearest_m, samples);
   }
   std::vector<TimeUs> times;
+  times.reserve(samples.size());
   for (const Sample& sample : samples) times.push_back(sample.t_us);
   return times;
 }

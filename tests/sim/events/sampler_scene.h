@@ -52,6 +52,7 @@ inline std::vector<Sample> run_samples(Sampler& sampler, const Snapshot& start, 
 
 inline std::vector<TimeUs> times_of(const std::vector<Sample>& samples) {
   std::vector<TimeUs> times;
+  times.reserve(samples.size());
   for (const Sample& sample : samples) times.push_back(sample.t_us);
   return times;
 }
