@@ -44,6 +44,7 @@ void BackgroundActivity::draw() {
   const std::uint64_t index = (static_cast<std::uint64_t>(random[1]) * pixel_count_) >> 32;
   next_.pixel = pixels_.empty() ? static_cast<std::uint32_t>(index) : pixels_[index];
   next_.on = unit_interval(random[2]) < on_share_;
+  next_.chance = unit_interval(random[3]);
   // The clock's first microsecond at or after the event.
   const auto whole = static_cast<TimeUs>(time_us_);
   next_.t_us = origin_us_ + whole + (static_cast<double>(whole) < time_us_ ? 1 : 0);

@@ -13,6 +13,7 @@ struct BackgroundEvent {
   TimeUs t_us = 0;
   std::uint32_t pixel = 0;  // y * width + x
   bool on = false;
+  double chance = 0;  // uniform in (0, 1), for whoever wants to keep only a share of the events
 };
 
 // A Poisson process over a set of pixels of equal rate, drawn as one process of the summed rate
