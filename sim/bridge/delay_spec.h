@@ -1,6 +1,6 @@
-// The latency chain from an event's time stamp to the rotor, all in simulated time (design invariant
-// 4). What comes before the stamp, the pixel's latency, belongs to the event camera; the ESC delay
-// and the rotors' lag belong to the motors.
+// The latency chain from an event's time stamp to the rotor, all in simulated time (design
+// invariant 4). What comes before the stamp, the pixel's latency, belongs to the event camera; the
+// ESC delay and the rotors' lag belong to the motors.
 #pragma once
 
 namespace dodgesim {

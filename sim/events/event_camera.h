@@ -24,12 +24,12 @@ namespace dodgesim {
 
 class EventCamera {
  public:
-  static constexpr int kMaxSide = EventWords::kMaxSide;              // of the image [px]
+  static constexpr int kMaxSide = EventWords::kMaxSide;                 // of the image [px]
   static constexpr TimeUs kMaxIntervalUs = EventWords::kMaxTimeUs / 2;  // between two pictures
 
-  // `name` tells the cameras of a vehicle apart. With `keep_causes`, every picture must say what its
-  // pixels show, and causes() says why events happened. Throws std::invalid_argument for an empty or
-  // too large picture.
+  // `name` tells the cameras of a vehicle apart. With `keep_causes`, every picture must say what
+  // its pixels show, and causes() says why events happened. Throws std::invalid_argument for an
+  // empty or too large picture.
   EventCamera(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
               std::uint64_t throw_index, std::string_view name, bool keep_causes = false);
 
@@ -47,8 +47,8 @@ class EventCamera {
   }
 
   // The next picture, of t_us later than the last sample. Appends the events with stamps in
-  // (previous picture, t_us] in (t, y, x, polarity) order. Throws SimulationError for luminance that
-  // is negative or not finite; add_region() does, too.
+  // (previous picture, t_us] in (t, y, x, polarity) order. Throws SimulationError for luminance
+  // that is negative or not finite; add_region() does, too.
   void update(TimeUs t_us, const Picture& picture, std::vector<Event>& out);
   void update(TimeUs t_us, const float* luminance, std::vector<Event>& out) {
     update(t_us, Picture{luminance}, out);

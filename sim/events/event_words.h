@@ -12,7 +12,7 @@ namespace dodgesim {
 
 class EventWords {
  public:
-  static constexpr int kMaxSide = 4096;                       // of an image [px]
+  static constexpr int kMaxSide = 4096;                        // of an image [px]
   static constexpr TimeUs kMaxTimeUs = (TimeUs{1} << 31) - 1;  // since the origin
 
   // Column and row of a pixel, to be kept at hand.

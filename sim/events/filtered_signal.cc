@@ -79,8 +79,8 @@ class FilteredSignal : public PixelSignal {
       Candidate candidate = {static_cast<std::uint32_t>(index), 0, part.last_sample_us(i), 0, 0};
       candidate.s0 = before.z + leak_per_us_ * candidate.t0_us;
       candidate.s1 = static_cast<double>(now[i]) + leak_per_us_ * part.t_us;
-      const auto pieces = photoreceptor_.pieces(before, part.luminance[i], new_u_[i], dt_s,
-                                                tolerance_);
+      const auto pieces =
+          photoreceptor_.pieces(before, part.luminance[i], new_u_[i], dt_s, tolerance_);
       if (pieces.count > 0) {
         bent_.push_back({before, part.luminance[i], new_u_[i], dt_s, pieces});
         candidate.bend = static_cast<std::uint32_t>(bent_.size());

@@ -18,8 +18,8 @@ class LuminanceBounds {
   void set(std::size_t pixel, double low_luminance, double high_luminance);
   void set_empty(std::size_t pixel) { low_[pixel] = high_[pixel] = 0; }
 
-  // may_fire[i] = 1 where luminance[i], that of the pixel first + i, is not between its bounds or is
-  // negative or no number. The same at every vector level.
+  // may_fire[i] = 1 where luminance[i], that of the pixel first + i, is not between its bounds or
+  // is negative or no number. The same at every vector level.
   void scan(std::size_t first, std::size_t size, const float* luminance,
             unsigned char* may_fire) const;
   void scan(std::size_t first, std::size_t size, const float* luminance, unsigned char* may_fire,

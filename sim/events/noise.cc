@@ -54,10 +54,10 @@ double Noise::accepted_share(float luminance) const {
 std::span<const NoiseEvent> Noise::take(TimeUs t_us, const Rect& region, const float* luminance) {
   drawn_.clear();
   shot_.take_until(t_us, drawn_);
-  for (const BackgroundEvent& event : drawn_) waiting_.push_back({event, kCauseShotNoise});
+  for (const PoissonEvent& event : drawn_) waiting_.push_back({event, kCauseShotNoise});
   drawn_.clear();
   hot_.take_until(t_us, drawn_);
-  for (const BackgroundEvent& event : drawn_) waiting_.push_back({event, kCauseHotPixel});
+  for (const PoissonEvent& event : drawn_) waiting_.push_back({event, kCauseHotPixel});
 
   taken_.clear();
   std::erase_if(waiting_, [&](const Waiting& waiting) {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "sim/base/time.h"
-#include "sim/events/background.h"
 #include "sim/events/cause.h"
+#include "sim/events/poisson_events.h"
 #include "sim/events/spec.h"
 #include "sim/render/camera.h"
 
@@ -24,7 +24,8 @@ struct NoiseEvent {
 
 class Noise {
  public:
-  // `name` tells the cameras of a vehicle apart. Which pixels are hot depends on seed and name only.
+  // `name` tells the cameras of a vehicle apart. Which pixels are hot depends on seed and name
+  // only.
   Noise(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
         std::uint64_t throw_index, std::string_view name);
 
@@ -40,14 +41,14 @@ class Noise {
   int width_;
   double bright_share_;
   double bright_luminance_;  // from which on the share is bright_share
-  BackgroundActivity shot_;
-  BackgroundActivity hot_;
+  PoissonEvents shot_;
+  PoissonEvents hot_;
   struct Waiting {
-    BackgroundEvent event;
+    PoissonEvent event;
     Cause cause;
   };
-  std::vector<BackgroundEvent> drawn_;  // scratch
-  std::vector<Waiting> waiting_;        // for a sample of their pixels
+  std::vector<PoissonEvent> drawn_;  // scratch
+  std::vector<Waiting> waiting_;     // for a sample of their pixels
   std::vector<NoiseEvent> taken_;
 };
 

@@ -62,52 +62,43 @@ struct Constants {
   float rad_s, dark_rad_s, follower_rad_s;
 };
 
+// What the vectoriser needs to know: the arrays of a row do not overlap, and what is the same for
+// all pixels is at hand.
 template <int kOrder, bool kOwnTime>
-[[gnu::always_inline]] inline void advance_row(const Constants& c, const Photoreceptor::Row& row) {
-  const std::size_t size = row.size;
-  const float* __restrict const luminance = row.luminance;
-  const float* __restrict const own_dt_s = row.dt_s;
-  const float* __restrict const before_u = row.u;
-  const float* __restrict const before_y = row.y;
-  const float* __restrict const before_z = row.z;
-  float* __restrict const after_u = row.u1;
-  float* __restrict const after_y = row.y1;
-  float* __restrict const after_z = row.z1;
-  const float* __restrict const low = row.low;
-  const float* __restrict const high = row.high;
-  unsigned char* __restrict const may_fire = row.may_fire;
+[[gnu::always_inline]] inline void advance_row(Constants c, Photoreceptor::Row row) {
   constexpr float kMax = std::numeric_limits<float>::max();
-  for (std::size_t i = 0; i < size; ++i) {
-    const float light = luminance[i];
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < row.size; ++i) {
+    const float light = row.luminance[i];
     const float log = natural_log(c.epsilon + light);
     const float line = c.knee + c.slope * (light - c.linear_below);
     const float u1 = light < c.linear_below ? line : log;
-    const float u0 = before_u[i];
-    after_u[i] = u1;
+    const float u0 = row.u[i];
+    row.u1[i] = u1;
     float least = u0 < u1 ? u0 : u1;
     float most = u0 < u1 ? u1 : u0;
     if constexpr (kOrder > 0) {
-      const float dt_s = kOwnTime ? own_dt_s[i] : row.same_dt_s;
-      const float y0 = before_y[i];
+      const float dt_s = kOwnTime ? row.dt_s[i] : row.same_dt_s;
+      const float y0 = row.y[i];
       const float x1 = (c.dark_rad_s + c.rad_s * light) * dt_s;
       const Decay<float> first = decay(x1);
-      after_y[i] = u1 + first.k * (y0 - u0) - first.m * (u1 - u0);
+      row.y1[i] = u1 + first.k * (y0 - u0) - first.m * (u1 - u0);
       least = y0 < least ? y0 : least;
       most = y0 > most ? y0 : most;
       if constexpr (kOrder > 1) {
-        const float z0 = before_z[i];
+        const float z0 = row.z[i];
         const float x2 = c.follower_rad_s * dt_s;
         const Decay<float> second = decay(x2);
         const float g = passed_on(x1, first.k, x2, second.k);
-        after_z[i] = u1 + second.k * (z0 - u0) + g * (y0 - u0) -
-                     (second.m + (1 - second.k - g) / x1) * (u1 - u0);
+        row.z1[i] = u1 + second.k * (z0 - u0) + g * (y0 - u0) -
+                    (second.m + (1 - second.k - g) / x1) * (u1 - u0);
         least = z0 < least ? z0 : least;
         most = z0 > most ? z0 : most;
       }
     }
-    const bool quiet = (least + row.leaked_before > low[i]) & (most + row.leaked < high[i]) &
-                       (light >= 0) & (light <= kMax);
-    may_fire[i] = static_cast<unsigned char>(!quiet);
+    const bool quiet = (least + row.leaked_before > row.low[i]) &
+                       (most + row.leaked < row.high[i]) & (light >= 0) & (light <= kMax);
+    row.may_fire[i] = static_cast<unsigned char>(!quiet);
   }
 }
 
@@ -127,9 +118,9 @@ DODGESIM_TARGET_AVX512 void advance_avx512(const Constants& c, const Photorecept
 }
 
 template <int kOrder, bool kOwnTime>
-constexpr std::array<Kernel, kVectorLevels> kKernels = {
-    advance_portable<kOrder, kOwnTime>, advance_avx2<kOrder, kOwnTime>,
-    advance_avx512<kOrder, kOwnTime>};
+constexpr std::array<Kernel, kVectorLevels> kKernels = {advance_portable<kOrder, kOwnTime>,
+                                                        advance_avx2<kOrder, kOwnTime>,
+                                                        advance_avx512<kOrder, kOwnTime>};
 
 Kernel kernel_for(int order, bool own_time, int level) {
   const auto i = static_cast<std::size_t>(level);
@@ -203,11 +194,13 @@ void Photoreceptor::advance(const Row& row) const {
 }
 
 void Photoreceptor::advance(const Row& row, int vector_level) const {
-  const Constants constants = {
-      static_cast<float>(response_.epsilon()), static_cast<float>(response_.linear_below()),
-      static_cast<float>(response_.slope()),   static_cast<float>(response_.knee()),
-      static_cast<float>(rad_s_),              static_cast<float>(dark_rad_s_),
-      static_cast<float>(follower_rad_s_)};
+  const Constants constants = {static_cast<float>(response_.epsilon()),
+                               static_cast<float>(response_.linear_below()),
+                               static_cast<float>(response_.slope()),
+                               static_cast<float>(response_.knee()),
+                               static_cast<float>(rad_s_),
+                               static_cast<float>(dark_rad_s_),
+                               static_cast<float>(follower_rad_s_)};
   kernel_for(order_, row.dt_s != nullptr, vector_level)(constants, row);
 }
 

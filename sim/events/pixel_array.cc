@@ -145,8 +145,7 @@ void PixelArray::sample_row(int y, double t_us, const Rect& region, const Pictur
   unsigned char* const flags = may_fire_.data();
   std::memset(flags + part.size / kWord * kWord, 0, may_fire_.size() - part.size / kWord * kWord);
   signal_->scan(part, flags);
-  for (; !noise.empty() && noise.front().pixel < part.first + part.size;
-       noise = noise.subspan(1)) {
+  for (; !noise.empty() && noise.front().pixel < part.first + part.size; noise = noise.subspan(1)) {
     flags[noise.front().pixel - part.first] = 1;
   }
   places_.clear();
@@ -192,8 +191,7 @@ void PixelArray::run(const Candidate& candidate, double t1_us, Cause cause, Run&
 
 void PixelArray::run_line(std::size_t index, const Line& line, Cause cause, Run& run) {
   Pixel& pixel = pixels_[index];
-  for (; !run.noise.empty() && run.noise.front().pixel == index;
-       run.noise = run.noise.subspan(1)) {
+  for (; !run.noise.empty() && run.noise.front().pixel == index; run.noise = run.noise.subspan(1)) {
     const NoiseEvent& event = run.noise.front();
     const auto t_us = static_cast<double>(event.t_us - reset_us_);
     if (t_us > line.t1_us) break;

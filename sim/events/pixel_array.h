@@ -3,8 +3,8 @@
 // A pixel answers to the signal S: the response L to the luminance (response.h), behind the
 // photoreceptor's bandwidth (photoreceptor.h), plus what the leak has added to it. S runs linearly
 // from sample to sample, or, where a bandwidth bends it by more than kCurveShare of a threshold, in
-// as many straight pieces as it takes. A pixel fires an ON event when S reaches reference + C_on and
-// an OFF event when S falls to reference - C_off, stamped at that crossing (Lichtsteiner et al.
+// as many straight pieces as it takes. A pixel fires an ON event when S reaches reference + C_on
+// and an OFF event when S falls to reference - C_off, stamped at that crossing (Lichtsteiner et al.
 // 2008; the event model (1) of Falanga et al. 2020); the reference then moves to the level that was
 // crossed, so one interval may hold several events of a pixel.
 //
@@ -62,9 +62,9 @@ class PixelArray {
   // The first picture, of the instant t_us: sets every reference.
   void reset(TimeUs t_us, const Picture& picture);
 
-  // A sample of the pixels of `region`, later than all others. Appends their events since their last
-  // samples, with times since origin_us, which no last sample precedes. `noise` holds their noise
-  // events of that time by (pixel, time).
+  // A sample of the pixels of `region`, later than all others. Appends their events since their
+  // last samples, with times since origin_us, which no last sample precedes. `noise` holds their
+  // noise events of that time by (pixel, time).
   void sample(TimeUs t_us, const Rect& region, const Picture& picture,
               std::span<const NoiseEvent> noise, TimeUs origin_us, EventWords& events);
 
@@ -122,7 +122,7 @@ class PixelArray {
   std::vector<double> sampled_us_;
 
   // Only with causes.
-  std::vector<Cause> shown_;       // by each pixel's last sample
+  std::vector<Cause> shown_;        // by each pixel's last sample
   std::vector<double> leaking_us_;  // since when: the pixel's last event
 
   // Scratch of one call.

@@ -43,7 +43,8 @@ class PixelSignal {
 
   virtual void reset(const float* luminance) = 0;
 
-  // What a call of PixelArray::sample does, in this order: begin, for each row scan and take, finish.
+  // What a call of PixelArray::sample does, in this order: begin, for each row scan and take,
+  // finish.
   virtual void begin() = 0;
   // may_fire[i] = 1 for pixels that may make an event, and for luminance that is negative or no
   // number.

@@ -15,9 +15,13 @@ constexpr std::uint64_t kDrawsPerBlock = 8;
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
-TimeUs rounded_up(double t_us, TimeUs resolution_us) {
-  const auto whole = static_cast<TimeUs>(std::ceil(t_us));
-  return (whole + resolution_us - 1) / resolution_us * resolution_us;
+// The longest that one service may take; keeps times finite.
+constexpr double kLongestServiceUs = 1e9;
+
+// The first multiple of the resolution that is not before t_us.
+TimeUs rounded_up(TimeUs t_us, TimeUs resolution_us) {
+  const TimeUs after_us = t_us % resolution_us;
+  return after_us > 0 ? t_us + resolution_us - after_us : t_us - after_us;
 }
 
 }  // namespace
@@ -27,7 +31,8 @@ Readout::Readout(const EventCameraSpec& spec, int width, int height, const Rando
                  spec.stamp_resolution_us == 1),
       latency_us_(static_cast<double>(spec.latency_us)),
       jitter_us_(spec.jitter_us),
-      service_us_(spec.readout_max_hz > 0 ? 1e6 / spec.readout_max_hz : 0),
+      service_us_(spec.readout_max_hz > 0 ? std::min(1e6 / spec.readout_max_hz, kLongestServiceUs)
+                                          : 0),
       resolution_us_(spec.stamp_resolution_us),
       width_(static_cast<std::size_t>(width)),
       stream_(stream) {
@@ -99,8 +104,8 @@ void Readout::arrive(EventWords& events, TimeUs origin_us, TimeUs t_us) {
     const Event event = arriving_.event(i, origin_us);
     const auto since_us = static_cast<double>(arrival_us - reset_us_);
     if (!serve(since_us, event.y * width_ + event.x)) continue;
-    const double done_us = service_us_ > 0 ? free_us_ : since_us;
-    const TimeUs stamp_us = rounded_up(done_us, resolution_us_) + reset_us_;
+    const auto served_us = reset_us_ + static_cast<TimeUs>(std::ceil(served_us_));
+    const TimeUs stamp_us = rounded_up(served_us, resolution_us_);
     if (stamp_us <= t_us) {
       leaving_.push(stamp_us - origin_us, arriving_.rest(i));
     } else {
@@ -110,20 +115,18 @@ void Readout::arrive(EventWords& events, TimeUs origin_us, TimeUs t_us) {
   leaving_.sort_ties();
 }
 
-// The arbiter takes a request and is busy with it until free_us_. False: lost, the pixel has one
-// waiting already.
+// The arbiter takes a request at served_us_. False: it is lost, the pixel has one waiting already.
 bool Readout::serve(double request_us, std::size_t pixel) {
+  served_us_ = request_us;
   if (service_us_ == 0) return true;
-  if (request_us >= free_us_) {
-    free_us_ = request_us + service_us_;
-  } else if (waits_until_[pixel] > request_us || served_ == pixel) {
-    ++lost_;
-    return false;
-  } else {
-    free_us_ += service_us_;
-    waits_until_[pixel] = free_us_;
+  if (request_us < free_us_) {
+    if (waits_until_[pixel] > request_us) {
+      ++lost_;
+      return false;
+    }
+    served_us_ = waits_until_[pixel] = free_us_;
   }
-  served_ = pixel;
+  free_us_ = served_us_ + service_us_;
   return true;
 }
 

@@ -3,9 +3,11 @@
 // Each event is late by the pixel's latency with its jitter. Then it asks the arbiter, which serves
 // requests in the order in which they come (row by row in the same microsecond), one in
 // 1/readout_max_hz. While a pixel waits, it makes no other request: such events are lost, and
-// counted. The time stamp is the instant of the service, rounded up to the clock's resolution. Under
-// random requests of rate r below the limit m the mean wait is that of a queue with one server and
-// constant service time, r/(2 m (m - r)); above it the line grows until pixels wait that fire again.
+// counted; their change of light is forgotten. So no more events wait than there are pixels. The
+// time stamp is the instant at which the service begins, rounded up to a multiple of the clock's
+// resolution. Under random requests of rate r below the limit m the mean wait is that of a queue
+// with one server and constant service time, r/(2 m (m - r)); above it the line grows until pixels
+// wait that fire again. An event leaves once the clock has reached its stamp.
 #pragma once
 
 #include <array>
@@ -26,8 +28,8 @@ class Readout {
 
   void reset(TimeUs t_us);
 
-  // Takes the events of the pixels up to t_us, sorted, with times since origin_us, and appends those
-  // that have left the readout by t_us, in order (t, y, x, polarity). `causes` may be null.
+  // Takes the events of the pixels up to t_us, sorted, with times since origin_us, and appends
+  // those that have left the readout by t_us, in order (t, y, x, polarity). `causes` may be null.
   void push(EventWords& events, TimeUs origin_us, TimeUs t_us, std::vector<Event>& out,
             std::vector<Cause>* causes);
 
@@ -57,7 +59,7 @@ class Readout {
   std::array<std::uint32_t, 4> random_{};
 
   double free_us_ = 0;               // when the arbiter has served all, since the reset
-  std::size_t served_ = 0;           // the pixel that it serves last
+  double served_us_ = 0;             // when it takes the event that it is given last
   std::vector<double> waits_until_;  // of pixels that have had to wait
   std::int64_t lost_ = 0;
 

@@ -30,7 +30,8 @@ TEST(PaperPilot, DetectsAThrowThenEvades) {
   // Nothing acts before light, link, computer and command could have done their part.
   const DelaySpec& d = s.delays;
   const TimeUs latency_us = s.sensors.events.latency_us;
-  EXPECT_GT(*record.first_detection_us, toss.launch_us + latency_us + d.transport_us + d.compute_us);
+  EXPECT_GT(*record.first_detection_us,
+            toss.launch_us + latency_us + d.transport_us + d.compute_us);
   EXPECT_GE(*record.first_command_us,
             *record.first_detection_us + d.command_us + d.flight_controller_us);
   EXPECT_LT(*record.first_command_us, toss.arrival_us());

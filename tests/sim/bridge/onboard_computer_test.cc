@@ -136,8 +136,7 @@ TEST(OnboardComputer, DeliversNothingBeforeItsStampPlusItsDelay) {
   EXPECT_THAT(ages(bench.log.states), between(delays.state_estimate_us, 0));
   EXPECT_THAT(ages(bench.log.ranges), between(delays.range_us, 0));
   for (int camera = 0; camera < 2; ++camera) {
-    EXPECT_THAT(ages(bench.log.events[camera]),
-                between(delays.transport_us, delays.packet_us));
+    EXPECT_THAT(ages(bench.log.events[camera]), between(delays.transport_us, delays.packet_us));
   }
   EXPECT_GT(bench.log.imu.size(), 390u);
   EXPECT_GT(bench.log.states.size(), 95u);
