@@ -159,7 +159,7 @@ TEST(OnboardComputer, KeepsTheOrderOfEachKindAndLosesNothing) {
   std::vector<TimeUs> imu, states, events;
   for (TimeUs t_us = 1000; t_us <= 39000; t_us += 1000) imu.push_back(t_us);
   for (TimeUs t_us = 4000; t_us <= 36000; t_us += 4000) states.push_back(t_us);
-  for (TimeUs end_us = 1000; end_us <= 38000; end_us += 1000) {
+  for (TimeUs end_us = 1000; end_us <= 39000; end_us += 1000) {
     events.push_back(end_us - 999);
     events.push_back(end_us);
   }
@@ -246,7 +246,7 @@ TEST(OnboardComputer, SaysWhichPacketIsTheNewestThatACycleHas) {
 
 TEST(OnboardComputer, ThePacketsOfOneCameraDoNotHoldUpThoseOfTheOther) {
   DelaySpec delays;
-  delays.transport_us = 1000;
+  delays.transport_us = 1100;
   Log log;
   OnboardComputer computer(delays, std::make_unique<RecordingPilot>(log));
   // One camera's later packet is handed over before the other's earlier one, as when both come out
