@@ -16,10 +16,17 @@ namespace {
 constexpr hsize_t kChunk = 1 << 15;  // values that are compressed together
 constexpr unsigned kGzipLevel = 1;
 
+// Errors are ours to report, and files left open after one (see ~Hdf5Writer()) must not be closed
+// when the program ends.
+void prepare_library() {
+  [[maybe_unused]] static const herr_t once = H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
 class Hdf5Writer : public EventWriter {
  public:
   Hdf5Writer(const std::filesystem::path& path, const Recording& recording) : staged_(path) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are ours to report, not the library's
+    prepare_library();
     file_ = create_file();
     const hid_t group = checked(H5Gcreate2(file_, "events", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
     x_.dataset = create_column("events/x", H5T_STD_U16LE);
@@ -33,9 +40,9 @@ class Hdf5Writer : public EventWriter {
     check(H5Gclose(group));
   }
 
-  ~Hdf5Writer() override {
-    if (file_ >= 0) H5Fclose(file_);  // gives up: the file is about to be removed
-  }
+  // A file that was not finished stays open until the program ends: the library crashes when it is
+  // to close what it could not write.
+  ~Hdf5Writer() override = default;
 
   void add(std::span<const Event> events) override {
     for (const Event& event : events) {
@@ -60,9 +67,7 @@ class Hdf5Writer : public EventWriter {
     close_column(ms_to_idx_);
     // Closing a file reports no error when the disk is full: flushing does.
     check(H5Fflush(file_, H5F_SCOPE_GLOBAL));
-    const hid_t file = file_;
-    file_ = -1;
-    check(H5Fclose(file));
+    check(H5Fclose(file_));
     staged_.commit();
   }
 
