@@ -52,6 +52,7 @@ int run_program(int argc, char** argv) {
   add_validate_command(program, exit_code);
   add_explain_command(program, exit_code);
   add_emulate_command(program, exit_code);
+  add_bench_command(program, joined(argc, argv), exit_code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

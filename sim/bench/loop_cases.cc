@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <memory>
+
+#include "sim/bench/bench_case.h"
+#include "sim/loop.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr double kHoverS = 1.5;  // about as long as a throw
+
+struct Flights {
+  Scenario scenario;
+  std::vector<FlightPlan> plans;
+
+  std::vector<double> run() const {
+    double simulated_s = 0;
+    FlightTiming sum;
+    for (const FlightPlan& plan : plans) {
+      FlightTiming timing;
+      simulated_s += seconds(fly(scenario, plan, nullptr, &timing).last.t_us);
+      sum.total_s += timing.total_s;
+      sum.render_s += timing.render_s;
+      sum.emulate_s += timing.emulate_s;
+      sum.pilot_s += timing.pilot_s;
+    }
+    const double rest_s = sum.total_s - sum.render_s - sum.emulate_s - sum.pilot_s;
+    return {simulated_s / sum.total_s, sum.render_s / sum.total_s, sum.emulate_s / sum.total_s,
+            sum.pilot_s / sum.total_s, rest_s / sum.total_s};
+  }
+};
+
+BenchCase loop_case(const std::string& case_name, const std::string& file,
+                    const std::string& description, bool throws) {
+  const std::string name = "loop." + case_name;
+  BenchCase bench;
+  bench.quantities = {
+      {name + ".real_time_factor", "ratio", "simulated over computing time, " + description},
+      {name + ".render", "share", "of its time that goes into pictures"},
+      {name + ".emulate", "share", "into events"},
+      {name + ".pilot", "share", "into the pilot"},
+      {name + ".rest", "share", "into everything else"}};
+  bench.runs = 3;  // seconds each
+  bench.prepare = [file, throws](const BenchOptions& options) -> BenchRun {
+    auto flights = std::make_shared<Flights>();
+    flights->scenario =
+        load_scenario(options.scenarios_dir + "/" + file + ".yaml", options.models_dir);
+    Scenario& scenario = flights->scenario;
+    if (!throws) {
+      scenario.toss.reset();
+      scenario.duration_s = kHoverS;
+    }
+    const int count = throws ? std::min(options.throws, scenario.repeats) : 1;
+    for (int i = 0; i < count; ++i) flights->plans.push_back(plan_throw(scenario, i));
+    return [flights] { return flights->run(); };
+  };
+  return bench;
+}
+
+}  // namespace
+
+std::vector<BenchCase> loop_cases() {
+  return {loop_case("demo", "demo", "first throws of scenarios/demo.yaml", true),
+          loop_case("goal_flight", "goal_flight", "of scenarios/goal_flight.yaml", true),
+          loop_case("ci", "ci", "of scenarios/ci.yaml", true),
+          loop_case("hover", "demo", "the demo when nobody throws", false)};
+}
+
+}  // namespace dodgesim
