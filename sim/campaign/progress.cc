@@ -36,6 +36,7 @@ void Progress::show(std::int64_t finished) {
 
 void Progress::finish() {
   if (visible_) std::fprintf(stderr, "\r\x1b[K");
+  visible_ = false;
 }
 
 std::string duration_text(double duration_s) {

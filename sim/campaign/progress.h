@@ -11,6 +11,9 @@ class Progress {
  public:
   // Silent unless `visible`. `unit` is what is counted.
   Progress(std::int64_t total, bool visible, std::string unit = "throws");
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() { finish(); }  // so that an error message begins a line of its own
 
   void show(std::int64_t finished);  // of 1 and more; writes a few times a second at most
   void finish();                     // ends the line

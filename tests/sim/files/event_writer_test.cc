@@ -81,6 +81,13 @@ class Hdf5File {
     return values;
   }
 
+  // Whether the dataset holds the instant at which it was made.
+  bool is_dated(const char* name) const {
+    H5O_info_t info;
+    EXPECT_GE(H5Oget_info_by_name2(file_, name, &info, H5O_INFO_TIME, H5P_DEFAULT), 0);
+    return info.ctime != 0;
+  }
+
   // Identifiers of the filters of a dataset.
   std::vector<H5Z_filter_t> filters(const char* name) const {
     const hid_t dataset = H5Dopen2(file_, name, H5P_DEFAULT);
@@ -207,6 +214,10 @@ TEST(EventWriter, MakesTheSameBytesOfTheSameRecording) {
     write(root / ("a" + end), recording_of(events), events);
     write(root / ("b" + end), recording_of(events), events);
     EXPECT_TRUE(contents(root / ("a" + end)) == contents(root / ("b" + end))) << end;
+  }
+  for (const char* name : {"events/x", "events/y", "events/t", "events/p", "events/height",
+                           "events/width", "ms_to_idx", "t_offset"}) {
+    EXPECT_FALSE(Hdf5File(root / "a.h5").is_dated(name)) << name;
   }
 }
 
