@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 
 #include "sim/events/event_log.h"
@@ -168,6 +169,9 @@ void EventRig::start() {
 
 void EventRig::rebase() {
   for (auto& eye : eyes_) {
+    if (!eye->looks.empty()) {
+      throw std::logic_error("Event cameras are rebased at an instant that was required.");
+    }
     show_last(*eye, world_.snapshot());
     eye->pixels.rebase(eye->luminance.data());
   }

@@ -40,8 +40,8 @@ class EventRig {
   // The first picture, of the world as it is: references are set, no events.
   void start();
 
-  // The world has changed at the instant of the last sample without any motion (a thrown object has
-  // come into existence): no events either.
+  // The world has changed at the instant of the last sample, which was required, without any motion
+  // (a thrown object has come into existence): no events either.
   void rebase();
 
   // Asks for a sample of every camera at t_us, which lies in the future.

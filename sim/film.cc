@@ -116,7 +116,7 @@ void Film::caption(const Snapshot& snapshot) {
 void Film::close() {
   writer_.release();
   // The writer reports no failure: count what can be read back.
-  cv::VideoCapture reader(path_);
+  cv::VideoCapture reader(path_, cv::CAP_FFMPEG);
   const int written = static_cast<int>(reader.get(cv::CAP_PROP_FRAME_COUNT));
   if (!reader.isOpened() || written != pictures_) {
     throw IoError("The video " + path_ + " holds " + std::to_string(written) + " of " +

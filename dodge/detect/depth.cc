@@ -146,7 +146,9 @@ std::optional<double> DepthEstimator::correlated_disparity(const View& top, cons
 void DepthEstimator::append(const Cluster& cluster, double depth_m, double depth_sigma_m,
                             const StateEstimate& state, std::vector<Detection>& detections) const {
   const double size_m = depth_m * longer_side(cluster.rectangle) / camera_.mean_focal_px();  // (9)
-  if (depth_m < config_.min_range_m || depth_m > config_.max_range_m) return;
+  const Eigen::Vector2d middle = centre(cluster);
+  const double range_m = back_project(camera_, middle.x(), middle.y(), depth_m).norm();
+  if (range_m < config_.min_range_m || range_m > config_.max_range_m) return;
   if (size_m < config_.min_size_m || size_m > config_.max_size_m) return;
 
   // The events were rotated to the window's end, but seen from where the vehicle was before.
@@ -167,7 +169,6 @@ void DepthEstimator::append(const Cluster& cluster, double depth_m, double depth
   for (std::size_t i = 0; i < 4; ++i) {
     detection.p_W[i] = X_WC * back_project(camera_, corners[i].x, corners[i].y, depth_m);
   }
-  const Eigen::Vector2d middle = centre(cluster);
   const double margin_m = config_.depth_margin == "size" ? size_m : size_m + depth_sigma_m;
   const double near_m = std::max(depth_m - margin_m, 0.0);  // never behind the camera (12)
   detection.p_W[4] = X_WC * back_project(camera_, middle.x(), middle.y(), near_m);

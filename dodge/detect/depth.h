@@ -72,8 +72,7 @@ struct DepthConfig {
       "the centroid of its events.");
     v("min_range_m", min_range_m, 0.01, 100, "Nearer detections are dropped.");
     v("max_range_m", max_range_m, 0.1, 100,
-      "Detections of greater depth are dropped; 1.5 m in the paper, as farther ones are too "
-      "noisy.");
+      "Detections farther from the camera are dropped; 1.5 m in the paper, as they are too noisy.");
     v("min_size_m", min_size_m, 0, 100, "Smaller objects are not credible.");
     v("max_size_m", max_size_m, 0, 100, "Larger objects are not credible.");
     v("depth_margin", depth_margin, {"size", "size_plus_sigma"},

@@ -1,4 +1,5 @@
-// What the pilots that know the truth may see.
+// What the pilots that know the truth may see. An object that they see fly away from the vehicle is
+// no obstacle to them any more.
 #pragma once
 
 namespace dodgesim {

@@ -7,8 +7,8 @@ namespace dodgesim {
 namespace {
 
 // A field that goes on pushing at what has passed drives the vehicle into a wall.
-bool moves_away(const BodyState& object, const BodyState& vehicle) {
-  return (object.p_W - vehicle.p_W).dot(object.v_W - vehicle.v_W) > 0;
+bool flies_away(const BodyState& object, const BodyState& vehicle) {
+  return (object.p_W - vehicle.p_W).dot(object.v_W) > 0;
 }
 
 }  // namespace
@@ -36,11 +36,11 @@ bool TruthPilot::sees(const Snapshot& truth, std::size_t object) const {
 void TruthPilot::see(const Snapshot& truth) {
   for (std::size_t i = 0; i < truth.objects.size(); ++i) {
     const int id = static_cast<int>(i);
-    if (truth.launched[i] && moves_away(truth.objects[i], truth.vehicle)) {
+    if (!sees(truth, i)) continue;
+    if (flies_away(truth.objects[i], truth.vehicle)) {
       std::erase_if(obstacles_, [&](const auto& o) { return o.obstacle.id == id; });
       continue;
     }
-    if (!sees(truth, i)) continue;
     const auto known = dodge::known_obstacle(id, truth.t_us, truth.objects[i].p_W,
                                              truth.objects[i].v_W, setup_.sizes_m[i]);
     const auto old = std::find_if(obstacles_.begin(), obstacles_.end(),

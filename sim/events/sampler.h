@@ -18,11 +18,12 @@
 // leaves until its next sample. Each pixel's curve then bends where the object's edge comes and
 // goes, and runs straight while it shows the static scene.
 //
-// What a loop must do with events that are known late: an event is known at the first sample at or
-// after its stamp, and a packet that ends at T is complete at the first sample at or after T (see
-// packetizer.h). So that no packet is late, the loop asks by require(T) for a sample at the end T
-// of the last packet that the pilot's next cycle will read; between the cycles only the motion asks
-// for samples. A loop that does not is late by at most the longest interval, 1/min_rate_hz.
+// What a loop must do with events that are known late: an event is known once a key or a sample
+// that is due has been taken at or after its stamp, and a packet that ends at T is complete then
+// (see packetizer.h). So that no packet is late, the loop asks by require(T) for a sample at the
+// end T of the last packet that the pilot's next cycle will read; between the cycles only the
+// motion asks for samples. A loop that does not is late by at most the longest interval,
+// 1/min_rate_hz.
 #pragma once
 
 #include <Eigen/Dense>

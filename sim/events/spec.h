@@ -81,7 +81,8 @@ struct SamplingSpec {
       "Farthest motion in the image between two drawn pictures due to the camera's translation, "
       "which is taken to run linearly in time.");
     v("turn_interval_us", turn_interval_us, 0, 1000000,
-      "Samples farther apart than this are drawn. Turned pictures place edges to 0.05 px, which in "
+      "Samples farther apart than this are drawn, unless max_drift_px lets them be turned. Turned "
+      "pictures place edges to 0.05 px, which in "
       "a fast turn is less than 0.1 ms.");
     v("max_drift_px", max_drift_px, 0, 100,
       "Motion due to the camera's translation up to which a picture that is needed at once is "

@@ -55,7 +55,7 @@ TEST_F(FilmTest, WritesAVideoWithAPictureEvery4Ms) {
   Film film(video, intrinsics(s.sensors.camera));
   fly(s, plan_throw(s, 0), &film);
   film.close();
-  cv::VideoCapture reader(video);
+  cv::VideoCapture reader(video, cv::CAP_FFMPEG);
   ASSERT_TRUE(reader.isOpened());
   EXPECT_EQ(reader.get(cv::CAP_PROP_FPS), 25);
   cv::Mat frame;

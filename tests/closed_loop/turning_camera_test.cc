@@ -84,6 +84,7 @@ TEST_F(TurningCamera, SeesMostlyTurnedPicturesAndNearlyTheEventsOfDrawnOnes) {
     const auto difference = compare(turned, reference);
     EXPECT_LT(std::abs(difference.count), 0.15);
     EXPECT_LT(difference.median_us, 100);
+    EXPECT_GT(difference.matched, 0.3);
   }
 }
 
@@ -93,6 +94,7 @@ TEST_F(TurningCamera, IsDrawnEachTimeWhileItTurnsSlowly) {
       compare(events(hover, SamplingSpec()), events(hover, drawn_eight_times_as_often()));
   EXPECT_LT(std::abs(difference.count), 0.1);
   EXPECT_LT(difference.median_us, 100);
+  EXPECT_GT(difference.matched, 0.6);
   events(hover, SamplingSpec());
   EXPECT_EQ(turned_, 0);
 }

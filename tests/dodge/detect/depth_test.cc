@@ -131,7 +131,7 @@ TEST_F(DepthTest, whole_pixels_give_depth_within_the_quantisation_of_the_dispari
 }
 
 TEST_F(DepthTest, depth_uncertainty_is_that_of_one_disparity_sigma) {
-  const Eigen::Vector3d p_B(1.6 - 1e-9, 0, 0);
+  const Eigen::Vector3d p_B(1.6 - 1e-6, 0, 0.075);
   const auto detections = locate(centres(), {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
   ASSERT_EQ(detections.size(), 1U);
   const double sigma_px = centres().stereo.disparity_sigma_px;
@@ -230,7 +230,7 @@ TEST_F(DepthTest, correlation_measures_depth_though_each_camera_sees_another_par
 
 TEST_F(DepthTest, drops_what_is_too_far_too_near_too_large_or_too_small) {
   const auto count = [&](double x_m, double size_m) {
-    const Eigen::Vector3d p_B(x_m + 0.1, 0, 0);
+    const Eigen::Vector3d p_B(x_m + 0.1, 0, 0.075);
     return locate(centres(), {seen_by(0, p_B, size_m)}, {seen_by(1, p_B, size_m)}).size();
   };
   EXPECT_EQ(count(1.49, 0.2), 1U);
@@ -239,6 +239,15 @@ TEST_F(DepthTest, drops_what_is_too_far_too_near_too_large_or_too_small) {
   EXPECT_EQ(count(0.19, 0.1), 0U);
   EXPECT_EQ(count(1, 0.9), 0U);
   EXPECT_EQ(count(1, 0.01), 0U);
+}
+
+TEST_F(DepthTest, range_is_the_distance_from_the_camera_not_the_depth) {
+  const auto count = [&](double y_m) {
+    const Eigen::Vector3d p_B(1.3 + 0.1, y_m, 0.075);  // 1.3 m of depth
+    return locate(centres(), {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)}).size();
+  };
+  EXPECT_EQ(count(0.7), 1U);   // 1.48 m
+  EXPECT_EQ(count(-0.8), 0U);  // 1.53 m
 }
 
 }  // namespace

@@ -201,7 +201,7 @@ TEST(TruthPilot, AnObjectThatIsNoLongerSeenIsRememberedAndDecays) {
   EXPECT_FALSE(after.evading);
 }
 
-TEST(TruthPilot, AnObjectThatMovesAwayIsForgotten) {
+TEST(TruthPilot, AnObjectThatFliesAwayIsForgotten) {
   const auto p = pilot(setup());
   Snapshot truth = scene(0, {from_camera(2, 0.3, 0)});
   p->observe(truth);
@@ -212,11 +212,28 @@ TEST(TruthPilot, AnObjectThatMovesAwayIsForgotten) {
   p->observe(truth);
   p->update(4000 + kDelayUs);
   EXPECT_TRUE(p->obstacles().empty());
-  // Also where the vehicle is the faster one.
-  truth.t_us = 8000;
+}
+
+TEST(TruthPilot, AnObjectThatIsOutrunIsNotForgotten) {
+  const auto p = pilot(setup());
+  Snapshot truth = scene(0, {from_camera(2, 0.3, 0)});
   truth.vehicle.v_W = Eigen::Vector3d(-8, 0, 0);
   p->observe(truth);
-  p->update(8000 + kDelayUs);
+  p->update(kDelayUs);
+  EXPECT_EQ(p->obstacles().size(), 1u);
+}
+
+TEST(TruthPilot, AnObjectOutOfViewIsNotKnownToFlyAway) {
+  TruthPilot::Setup s = setup();
+  s.oracle.field_of_view = true;
+  const auto p = pilot(s);
+  Snapshot truth = scene(0, {from_camera(2, 0.3, 0)});
+  p->observe(truth);
+  p->update(kDelayUs);
+  truth.t_us = 4000;
+  truth.objects[0].p_W = kVehicle_p_W + Eigen::Vector3d(-0.5, 0.3, 0);  // behind the camera
+  p->observe(truth);
+  p->update(4000 + kDelayUs);
   EXPECT_EQ(p->obstacles().size(), 1u);
 }
 
