@@ -24,10 +24,17 @@ struct Flights {
       sum.render_s += timing.render_s;
       sum.emulate_s += timing.emulate_s;
       sum.pilot_s += timing.pilot_s;
+      sum.drawn += timing.drawn;
+      sum.turned += timing.turned;
+      sum.regions += timing.regions;
     }
+    const auto per_second = [simulated_s](std::int64_t count) {
+      return static_cast<double>(count) / simulated_s;
+    };
     const double rest_s = sum.total_s - sum.render_s - sum.emulate_s - sum.pilot_s;
     return {simulated_s / sum.total_s, sum.render_s / sum.total_s, sum.emulate_s / sum.total_s,
-            sum.pilot_s / sum.total_s, rest_s / sum.total_s};
+            sum.pilot_s / sum.total_s, rest_s / sum.total_s,       per_second(sum.drawn),
+            per_second(sum.turned),    per_second(sum.regions)};
   }
 };
 
@@ -40,7 +47,10 @@ BenchCase loop_case(const std::string& case_name, const std::string& file,
       {name + ".render", "share", "of its time that goes into pictures"},
       {name + ".emulate", "share", "into events"},
       {name + ".pilot", "share", "into the pilot"},
-      {name + ".rest", "share", "into everything else"}};
+      {name + ".rest", "share", "into everything else"},
+      {name + ".drawn", "pictures/s", "whole pictures drawn per simulated second, both cameras"},
+      {name + ".turned", "pictures/s", "whole pictures turned from drawn ones"},
+      {name + ".regions", "pictures/s", "pictures of a moving object's region only"}};
   bench.runs = 3;  // seconds each
   bench.prepare = [file, throws](const BenchOptions& options) -> BenchRun {
     auto flights = std::make_shared<Flights>();

@@ -5,9 +5,8 @@
 //       t[i] >= 1000 ms, of length t_last / 1000 + 1; t_offset i64, the instant of t = 0 [us].
 //       gzip level 1 with shuffle, chunked; the same recording makes the same bytes.
 // .npy  NumPy records t <i8 [us], x <u2, y <u2, p |i1 (+1 ON, -1 OFF).
-// .txt  A line "t x y p" an event: t [us] as an integer, p 1 (ON) or 0 (OFF). The columns of the
-// rpg
-//       data sets' events.txt, whose t is in seconds.
+// .txt  A line "t x y p" an event: t [us] as an integer, p 1 (ON) or 0 (OFF). The columns are
+//       those of events.txt in the rpg data sets, where t is in seconds.
 //
 // t is the absolute time in .npy and .txt. A file appears only when it is whole (staged_file.h).
 #pragma once

@@ -11,7 +11,7 @@
 namespace dodgesim {
 
 StagedFile::StagedFile(std::filesystem::path path)
-    : path_(std::move(path)), partial_(path_.string() + ".partial") {
+    : path_(std::move(path)), partial_(partial_name(path_)) {
   std::error_code ignored;
   // Otherwise found out only by commit(), when all the work is done.
   if (std::filesystem::is_directory(path_, ignored)) fail("could not be created", EISDIR);

@@ -15,6 +15,11 @@ class StagedFile {
   StagedFile& operator=(const StagedFile&) = delete;
   ~StagedFile();  // without commit() the temporary file is removed
 
+  // What PATH is called until it is whole.
+  static std::filesystem::path partial_name(const std::filesystem::path& path) {
+    return path.string() + ".partial";
+  }
+
   const std::filesystem::path& partial() const { return partial_; }
   int fd() const { return fd_; }  // open for writing until commit()
 

@@ -85,15 +85,16 @@ void Video::check_times() {
   for (std::int64_t i = 1; i < frame_count_; ++i) {
     TimeUs now = 0;
     times_.read(&now, sizeof now);
-    const std::string which =
-        "time stamp " + std::to_string(i) + " (" + std::to_string(now) + " us)";
+    const auto which = [i, now] {
+      return "time stamp " + std::to_string(i) + " (" + std::to_string(now) + " us)";
+    };
     if (now <= before) {
-      refuse(times_,
-             "does not increase: " + which + " does not follow " + std::to_string(before) + " us");
+      refuse(times_, "does not increase: " + which() + " does not follow " +
+                         std::to_string(before) + " us");
     }
     // Unsigned, because the difference of two int64 may be no int64.
     if (static_cast<std::uint64_t>(now) - static_cast<std::uint64_t>(before) > kMaxIntervalUs) {
-      refuse(times_, "has a gap: " + which + " follows " + std::to_string(before) +
+      refuse(times_, "has a gap: " + which() + " follows " + std::to_string(before) +
                          " us by more than " + std::to_string(kMaxIntervalUs) + " us");
     }
     before = now;

@@ -62,10 +62,14 @@ TEST(BenchCommand, FliesScenarios) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const std::vector<Line> lines = parse(outcome.output);
   ASSERT_THAT(names(lines), ElementsAre("loop.ci.real_time_factor", "loop.ci.render",
-                                        "loop.ci.emulate", "loop.ci.pilot", "loop.ci.rest"));
+                                        "loop.ci.emulate", "loop.ci.pilot", "loop.ci.rest",
+                                        "loop.ci.drawn", "loop.ci.turned", "loop.ci.regions"));
   double shares = 0;
-  for (std::size_t i = 1; i < lines.size(); ++i) shares += lines[i].value;
+  for (const Line& line : lines) {
+    if (line.unit == "share") shares += line.value;
+  }
   EXPECT_NEAR(shares, 1, 1e-3);
+  EXPECT_GT(lines[5].value, 0) << "pictures are drawn";
 }
 
 TEST(BenchCommand, ListsAllCasesWithUnitAndMeaning) {

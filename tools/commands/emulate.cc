@@ -10,6 +10,7 @@
 #include "sim/campaign/progress.h"
 #include "sim/config/event_camera_file.h"
 #include "sim/files/event_writer.h"
+#include "sim/files/staged_file.h"
 #include "sim/files/video.h"
 #include "tools/commands/command.h"
 
@@ -63,9 +64,13 @@ void report(const Video& video, const Counts& counts, const TimedEmulation& time
   std::printf("emulation takes %.3f of the time of cv::log\n", timed.emulation_s() / timed.log_s());
 }
 
+// Neither the output nor what it is called until it is whole may be an input.
 void refuse_same_file(const std::string& out, const std::string& input) {
   std::error_code ignored;
-  if (!std::filesystem::equivalent(out, input, ignored)) return;
+  if (!std::filesystem::equivalent(out, input, ignored) &&
+      !std::filesystem::equivalent(StagedFile::partial_name(out), input, ignored)) {
+    return;
+  }
   throw ScenarioError("--out " + out + " would overwrite the input " + input + ".");
 }
 
