@@ -109,7 +109,7 @@ std::string line(const Measurement& measurement) {
   return measurement.quantity.name + " " + number + " " + measurement.quantity.unit;
 }
 
-std::string bench_json(const std::vector<Measurement>& measurements, const BenchOptions& options,
+std::string bench_json(const std::vector<Measurement>& measurements,
                        const std::string& command_line, const std::string& gl_renderer) {
   const BuildInfo build = build_info();
   const Machine machine = machine_info();
@@ -123,8 +123,7 @@ std::string bench_json(const std::vector<Measurement>& measurements, const Bench
                      {"cpu_flags", machine.cpu_flags},
                      {"cores", machine.cores},
                      {"system", machine.system}};
-  json["bench"] = {
-      {"command_line", command_line}, {"throws", options.throws}, {"finished", utc_now()}};
+  json["bench"] = {{"command_line", command_line}, {"finished", utc_now()}};
   json["cases"] = nlohmann::ordered_json::array();
   for (const Measurement& measurement : measurements) {
     json["cases"].push_back({{"case", measurement.quantity.name},

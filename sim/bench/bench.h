@@ -29,8 +29,8 @@ std::vector<Measurement> measure(const std::vector<BenchCase>& cases, const Benc
 // "renderer.whole 0.8123 ms": name, median and unit, without spaces in any of them.
 std::string line(const Measurement& measurement);
 
-// Everything with what it was measured on: program, machine, libraries, options, all runs.
-std::string bench_json(const std::vector<Measurement>& measurements, const BenchOptions& options,
+// Everything with what it was measured on: program, machine, libraries, command line, all runs.
+std::string bench_json(const std::vector<Measurement>& measurements,
                        const std::string& command_line, const std::string& gl_renderer);
 
 }  // namespace dodgesim

@@ -9,7 +9,7 @@ namespace dodgesim {
 
 struct BenchOptions {
   int runs = 0;    // of each case; 0: as many as the case says
-  int throws = 2;  // of a scenario, in one run of the closed loop
+  int throws = 0;  // of a scenario, in one run of the closed loop; 0: as many as the case says
   std::string models_dir;
   std::string scenarios_dir;
 };

@@ -10,6 +10,13 @@ namespace {
 
 constexpr double kHoverS = 1.5;  // about as long as a throw
 
+struct LoopCase {
+  const char* name;
+  const char* file;  // of the scenario
+  const char* description;
+  int throws;  // of a run, unless BenchOptions say otherwise; 0: nobody throws
+};
+
 struct Flights {
   Scenario scenario;
   std::vector<FlightPlan> plans;
@@ -38,12 +45,12 @@ struct Flights {
   }
 };
 
-BenchCase loop_case(const std::string& case_name, const std::string& file,
-                    const std::string& description, bool throws) {
-  const std::string name = "loop." + case_name;
+BenchCase loop_case(const LoopCase& loop) {
+  const std::string name = std::string("loop.") + loop.name;
   BenchCase bench;
   bench.quantities = {
-      {name + ".real_time_factor", "ratio", "simulated over computing time, " + description},
+      {name + ".real_time_factor", "ratio",
+       std::string("simulated over computing time, ") + loop.description},
       {name + ".render", "share", "of its time that goes into pictures"},
       {name + ".emulate", "share", "into events"},
       {name + ".pilot", "share", "into the pilot"},
@@ -52,16 +59,18 @@ BenchCase loop_case(const std::string& case_name, const std::string& file,
       {name + ".turned", "pictures/s", "whole pictures turned from drawn ones"},
       {name + ".regions", "pictures/s", "pictures of a moving object's region only"}};
   bench.runs = 3;  // seconds each
-  bench.prepare = [file, throws](const BenchOptions& options) -> BenchRun {
+  bench.prepare = [loop](const BenchOptions& options) -> BenchRun {
     auto flights = std::make_shared<Flights>();
     flights->scenario =
-        load_scenario(options.scenarios_dir + "/" + file + ".yaml", options.models_dir);
+        load_scenario(options.scenarios_dir + "/" + loop.file + ".yaml", options.models_dir);
     Scenario& scenario = flights->scenario;
-    if (!throws) {
+    int count = 1;
+    if (loop.throws > 0) {
+      count = std::min(options.throws > 0 ? options.throws : loop.throws, scenario.repeats);
+    } else {
       scenario.toss.reset();
       scenario.duration_s = kHoverS;
     }
-    const int count = throws ? std::min(options.throws, scenario.repeats) : 1;
     for (int i = 0; i < count; ++i) flights->plans.push_back(plan_throw(scenario, i));
     return [flights] { return flights->run(); };
   };
@@ -71,10 +80,10 @@ BenchCase loop_case(const std::string& case_name, const std::string& file,
 }  // namespace
 
 std::vector<BenchCase> loop_cases() {
-  return {loop_case("demo", "demo", "first throws of scenarios/demo.yaml", true),
-          loop_case("goal_flight", "goal_flight", "of scenarios/goal_flight.yaml", true),
-          loop_case("ci", "ci", "of scenarios/ci.yaml", true),
-          loop_case("hover", "demo", "the demo when nobody throws", false)};
+  return {loop_case({"demo", "demo", "first throws of scenarios/demo.yaml", 2}),
+          loop_case({"goal_flight", "goal_flight", "of scenarios/goal_flight.yaml", 1}),
+          loop_case({"ci", "ci", "of scenarios/ci.yaml", 2}),
+          loop_case({"hover", "demo", "the demo when nobody throws", 0})};
 }
 
 }  // namespace dodgesim

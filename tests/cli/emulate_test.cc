@@ -56,11 +56,15 @@ Film random_film(std::size_t frames, std::int64_t start_us) {
   return film;
 }
 
-// The same film as it would stand in a file of bytes.
+// The same film as it would stand in a file of bytes. No pixel comes back to its first value, which
+// is a whole number of thresholds from its reference: rounding would decide on that event.
 std::vector<std::uint8_t> as_bytes(const Film& film) {
   std::vector<std::uint8_t> bytes;
   for (const float value : film.luminance) {
-    bytes.push_back(static_cast<std::uint8_t>(std::min(255.0f, 100 * value)));
+    const auto byte = static_cast<std::uint8_t>(std::min(254.0f, 100 * value));
+    const std::size_t i = bytes.size();
+    const bool comes_back = i >= kPixels && byte == bytes[i % kPixels];
+    bytes.push_back(static_cast<std::uint8_t>(byte + (comes_back ? 1 : 0)));
   }
   return bytes;
 }
@@ -170,7 +174,7 @@ TEST_F(EmulateTest, BytesAreSharesOf255) {
   const std::vector<std::uint8_t> bytes = as_bytes(film_);
   put(root_ / "f.npy", npy_array("|u1", bytes, kHeight, kWidth));
   const EventsByPixel expected = reference_events(film_.times, bytes, 255);
-  ASSERT_GT(count(expected), 5000u);
+  ASSERT_GT(count(expected), 4000u);
   expect_events(expected);
 }
 

@@ -38,7 +38,7 @@ void run(const Arguments& arguments, const std::string& command_line) {
   });
   if (!json) return;
   const std::string gl_renderer = OsmesaContext(GlProfile::kCore33, 1, 1).renderer();
-  json->write(bench_json(measurements, arguments.options, command_line, gl_renderer));
+  json->write(bench_json(measurements, command_line, gl_renderer));
   json->commit();
 }
 
@@ -62,10 +62,11 @@ void add_bench_command(CLI::App& program, const std::string& command_line, int& 
                    "Runs of each case, in place of 5 (closed loop: 3)")
       ->check(CLI::Range(1, 1000));
   command
-      ->add_option("--throws", arguments->options.throws,
-                   "Throws of each scenario in a run of the closed loop")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+      ->add_option(
+          "--throws", arguments->options.throws,
+          "Throws of each scenario in a run of the closed loop, in place of 2 (goal_flight: "
+          "1)")
+      ->check(CLI::Range(1, 1000));
   command->add_flag("--list", arguments->list, "Print names, units and meanings; measure nothing");
   add_models_option(*command, arguments->options.models_dir);
   command->footer(

@@ -18,6 +18,27 @@ namespace dodgesim {
 
 namespace {
 
+constexpr const char* kFooter =
+    R"(The camera answers to L = ln(eps + I), I being the luminance; between frames L runs linearly.
+ideal: eps = 0.001, threshold 0.2 for ON and OFF, no mismatch, no refractory period, no noise.
+The first frame sets the references. uint8 values are divided by 255 and taken as linear: undo
+the gamma of ordinary video before.
+
+Formats of EVENTS:
+  .h5   as DSEC and RVT: events/x, y, t, p, height, width; ms_to_idx; t_offset (the first
+        time stamp, from which t counts); p 1 or 0; up to 71.6 minutes
+  .npy  records t <i8, x <u2, y <u2, p |i1; p +1 or -1
+  .txt  a line "t x y p" an event, t in whole microseconds, p 1 or 0
+t of .npy and .txt is of the clock of T.npy. The file appears when it is whole.
+
+Memory holds one frame and the events up to the next, however long the video is. The speeds
+printed are of the emulation alone, beside cv::log of the same frames in the same run, on one
+thread.
+
+Examples:
+  dodgesim emulate video.npy --timestamps t.npy --camera ideal --out events.h5
+  dodgesim explain sensors.events                   the keys of a camera's file)";
+
 struct Arguments {
   std::string frames;
   std::string times;
@@ -110,23 +131,7 @@ void add_emulate_command(CLI::App& program, int& exit_code) {
       ->required()
       ->type_name("EVENTS");
   command->add_option("--seed", arguments->seed, "Of mismatch and noise")->capture_default_str();
-  command->footer(
-      "The camera answers to L = ln(eps + I), I being the luminance, which runs linearly from "
-      "frame\n"
-      "to frame. ideal: eps = 0.001, threshold 0.2 for ON and OFF, no mismatch, no refractory\n"
-      "period, no noise. The first frame sets the references. uint8 values are divided by 255 and\n"
-      "taken as linear: undo the gamma of ordinary video before.\n\n"
-      "Formats of EVENTS:\n"
-      "  .h5   as DSEC and RVT: events/x, y, t, p, height, width; ms_to_idx; t_offset (the first\n"
-      "        time stamp, from which t counts); p 1 or 0; up to 71.6 minutes\n"
-      "  .npy  records t <i8, x <u2, y <u2, p |i1; p +1 or -1\n"
-      "  .txt  a line \"t x y p\" an event, t in whole microseconds, p 1 or 0\n"
-      "Frames are read one at a time. The times printed are of the emulation alone, beside "
-      "cv::log\n"
-      "of the same frames in the same run, on one thread.\n\n"
-      "Examples:\n"
-      "  dodgesim emulate video.npy --timestamps t.npy --camera ideal --out events.h5\n"
-      "  dodgesim explain sensors.events                   the keys of a camera's file");
+  command->footer(kFooter);
   command->callback([arguments, &exit_code] {
     emulate(*arguments);
     exit_code = kOk;

@@ -95,8 +95,7 @@ TEST(Bench, WritesNumbersWithFiveDigitsAndNoExponent) {
 TEST(Bench, TheJsonHoldsAllRunsAndWhatTheyWereMadeOn) {
   BenchOptions options;
   const auto measurements = measure(three_cases(), options, [](const Measurement&) {});
-  const auto json =
-      nlohmann::json::parse(bench_json(measurements, options, "dodgesim bench", "softpipe"));
+  const auto json = nlohmann::json::parse(bench_json(measurements, "dodgesim bench", "softpipe"));
   ASSERT_EQ(json["cases"].size(), 4u);
   EXPECT_EQ(json["cases"][0], (nlohmann::json{{"case", "a.one"},
                                               {"unit", "s"},
