@@ -82,7 +82,7 @@ BenchCase loop_case(const LoopCase& loop) {
 std::vector<BenchCase> loop_cases() {
   return {loop_case({"demo", "demo", "first throws of scenarios/demo.yaml", 2}),
           loop_case({"goal_flight", "goal_flight", "of scenarios/goal_flight.yaml", 1}),
-          loop_case({"ci", "ci", "of scenarios/ci.yaml", 2}),
+          loop_case({"ci", "ci", "of scenarios/ci.yaml", 1}),
           loop_case({"hover", "demo", "the demo when nobody throws", 0})};
 }
 
