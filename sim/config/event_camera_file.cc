@@ -13,8 +13,22 @@ namespace dodgesim {
 
 namespace {
 
-EventCameraSpec preset(const std::string& name) {
-  return name == "ideal" ? ideal_event_camera() : EventCameraSpec{};
+// Visitor that finds out which presets there are.
+struct PresetNames {
+  std::vector<std::string> names;
+
+  void operator()(std::string_view key, const std::string&,
+                  std::initializer_list<const char*> allowed, const char*) {
+    if (key == "preset") names.assign(allowed.begin(), allowed.end());
+  }
+  template <class... Rest>
+  void operator()(const char*, const Rest&...) {}
+};
+
+std::vector<std::string> preset_names() {
+  PresetNames visitor;
+  EventCameraSpec().visit(visitor);
+  return visitor.names;
 }
 
 EventCameraSpec load(const std::string& path) {
@@ -33,17 +47,12 @@ EventCameraSpec load(const std::string& path) {
 
 }  // namespace
 
-const std::vector<std::string>& event_camera_presets() {
-  static const std::vector<std::string> names = {"ideal", "sees1"};
-  return names;
-}
-
 EventCameraSpec named_event_camera(const std::string& name_or_file) {
   const std::string end = std::filesystem::path(name_or_file).extension().string();
   if (end == ".yaml" || end == ".yml") return load(name_or_file);
-  const std::vector<std::string>& names = event_camera_presets();
+  const std::vector<std::string> names = preset_names();
   if (std::find(names.begin(), names.end(), name_or_file) != names.end()) {
-    return preset(name_or_file);
+    return event_camera_preset(name_or_file);
   }
   std::string known;
   for (const std::string& name : names) known += name + ", ";

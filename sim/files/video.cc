@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sim/base/error.h"
+#include "sim/events/event_camera.h"
 
 namespace dodgesim {
 
@@ -11,10 +12,9 @@ static_assert(std::endian::native == std::endian::little);
 
 namespace {
 
-constexpr std::uint64_t kMaxSide = 65536;                 // coordinates are 16 bits
-constexpr std::uint64_t kMaxPixels = 64 * 1024 * 1024;    // 3 GB of EventCamera
-constexpr TimeUs kMaxIntervalUs = (TimeUs{1} << 31) - 1;  // of EventCamera
-constexpr float kWhite = 255;                             // the uint8 value of luminance 1
+constexpr std::uint64_t kMaxSide = EventCamera::kMaxSide;
+constexpr TimeUs kMaxIntervalUs = EventCamera::kMaxIntervalUs;
+constexpr float kWhite = 255;  // the uint8 value of luminance 1
 
 // "'>f4'" with what it means, where that helps.
 std::string dtype_text(const NpyHeader& header) {
@@ -58,9 +58,9 @@ void Video::check_frames() {
     refuse(frames_, holds + "events need at least two frames, the first of which is the reference");
   }
   if (shape[1] == 0 || shape[2] == 0) refuse(frames_, holds + "its frames have no pixels");
-  if (shape[1] > kMaxSide || shape[2] > kMaxSide || shape[1] * shape[2] > kMaxPixels) {
-    refuse(frames_, holds + "frames may have up to " + std::to_string(kMaxSide) +
-                        " rows and columns and " + std::to_string(kMaxPixels) + " pixels");
+  if (shape[1] > kMaxSide || shape[2] > kMaxSide) {
+    refuse(frames_,
+           holds + "frames may have up to " + std::to_string(kMaxSide) + " rows and columns");
   }
   frame_count_ = static_cast<std::int64_t>(shape[0]);
   height_ = static_cast<int>(shape[1]);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <map>
+#include <set>
+#include <sstream>
 
 #include "sim/base/random.h"
 #include "tests/cli/program.h"
@@ -18,9 +20,11 @@ using dodgesim::testing::dodgesim;
 using dodgesim::testing::npy_array;
 using dodgesim::testing::Outcome;
 using dodgesim::testing::put;
+using testing::ContainsRegex;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::MatchesRegex;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr int kWidth = 19;
@@ -234,12 +238,45 @@ TEST_F(EmulateTest, ReadsACameraFromAFile) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     return contents(out_);
   };
-  const std::string ideal_file = put(root_ / "ideal.yaml",
-                                     "mismatch_sigma: 0\nrefractory_us: 0\nbackground_on_hz: 0\n"
-                                     "background_off_hz: 0\nhot_pixel_fraction: 0\n");
-  EXPECT_EQ(events(ideal_file), events("ideal"));
-  const std::string sees1_file = put(root_ / "sees1.yaml", "refractory_us: 100\n");
-  EXPECT_EQ(events(sees1_file), events("sees1"));
+  for (const std::string preset : {"sees1", "ideal", "noisy", "low_light"}) {
+    EXPECT_EQ(events(put(root_ / "camera.yaml", "preset: " + preset + "\n")), events(preset));
+  }
+  EXPECT_EQ(events(put(root_ / "camera.yaml", "refractory_us: 100\n")), events("sees1"))
+      << "the default";
+  EXPECT_EQ(events(put(root_ / "camera.yaml", "log_epsilon: 0.01\npreset: ideal\n")),
+            events(put(root_ / "other.yaml", "preset: ideal\nlog_epsilon: 0.01\n")));
+  std::set<std::string> different;
+  for (const std::string preset : {"sees1", "ideal", "noisy", "low_light"}) {
+    different.insert(events(preset));
+  }
+  EXPECT_EQ(different.size(), 4u);
+}
+
+TEST_F(EmulateTest, ARecordingEndsWithItsLastFrame) {
+  // What is still on its way from the pixel to its time stamp is not in it.
+  constexpr std::int64_t kLatencyUs = 5000;
+  ASSERT_EQ(ideal().exit_code, 0);
+  std::istringstream all(contents(out_));
+  std::string expected, rest;
+  for (std::int64_t t_us = 0; all >> t_us && std::getline(all, rest);) {
+    if (t_us + kLatencyUs > film_.times.back()) continue;
+    expected += std::to_string(t_us + kLatencyUs) + rest + "\n";
+  }
+  const std::string late = put(root_ / "late.yaml", "preset: ideal\nlatency_us: 5000\n");
+  ASSERT_EQ(emulate("--camera " + late + " --out " + out_).exit_code, 0);
+  EXPECT_TRUE(contents(out_) == expected);
+}
+
+TEST_F(EmulateTest, ReportsEventsThatTheReadoutLoses) {
+  const auto summary = [this](const std::string& readout_max_hz) {
+    const std::string camera =
+        put(root_ / "camera.yaml", "preset: ideal\nreadout_max_hz: " + readout_max_hz + "\n");
+    const Outcome outcome = emulate("--camera " + camera + " --out " + out_);
+    EXPECT_EQ(outcome.exit_code, 0);
+    return outcome.output;
+  };
+  EXPECT_THAT(summary("0"), Not(HasSubstr("lost")));
+  EXPECT_THAT(summary("1e4"), ContainsRegex("lost: [1-9][0-9]* events, because readout_max_hz "));
 }
 
 TEST_F(EmulateTest, RefusesBadCamerasWithFileLineAndKey) {
@@ -261,7 +298,8 @@ TEST_F(EmulateTest, RefusesBadCamerasWithFileLineAndKey) {
   EXPECT_EQ(refused(""), path + ": The file is empty.\n");
   expect_refused(emulate("--camera sees --out " + out_), 2, "did you mean sees1?");
   expect_refused(emulate("--camera davis --out " + out_), 2,
-                 "There is no event camera \"davis\"; known are ideal, sees1, and files that end");
+                 "There is no event camera \"davis\"; known are sees1, ideal, noisy, low_light, "
+                 "and files that end");
   expect_refused(emulate("--camera none.yaml --out " + out_), 2, "There is no such file.");
 }
 
@@ -289,13 +327,13 @@ TEST_F(EmulateTest, RefusesBadVideosWithOneSentence) {
 }
 
 TEST_F(EmulateTest, RefusesWhatHdf5CannotHold) {
-  Film film = random_film(5, 0);
-  for (std::size_t n = 0; n < 5; ++n) {
-    film.times[n] = static_cast<std::int64_t>(n) * 1500000000;  // 100 minutes in all
+  Film film = random_film(6, 0);
+  for (std::size_t n = 0; n < 6; ++n) {
+    film.times[n] = static_cast<std::int64_t>(n) * 1000000000;  // 83 minutes in all
   }
   write(film);
   out_ = (root_ / "events.h5").string();
-  expect_refused(ideal(), 2, "cannot hold the recording of 6000000000 us");
+  expect_refused(ideal(), 2, "cannot hold the recording of 5000000000 us");
   out_ = (root_ / "events.npy").string();
   EXPECT_EQ(ideal().exit_code, 0);
 }
@@ -342,7 +380,7 @@ TEST_F(EmulateTest, TakesPicturesOfAnyShape) {
     std::vector<std::uint8_t> bytes(2 * height * width, 20);
     bytes.back() = 200;
     put(root_ / "f.npy", npy_array("|u1", bytes, height, width));
-    put(root_ / "t.npy", npy_array("<i8", std::vector<std::int64_t>{0, 2147483647}));
+    put(root_ / "t.npy", npy_array("<i8", std::vector<std::int64_t>{0, 1073741823}));
     ASSERT_EQ(ideal().exit_code, 0);
     const std::string events = contents(out_);
     EXPECT_EQ(std::count(events.begin(), events.end(), '\n'), 11)

@@ -19,21 +19,30 @@ namespace dodgesim {
 namespace {
 
 constexpr const char* kFooter =
-    R"(The camera answers to L = ln(eps + I), I being the luminance; between frames L runs linearly.
-ideal: eps = 0.001, threshold 0.2 for ON and OFF, no mismatch, no refractory period, no noise.
-The first frame sets the references. uint8 values are divided by 255 and taken as linear: undo
-the gamma of ordinary video before.
+    R"(CAMERA:
+  ideal      an event at every change of L = ln(0.001 + I) by 0.2, ON or OFF, and nothing else:
+             no mismatch, bandwidth, refractory period, noise, latency or limit of the readout
+  sees1      the camera of the scenarios, 320 x 240 px in flight, but it takes any size
+  noisy      a worn or badly biased one
+  low_light  sees1 at 5 lux instead of 500
+  FILE.yaml  keys of a scenario's sensors.events at its root, "preset: ideal" among them
+I is the luminance; between frames L runs linearly. The first frame sets the references.
 
-Formats of EVENTS:
+Scale of I: 1 is a white surface under illuminance_lux (500 by default). ideal does not care
+about it beyond the 0.001; for the others it decides how slow the pixels are and how noisy.
+uint8 values are divided by 255 and taken as linear: undo the gamma of ordinary video before.
+
+EVENTS:
   .h5   as DSEC and RVT: events/x, y, t, p, height, width; ms_to_idx; t_offset (the first
-        time stamp, from which t counts); p 1 or 0; up to 71.6 minutes
+        time stamp of T.npy, from which t counts); p 1 or 0; up to 71.6 minutes
   .npy  records t <i8, x <u2, y <u2, p |i1; p +1 or -1
   .txt  a line "t x y p" an event, t in whole microseconds, p 1 or 0
-t of .npy and .txt is of the clock of T.npy. The file appears when it is whole.
+t of .npy and .txt is of the clock of T.npy. The recording ends with the last frame: what latency
+or the readout would stamp later is not in it. The file appears when it is whole.
 
-Memory holds one frame and the events up to the next, however long the video is. The speeds
-printed are of the emulation alone, beside cv::log of the same frames in the same run, on one
-thread.
+Frames have up to 4096 rows and columns, and are at most 1073 s apart. Memory holds one of them
+and the events up to the next, however long the video is. The speeds printed are of the
+emulation alone, beside cv::log of the same frames in the same run, on one thread.
 
 Examples:
   dodgesim emulate video.npy --timestamps t.npy --camera ideal --out events.h5
@@ -72,10 +81,15 @@ Counts emulate(Video& video, EventCamera& camera, TimedEmulation& timed, EventWr
   return counts;
 }
 
-void report(const Video& video, const Counts& counts, const TimedEmulation& timed) {
+void report(const Video& video, const EventCamera& camera, const Counts& counts,
+            const TimedEmulation& timed) {
   const auto frames = static_cast<double>(timed.frames());
   std::printf("events: %lld (%lld ON, %lld OFF)\n", static_cast<long long>(counts.on + counts.off),
               static_cast<long long>(counts.on), static_cast<long long>(counts.off));
+  if (camera.lost() > 0) {
+    std::printf("lost: %lld events, because readout_max_hz was exceeded\n",
+                static_cast<long long>(camera.lost()));
+  }
   std::printf("video: %lld frames of %d x %d px, %.6f s\n",
               static_cast<long long>(video.frame_count()), video.width(), video.height(),
               seconds(video.duration_us()));
@@ -106,7 +120,7 @@ void emulate(const Arguments& arguments) {
   TimedEmulation timed(camera, spec.log_epsilon);
   const Counts counts = emulate(video, camera, timed, *writer);
   writer->finish();
-  report(video, counts, timed);
+  report(video, camera, counts, timed);
 }
 
 }  // namespace
@@ -124,7 +138,7 @@ void add_emulate_command(CLI::App& program, int& exit_code) {
       ->type_name("T.npy");
   command
       ->add_option("--camera", arguments->camera,
-                   "ideal, sees1, or a YAML file with the keys of a scenario's sensors.events")
+                   "ideal, sees1, noisy, low_light or a YAML file; see below")
       ->required()
       ->type_name("CAMERA");
   command->add_option("--out", arguments->out, "Where the events go: .h5 (DSEC), .npy or .txt")
