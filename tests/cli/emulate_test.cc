@@ -230,6 +230,7 @@ TEST_F(EmulateTest, TheSeedDecidesOnNoiseAndMismatchAlone) {
   EXPECT_EQ(events("--camera sees1"), sees1);
   EXPECT_NE(events("--camera sees1 --seed 2"), sees1);
   EXPECT_EQ(events("--camera ideal --seed 1"), events("--camera ideal --seed 2"));
+  EXPECT_EQ(emulate("--camera ideal --seed -1 --out " + out_).exit_code, 2);
 }
 
 TEST_F(EmulateTest, ReadsACameraFromAFile) {

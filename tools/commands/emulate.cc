@@ -144,7 +144,9 @@ void add_emulate_command(CLI::App& program, int& exit_code) {
   command->add_option("--out", arguments->out, "Where the events go: .h5 (DSEC), .npy or .txt")
       ->required()
       ->type_name("EVENTS");
-  command->add_option("--seed", arguments->seed, "Of mismatch and noise")->capture_default_str();
+  command->add_option("--seed", arguments->seed, "Of mismatch and noise")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->footer(kFooter);
   command->callback([arguments, &exit_code] {
     emulate(*arguments);
