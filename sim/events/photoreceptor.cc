@@ -169,6 +169,7 @@ Photoreceptor::Pieces Photoreceptor::pieces(const Charge& before, double luminan
   const double slope = (u1 - before.u) / dt_s;
   // z is a straight line plus p exp(-w1 t) plus, behind a follower, q exp(-w2 t).
   double p = before.y - before.u + slope / w1;
+  if (order_ == 1 && std::abs(p) < tolerance) return {0, 0};
   double curvature = std::abs(p) * w1 * w1;
   double slowest = w1;
   if (order_ > 1) {
@@ -182,7 +183,6 @@ Photoreceptor::Pieces Photoreceptor::pieces(const Charge& before, double luminan
   const double span_s = std::min(dt_s, kTransientTaus / slowest);
   // A chord over h strays by up to curvature h^2/8, but by no more than the transient itself.
   const double count = std::ceil(span_s * std::sqrt(curvature / (8 * tolerance)));
-  if (order_ == 1 && std::abs(p) < tolerance) return {0, 0};
   const int whole = static_cast<int>(std::min<double>(count, kMostPieces));
   if (whole <= 1 && span_s >= dt_s) return {0, 0};
   return {whole, span_s / std::max(whole, 1)};
