@@ -21,10 +21,6 @@ constexpr float kMostTaus = 1e4f;
 // Two low-passes are taken as equal when their cut-offs differ by less than this share.
 constexpr double kEqualShare = 0.01;
 
-// What is left of a transient after this many tau is not followed in pieces.
-constexpr double kTransientTaus = 6;
-constexpr int kMostPieces = 64;
-
 // How a low-pass answers over an interval of x tau: exp(-x), and its mean over the interval.
 template <class Number>
 struct Decay {
@@ -140,7 +136,8 @@ Photoreceptor::Photoreceptor(const EventCameraSpec& spec)
 
 Charge Photoreceptor::at(const Charge& before, double luminance, double u1, double dt_s,
                          double t_s) const {
-  const double change = (u1 - before.u) * (dt_s > 0 ? t_s / dt_s : 1);
+  if (t_s <= 0) return before;
+  const double change = (u1 - before.u) * t_s / dt_s;
   Charge out;
   out.u = before.u + change;
   out.y = out.u;
@@ -162,30 +159,25 @@ Charge Photoreceptor::at(const Charge& before, double luminance, double u1, doub
   return out;
 }
 
-Photoreceptor::Pieces Photoreceptor::pieces(const Charge& before, double luminance, double u1,
-                                            double dt_s, double tolerance) const {
-  if (order_ == 0) return {0, 0};
+double Photoreceptor::straight_s(const Charge& now, double luminance, double slope_1s,
+                                 double tolerance) const {
+  constexpr double kForEver = std::numeric_limits<double>::infinity();
+  if (order_ == 0) return kForEver;
   const double w1 = cutoff_rad_s(luminance);
-  const double slope = (u1 - before.u) / dt_s;
-  // z is a straight line plus p exp(-w1 t) plus, behind a follower, q exp(-w2 t).
-  double p = before.y - before.u + slope / w1;
-  if (order_ == 1 && std::abs(p) < tolerance) return {0, 0};
-  double curvature = std::abs(p) * w1 * w1;
-  double slowest = w1;
+  // y is a straight line plus p exp(-w1 t).
+  const double p = std::abs(now.y - now.u + slope_1s / w1);
+  double transient = p;
+  double curvature = p * w1 * w1;
   if (order_ > 1) {
     const double w2 = follower_rad_s_;
-    const double apart = std::max(std::abs(w2 - w1), kEqualShare * w2);
-    p *= w2 / apart;
-    const double q = std::abs(before.z - before.u + slope * (1 / w1 + 1 / w2)) + std::abs(p);
-    curvature = std::abs(p) * w1 * w1 + q * w2 * w2;
-    slowest = std::min(w1, w2);
+    transient += std::abs(now.z - now.u + slope_1s * (1 / w1 + 1 / w2));
+    // z'' = w2 (y' - z'), and (y' - z')' = y'' - w2 (y' - z').
+    const double apart = std::abs(w1 * (now.u - now.y) - w2 * (now.y - now.z));
+    curvature = w2 * (apart + p * w1 * (w1 / std::max(w1, w2)));
   }
-  const double span_s = std::min(dt_s, kTransientTaus / slowest);
-  // A chord over h strays by up to curvature h^2/8, but by no more than the transient itself.
-  const double count = std::ceil(span_s * std::sqrt(curvature / (8 * tolerance)));
-  const int whole = static_cast<int>(std::min<double>(count, kMostPieces));
-  if (whole <= 1 && span_s >= dt_s) return {0, 0};
-  return {whole, span_s / std::max(whole, 1)};
+  if (transient < tolerance) return kForEver;
+  // A chord over h strays by up to curvature h^2/8, and the curvature only falls.
+  return std::sqrt(8 * tolerance / curvature);
 }
 
 void Photoreceptor::advance(const Row& row) const {

@@ -24,7 +24,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::array<double, 2> kSign = {-1, 1};
 
 // A bandwidth bends S between samples; it is followed to within this share of the thresholds.
-constexpr double kCurveShare = 0.05;
+constexpr double kCurveShare = 0.02;
 
 // Flags are looked at eight at a time.
 constexpr std::size_t kWord = 8;
