@@ -165,17 +165,18 @@ double Photoreceptor::straight_s(const Charge& now, double luminance, double slo
   if (order_ == 0) return kForEver;
   const double w1 = cutoff_rad_s(luminance);
   // y is a straight line plus p exp(-w1 t).
-  const double p = std::abs(now.y - now.u + slope_1s / w1);
-  double transient = p;
-  double curvature = p * w1 * w1;
-  if (order_ > 1) {
+  const double p_w1 = std::abs(w1 * (now.y - now.u) + slope_1s);
+  double curvature = p_w1 * w1;
+  if (order_ == 1) {
+    if (p_w1 < tolerance * w1) return kForEver;
+  } else {
     const double w2 = follower_rad_s_;
-    transient += std::abs(now.z - now.u + slope_1s * (1 / w1 + 1 / w2));
+    const double from_line = std::abs(now.z - now.u + slope_1s * (1 / w1 + 1 / w2));
+    if (p_w1 / w1 + from_line < tolerance) return kForEver;
     // z'' = w2 (y' - z'), and (y' - z')' = y'' - w2 (y' - z').
     const double apart = std::abs(w1 * (now.u - now.y) - w2 * (now.y - now.z));
-    curvature = w2 * (apart + p * w1 * (w1 / std::max(w1, w2)));
+    curvature = w2 * (apart + p_w1 * (w1 / std::max(w1, w2)));
   }
-  if (transient < tolerance) return kForEver;
   // A chord over h strays by up to curvature h^2/8, and the curvature only falls.
   return std::sqrt(8 * tolerance / curvature);
 }

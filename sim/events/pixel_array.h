@@ -77,7 +77,8 @@ class PixelArray {
   PixelState state(std::size_t index) const;
 
  private:
-  struct Pixel {
+  // Aligned: one line of the cache holds all of a pixel.
+  struct alignas(32) Pixel {
     double reference = 0;
     double held_until_us = 0;  // not rounded as the stamps are; kArmed: not held
     // Of S since the reference, to an OFF event (negative) and to an ON event; infinite: dead.
