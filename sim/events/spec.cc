@@ -25,12 +25,12 @@ EventCameraSpec ideal() {
 // Five times the noise of a good camera, and a tenth of its speed.
 EventCameraSpec noisy() {
   EventCameraSpec spec;
-  spec.mismatch_sigma = 0.05;        // assumed
-  spec.photoreceptor_hz = 300;       // v2e's clean camera has 300, its noisy one 30 to 70
-  spec.photoreceptor_dark_hz = 30;   // v2e
-  spec.refractory_us = 500;          // v2e
-  spec.leak_hz = 0.2;                // assumed
-  spec.shot_noise_on_hz = 2.5;       // v2e: 5 Hz of both polarities
+  spec.mismatch_sigma = 0.05;       // assumed
+  spec.photoreceptor_hz = 300;      // v2e's clean camera has 300, its noisy one 30 to 70
+  spec.photoreceptor_dark_hz = 30;  // v2e
+  spec.refractory_us = 500;         // v2e
+  spec.leak_hz = 0.2;               // assumed
+  spec.shot_noise_on_hz = 2.5;      // v2e: 5 Hz of both polarities
   spec.shot_noise_off_hz = 2.5;
   spec.hot_pixel_fraction = 0.0012;  // measured on a VGA-lite sensor
   spec.dead_pixel_fraction = 0.001;  // assumed
