@@ -4,9 +4,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "sim/base/random.h"
 #include "sim/events/event_log.h"
 #include "sim/world/view_distance.h"
 
@@ -29,6 +31,13 @@ std::vector<double> object_radii(const World& world) {
   return radii;
 }
 
+// Often enough for the flicker of the light, too.
+SamplingSpec sampling_of(const EventRigSetup& setup) {
+  SamplingSpec sampling = setup.sampling;
+  sampling.min_rate_hz = std::max(sampling.min_rate_hz, flicker_sampling_hz(setup.render.flicker));
+  return sampling;
+}
+
 // The camera names that the noise streams carry.
 std::string camera_name(int camera) { return camera == 0 ? "top" : "bottom"; }
 
@@ -45,7 +54,7 @@ struct EventRig::Eye {
   Eye(const World& world, const EventRigSetup& setup, int camera)
       : index(camera),
         X_BC(world.vehicle().X_BC.at(static_cast<std::size_t>(camera))),
-        sampler(setup.sampling, setup.intrinsics, X_BC, object_radii(world)),
+        sampler(sampling_of(setup), setup.intrinsics, X_BC, object_radii(world)),
         pixels(setup.events, setup.intrinsics.width, setup.intrinsics.height, setup.seed,
                setup.throw_index, camera_name(camera)),
         packets(setup.packet_us),
@@ -77,7 +86,9 @@ EventRig::EventRig(const World& world, const EventRigSetup& setup)
     : world_(world),
       setup_(setup),
       renderer_(world, TurnedPicture(setup.intrinsics, Eye::max_turn_px(setup)).intrinsics(),
-                setup.render) {
+                setup.render),
+      flicker_phase_rad_(2 * std::numbers::pi *
+                         RandomStream(setup.seed, setup.throw_index, "flicker").uniform()) {
   for (int i = 0; i < setup.cameras; ++i) {
     eyes_.push_back(std::make_unique<Eye>(world, setup, i));
   }
@@ -88,6 +99,17 @@ EventRig::EventRig(const World& world, const EventRigSetup& setup)
 }
 
 EventRig::~EventRig() = default;
+
+// The light of the instant on a part of the view that was drawn in the mean light.
+void EventRig::flicker(TimeUs t_us, const Rect& region, std::vector<float>& luminance) const {
+  if (setup_.render.flicker.flicker_hz <= 0) return;
+  const auto factor =
+      static_cast<float>(flicker_factor(setup_.render.flicker, flicker_phase_rad_, t_us));
+  for (std::ptrdiff_t y = region.y0; y < region.y1; ++y) {
+    const auto row = luminance.begin() + y * setup_.intrinsics.width;
+    std::for_each(row + region.x0, row + region.x1, [factor](float& light) { light *= factor; });
+  }
+}
 
 // A part of the view as it is, objects and all.
 void EventRig::draw_region(const Eye& eye, const Snapshot& snapshot, const Rect& region,
@@ -139,6 +161,7 @@ void EventRig::show_last(Eye& eye, const Snapshot& snapshot) {
     ++turned_;
   }
   draw_objects(eye, snapshot);
+  flicker(snapshot.t_us, whole(), eye.luminance);
   render_s_ += seconds_since(start);
 }
 
@@ -151,6 +174,7 @@ void EventRig::show_between(Eye& eye, const Snapshot& snapshot) {
   blend_turned(setup_.intrinsics, eye.before, eye.now, X_WC.linear(), share, region_luminance_,
                eye.luminance);
   draw_objects(eye, snapshot);
+  flicker(snapshot.t_us, whole(), eye.luminance);
   ++turned_;
   render_s_ += seconds_since(start);
 }
@@ -216,6 +240,7 @@ void EventRig::take_looks(Eye& eye, const Sink& sink) {
 void EventRig::take_region(Eye& eye, const Rect& region, const Snapshot& snapshot) {
   auto start = WallClock::now();
   draw_region(eye, snapshot, region, region_luminance_);
+  flicker(snapshot.t_us, region, region_luminance_);
   ++regions_;
   render_s_ += seconds_since(start);
   start = WallClock::now();

@@ -65,6 +65,8 @@ class EventRig {
   struct Eye;
   struct Look;
 
+  Rect whole() const { return {0, 0, setup_.intrinsics.width, setup_.intrinsics.height}; }
+  void flicker(TimeUs t_us, const Rect& region, std::vector<float>& luminance) const;
   void draw_key(Eye& eye, const Snapshot& snapshot);
   void draw_region(const Eye& eye, const Snapshot& snapshot, const Rect& region,
                    std::vector<float>& luminance);
@@ -78,6 +80,7 @@ class EventRig {
   const World& world_;
   EventRigSetup setup_;
   LuminanceRenderer renderer_;  // of the view with its margin
+  double flicker_phase_rad_;
   std::vector<std::unique_ptr<Eye>> eyes_;
   std::vector<Sample> samples_;
   Snapshot still_;                       // the scene without its objects
