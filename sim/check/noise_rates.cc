@@ -18,6 +18,8 @@ constexpr TimeUs kPictureEveryUs = 100000;
 constexpr double kDurationS = 5;  // at most, and as long as the leak takes for kLeakEvents
 constexpr double kLongestS = 100;
 constexpr double kLeakEvents = 1.5;  // of a pixel
+constexpr double kPlotFromHz = -0.1, kPlotToHz = 3.9;
+constexpr int kPlotBins = 20;
 constexpr double kMostEvents = 5e6;  // of a film
 
 EventCameraSpec only_leak(const EventCameraSpec& camera) {
@@ -135,7 +137,7 @@ void judge_hot(const NoiseCount& hot, const EventCameraSpec& spec, Check& check)
 Series rates(const std::string& name, int colour, const NoiseCount& noise) {
   std::vector<double> hz;
   for (const double events : noise.per_pixel) hz.push_back(events / noise.duration_s);
-  return histogram(name, colour, hz, -0.1, 3.9, 20);
+  return histogram(name, colour, hz, kPlotFromHz, kPlotToHz, kPlotBins);
 }
 
 }  // namespace
@@ -176,7 +178,7 @@ Check judge(const NoiseCounts& counts, const EventCameraSpec& expected) {
              check);
   judge_hot(counts.hot, expected, check);
   Plot plot{"Noise of a pixel on a constant scene",
-            {"events of the pixel [Hz]", 0, 0, false},
+            {"events of the pixel [Hz]", kPlotFromHz, kPlotToHz, false},
             {"share of the pixels", 1e-6, 1.5, true},
             {}};
   if (counts.leak.filmed) plot.series.push_back(rates("leak", 2, counts.leak));

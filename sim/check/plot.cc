@@ -11,7 +11,7 @@ namespace dodgesim {
 namespace {
 
 constexpr int kWidth = 640, kHeight = 400;
-constexpr int kLeft = 70, kRight = 20, kTop = 36, kBottom = 56;  // of the frame
+constexpr int kLeft = 84, kRight = 20, kTop = 36, kBottom = 56;  // of the frame
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr double kTextScale = 0.42;
 constexpr double kHeadRoom = 1.1;  // above the highest value
@@ -170,8 +170,8 @@ void draw_legend(cv::Mat3b& image, const Plot& plot) {
   for (const Series& series : plot.series) {
     if (series.name.empty()) continue;
     const cv::Size size = cv::getTextSize(series.name, kFont, kTextScale, 1, nullptr);
-    const int x = kWidth - kRight - size.width - 10;
-    cv::rectangle(image, {x - 22, y - 9}, {kWidth - kRight - 4, y + 4}, kPaper, cv::FILLED);
+    const int x = plot.legend_left ? kLeft + 28 : kWidth - kRight - size.width - 10;
+    cv::rectangle(image, {x - 22, y - 9}, {x + size.width + 4, y + 4}, kPaper, cv::FILLED);
     cv::rectangle(image, {x - 18, y - 7}, {x - 8, y + 1},
                   kColours[static_cast<std::size_t>(series.colour)], cv::FILLED);
     write(image, series.name, {x, y}, 0);

@@ -26,6 +26,7 @@ struct Plot {
   std::string title;
   Axis x, y;
   std::vector<Series> series;
+  bool legend_left = false;
 };
 
 // A histogram of `values` with bars over [from, to); what lies outside is left out. The heights are
