@@ -1,0 +1,31 @@
+// Which width of vectors this processor has. Hot loops are compiled for each width from one source,
+// with the same operations in the same order (no fused multiply-add), so that all give the same
+// bytes.
+#pragma once
+
+namespace dodgesim {
+
+enum VectorLevel { kPortable = 0, kAvx2 = 1, kAvx512 = 2 };
+inline constexpr int kVectorLevels = 3;
+
+inline int widest_vector_level() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512vl")) {
+    return kAvx512;
+  }
+  if (__builtin_cpu_supports("avx2")) return kAvx2;
+#endif
+  return kPortable;
+}
+
+#if defined(__x86_64__)
+#define DODGESIM_TARGET_AVX2 [[gnu::target("avx2")]]
+#define DODGESIM_TARGET_AVX512 \
+  [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")]]
+#else
+#define DODGESIM_TARGET_AVX2
+#define DODGESIM_TARGET_AVX512
+#endif
+
+}  // namespace dodgesim
