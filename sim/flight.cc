@@ -83,7 +83,7 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
   TruthPilot::Setup setup;
   setup.oracle = scenario_.oracle;
   setup.blind = plan_.pilot == "none";
-  setup.delay_us = scenario_.delays.pixel_us + scenario_.delays.transport_us;
+  setup.delay_us = scenario_.sensors.events.latency_us + scenario_.delays.transport_us;
   setup.lifetime_s = dodge::decay_lifetime_s(core.repulsive);
   for (const auto& launch : plan_.launches) setup.sizes_m.push_back(launch.toss.object.size_m);
   setup.X_BC = world_.vehicle().X_BC.front();

@@ -1,12 +1,12 @@
-// The latency chain from light to rotor, all in simulated time (design invariant 4). The ESC delay
-// and the rotors' lag belong to the motors.
+// The latency chain from an event's time stamp to the rotor, all in simulated time (design
+// invariant 4). What comes before the stamp, the pixel's latency, belongs to the event camera; the
+// ESC delay and the rotors' lag belong to the motors.
 #pragma once
 
 namespace dodgesim {
 
 struct DelaySpec {
-  int pixel_us = 100;            // photoreceptor and change detector
-  int transport_us = 1000;       // readout and USB, from the end of a packet to the computer
+  int transport_us = 1000;       // USB, from the end of a packet to the computer
   int imu_us = 500;              // IMU sample to the computer
   int state_estimate_us = 2000;  // age of the state estimate when the computer receives it
   int range_us = 2000;
@@ -18,10 +18,8 @@ struct DelaySpec {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v("pixel_us", pixel_us, 0, 100000,
-      "Pixel latency, added to the arrival of events (not to their time stamps).");
     v("transport_us", transport_us, 0, 100000,
-      "Readout and USB: end of a packet to the computer (1 to 2 ms worst case for USB cameras).");
+      "USB: end of a packet to the computer (1 to 2 ms worst case for USB cameras).");
     v("imu_us", imu_us, 0, 100000, "IMU sample to the computer.");
     v("state_estimate_us", state_estimate_us, 0, 100000,
       "Age of a state estimate when the computer receives it.");

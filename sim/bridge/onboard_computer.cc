@@ -14,7 +14,7 @@ TimeUs ceil_to_tick(TimeUs t_us) { return (t_us + kTickUs - 1) / kTickUs * kTick
 OnboardComputer::OnboardComputer(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot)
     : pilot_(std::move(pilot)),
       cycle_us_(ceil_to_tick(std::max(delays.cycle_us, delays.compute_us))),
-      event_delay_us_(delays.pixel_us + delays.transport_us),
+      event_delay_us_(delays.transport_us),
       next_cycle_us_(cycle_us_),
       imu_(delays.imu_us),
       states_(delays.state_estimate_us),

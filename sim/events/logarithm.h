@@ -1,5 +1,5 @@
 // The natural logarithm that decides on events. Our own because libm's differs between machines
-// in the last bit, and because this one is inlined and has no branches.
+// in the last bit, and because this one is inlined and has no branches. And its inverse.
 #pragma once
 
 #include <bit>
@@ -30,6 +30,42 @@ inline double natural_log(double x) {
   p = p * z + 2.0 / 5;
   p = p * z + 2.0 / 3;
   return k * kLn2High + (2 * s + (s * z * p + k * kLn2Low));
+}
+
+// The same in single precision; error below 2e-7 relative to max(1, |ln x|).
+inline float natural_log(float x) {
+  constexpr std::uint32_t kSqrtHalf = 0x3f3504f3u;
+  constexpr std::uint32_t kExponentMask = 0xff800000u;
+  constexpr float kLn2High = 0.693145751953125f;  // 16 bits: k * kLn2High is exact
+  constexpr float kLn2Low = 1.42860677e-06f;
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  const std::uint32_t offset = bits - kSqrtHalf;
+  const auto k = static_cast<float>(static_cast<std::int32_t>(offset) >> 23);
+  const float m = std::bit_cast<float>(bits - (offset & kExponentMask));
+  const float s = (m - 1) / (m + 1);
+  const float z = s * s;
+  float p = 2.0f / 9;
+  p = p * z + 2.0f / 7;
+  p = p * z + 2.0f / 5;
+  p = p * z + 2.0f / 3;
+  return k * kLn2High + (2 * s + (s * z * p + k * kLn2Low));
+}
+
+// exp(x) for |x| < 700; relative error below 1e-8. x = k ln 2 + r with |r| <= ln(2)/2.
+inline double natural_exp(double x) {
+  constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
+  const double shifted = x * 1.4426950408889634 + kRound;
+  const double r = x - (shifted - kRound) * 6.93147180559945309417e-01;
+  double p = 1.0 / 5040;
+  p = p * r + 1.0 / 720;
+  p = p * r + 1.0 / 120;
+  p = p * r + 1.0 / 24;
+  p = p * r + 1.0 / 6;
+  p = p * r + 0.5;
+  p = p * r + 1.0;
+  p = p * r + 1.0;
+  const auto k = std::bit_cast<std::uint64_t>(shifted) << 52;  // its low bits are those of k
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(p) + k);
 }
 
 }  // namespace dodgesim

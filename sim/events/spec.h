@@ -2,55 +2,107 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 namespace dodgesim {
 
+// The pixels and the readout of an event camera. Luminance is relative: 1 is a white surface under
+// `illuminance_lux`. A value of 0 switches a part off unless its description says otherwise.
 struct EventCameraSpec {
+  std::string preset = "sees1";
   double contrast_threshold_on = 0.2;
   double contrast_threshold_off = 0.2;
   double mismatch_sigma = 0.03;
   double threshold_min = 0.01;
   double log_epsilon = 1e-3;
+  double linear_below = 0;
+  double illuminance_lux = 500;
+  double photoreceptor_hz = 3000;
+  double photoreceptor_dark_hz = 100;
+  double follower_hz = 0;
   std::int64_t refractory_us = 100;
-  double background_on_hz = 0.235;
-  double background_off_hz = 0.200;
+  double leak_hz = 0.1;
+  double shot_noise_on_hz = 0.235;
+  double shot_noise_off_hz = 0.200;
+  double shot_noise_bright_share = 0.25;
   double hot_pixel_fraction = 0.0007;
   double hot_pixel_hz = 157;
+  double dead_pixel_fraction = 0.0001;
+  std::int64_t latency_us = 100;
+  double jitter_us = 10;
+  double readout_max_hz = 2e7;
+  std::int64_t stamp_resolution_us = 1;
 
   template <class Visitor>
-  void visit(Visitor& v) {
-    v("contrast_threshold_on", contrast_threshold_on, 0.01, 10,
-      "Change of log luminance that makes an ON event (v2e and vid2e: 0.2).");
-    v("contrast_threshold_off", contrast_threshold_off, 0.01, 10,
-      "Change of log luminance that makes an OFF event (v2e and vid2e: 0.2).");
-    v("mismatch_sigma", mismatch_sigma, 0, 1,
-      "Standard deviation of the thresholds over the pixels, each polarity by itself (v2e: 0.03).");
-    v("threshold_min", threshold_min, 1e-3, 10,
-      "Lowest threshold that mismatch may leave to a pixel (v2e: 0.01).");
-    v("log_epsilon", log_epsilon, 1e-9, 1e3,
-      "Luminance added before the logarithm; keeps black finite (ESIM: 0.001).");
-    v("refractory_us", refractory_us, 0, 1000000,
-      "Time a pixel is held in reset after an event (most simulators: 100 us, v2e: 500 us).");
-    v("background_on_hz", background_on_hz, 0, 1000,
-      "Rate of background ON events of every pixel (measured on a DVXplorer at rest).");
-    v("background_off_hz", background_off_hz, 0, 1000,
-      "Rate of background OFF events of every pixel (measured on a DVXplorer at rest).");
-    v("hot_pixel_fraction", hot_pixel_fraction, 0, 1,
-      "Share of the pixels that are hot (measured on a DVXplorer).");
-    v("hot_pixel_hz", hot_pixel_hz, 0, 100000,
-      "Rate a hot pixel adds to the background (DVXplorer: hot pixels carry 20 % of it).");
-  }
+  void visit(Visitor& v);
 };
 
-// Events are exactly the crossings of log luminance: no mismatch, no refractory period, no noise.
-inline EventCameraSpec ideal_event_camera() {
-  EventCameraSpec spec;
-  spec.mismatch_sigma = 0;
-  spec.refractory_us = 0;
-  spec.background_on_hz = 0;
-  spec.background_off_hz = 0;
-  spec.hot_pixel_fraction = 0;
-  return spec;
+// The parameters of a preset by its name; throws std::invalid_argument for an unknown one.
+//   sees1      the paper's camera, as far as it is known (the descriptions mark what is assumed)
+//   ideal      events are exactly the crossings of log luminance: no mismatch, no bandwidth, no
+//              refractory period, no noise, no latency, no limit of the readout
+//   noisy      a worn or badly biased camera (v2e's "noisy": 5 Hz of shot noise, slow pixels)
+//   low_light  the sees1 at 5 lux instead of 500
+EventCameraSpec event_camera_preset(const std::string& name);
+
+inline EventCameraSpec ideal_event_camera() { return event_camera_preset("ideal"); }
+
+template <class Visitor>
+void EventCameraSpec::visit(Visitor& v) {
+  const std::string before = preset;
+  v("preset", preset, {"sees1", "ideal", "noisy", "low_light"},
+    "The camera from which the keys that are not given take their values.");
+  if (preset != before) *this = event_camera_preset(preset);
+  v("contrast_threshold_on", contrast_threshold_on, 0.01, 10,
+    "Change of log luminance that makes an ON event (v2e and vid2e: 0.2).");
+  v("contrast_threshold_off", contrast_threshold_off, 0.01, 10,
+    "Change of log luminance that makes an OFF event (v2e and vid2e: 0.2).");
+  v("mismatch_sigma", mismatch_sigma, 0, 1,
+    "Standard deviation of the thresholds over the pixels, each polarity by itself (v2e: 0.03).");
+  v("threshold_min", threshold_min, 1e-3, 10,
+    "Lowest threshold that mismatch may leave to a pixel (v2e: 0.01).");
+  v("log_epsilon", log_epsilon, 1e-9, 1e3,
+    "Luminance added before the logarithm; keeps black finite (ESIM: 0.001).");
+  v("linear_below", linear_below, 0, 1e3,
+    "Luminance below which the response is linear instead of logarithmic, with the same slope "
+    "there.");
+  v("illuminance_lux", illuminance_lux, 1e-3, 2e5,
+    "Illuminance of the scene: a white surface under it has luminance 1 (500: a lit office; "
+    "assumed).");
+  v("photoreceptor_hz", photoreceptor_hz, 0, 1e6,
+    "Cut-off of the photoreceptor's low-pass where 1000 lux fall on white; it falls in proportion "
+    "to the light (assumed: some kHz, as the DVS of Lichtsteiner et al. 2008). 0: no limit.");
+  v("photoreceptor_dark_hz", photoreceptor_dark_hz, 0.01, 1e6,
+    "Cut-off that is left in the dark (assumed).");
+  v("follower_hz", follower_hz, 0, 1e6,
+    "Cut-off of the source follower behind it, which does not depend on the light and makes the "
+    "response second-order. 0: first order.");
+  v("refractory_us", refractory_us, 0, 1000000,
+    "Time a pixel is held in reset after an event (most simulators: 100 us, v2e: 500 us).");
+  v("leak_hz", leak_hz, 0, 1000,
+    "Mean rate of ON events of a pixel at rest, due to the leak of its reference (v2e: 0.1).");
+  v("shot_noise_on_hz", shot_noise_on_hz, 0, 1000,
+    "Rate of ON events of every pixel in the dark, due to shot noise (measured on a DVXplorer).");
+  v("shot_noise_off_hz", shot_noise_off_hz, 0, 1000,
+    "Rate of OFF events of every pixel in the dark, due to shot noise (measured on a DVXplorer).");
+  v("shot_noise_bright_share", shot_noise_bright_share, 0, 1,
+    "Share of these rates that is left at 1000 lux on white; they fall linearly (v2e: 0.25).");
+  v("hot_pixel_fraction", hot_pixel_fraction, 0, 1,
+    "Share of the pixels that are hot (measured on a DVXplorer).");
+  v("hot_pixel_hz", hot_pixel_hz, 0, 100000,
+    "Rate of the noise of a hot pixel (DVXplorer: hot pixels carry 20 % of all noise).");
+  v("dead_pixel_fraction", dead_pixel_fraction, 0, 1,
+    "Share of the pixels that never make an event (assumed).");
+  v("latency_us", latency_us, 0, 100000,
+    "From the change of the light to the request of the pixel (IEBCS: 100). In the time stamp, as "
+    "the readout stamps.");
+  v("jitter_us", jitter_us, 0, 100000,
+    "Standard deviation of the latency from event to event (IEBCS: 10).");
+  v("readout_max_hz", readout_max_hz, 0, 1e9,
+    "Events that the readout can serve in a second (assumed). Requests wait in line; a pixel that "
+    "waits makes no other event, which is counted as lost. 0: no limit.");
+  v("stamp_resolution_us", stamp_resolution_us, 1, 100000,
+    "Time stamps are multiples of this, rounded up.");
 }
 
 struct SamplingSpec {

@@ -141,8 +141,8 @@ TEST(Loop, TheFirstCommandComesAfterTheSumOfTheDelays) {
     ASSERT_TRUE(record.first_command_us);
     const TimeUs latency_us = *record.first_command_us - plan.launches[0].toss.launch_us;
     const DelaySpec& d = s.delays;
-    const TimeUs chain_us =
-        d.pixel_us + d.transport_us + d.compute_us + d.command_us + d.flight_controller_us;
+    const TimeUs chain_us = s.sensors.events.latency_us + d.transport_us + d.compute_us +
+                            d.command_us + d.flight_controller_us;
     EXPECT_GE(latency_us, chain_us);
     // The truth is looked at every 1 ms, the controller acts at state estimates, every 4 ms.
     const TimeUs period_us = std::max(d.cycle_us, d.compute_us);

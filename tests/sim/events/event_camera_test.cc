@@ -145,7 +145,7 @@ TEST(EventCamera, BrighterIsOnDarkerIsOffAtTheRightPlace) {
 
 TEST(EventCamera, NoPixelIsEverStuck) {
   EventCameraSpec spec;  // with everything on, and strong
-  spec.background_on_hz = 20;
+  spec.shot_noise_on_hz = 20;
   spec.hot_pixel_fraction = 0.05;
   spec.hot_pixel_hz = 2000;
   for (const int refractory_us : {0, 100, 3000}) {
@@ -160,8 +160,8 @@ TEST(EventCamera, NoPixelIsEverStuck) {
         for (int x = 0; x < kWidth; ++x) {
           const PixelState p = camera.pixel(x, y);
           if (p.held) continue;
-          ASSERT_LT(p.log_luminance - p.reference, p.threshold_on);
-          ASSERT_GT(p.log_luminance - p.reference, -p.threshold_off);
+          ASSERT_LT(p.signal - p.reference, p.threshold_on);
+          ASSERT_GT(p.signal - p.reference, -p.threshold_off);
         }
       }
     }
@@ -195,7 +195,7 @@ TEST(EventCamera, EventsAreOrderedWithinAndAcrossUpdates) {
   for (const TimeUs step_us : {300, 3000, 6000000}) {
     EventCameraSpec spec;
     spec.refractory_us = 0;
-    spec.background_on_hz = 50;
+    spec.shot_noise_on_hz = 50;
     EventCamera camera(spec, kWidth, kHeight, 5, 0, "top");
     std::vector<Event> events;
     TimeUs previous = 0;
@@ -210,14 +210,16 @@ TEST(EventCamera, EventsAreOrderedWithinAndAcrossUpdates) {
       }
       previous = frames[i].t_us;
     }
-    ASSERT_GT(events.size(), 10000u);
+    ASSERT_GT(events.size(), 5000u);
     EXPECT_TRUE(std::is_sorted(events.begin(), events.end(), testing::event_order));
   }
 }
 
 TEST(EventCamera, SamplingALinearRampTwiceAsOftenGivesTheSameEvents) {
   EventCameraSpec spec;
-  spec.background_on_hz = 5;
+  spec.photoreceptor_hz = 0;
+  spec.jitter_us = 0;  // is drawn event by event, in their order
+  spec.shot_noise_on_hz = 5;
   spec.hot_pixel_fraction = 0.02;
   const auto run = [&](TimeUs step_us) {
     EventCamera camera(spec, kWidth, kHeight, 5, 0, "top");
@@ -262,6 +264,7 @@ TEST(EventCamera, StampsDoNotClumpAtTheSamples) {
 
 TEST(EventCamera, MismatchHasTheSetSpreadAndBelongsToTheDevice) {
   EventCameraSpec spec;
+  spec.dead_pixel_fraction = 0;
   constexpr int kSide = 200;
   EventCamera camera(spec, kSide, kSide, 5, 0, "top");
   EventCamera later_throw(spec, kSide, kSide, 5, 17, "top");
@@ -320,7 +323,7 @@ TEST(EventCamera, RebaseMakesNoEventsAndKeepsThePhaseOfEveryPixel) {
   std::vector<double> phase;
   for (int i = 0; i < kWidth * kHeight; ++i) {
     const PixelState p = camera.pixel(i % kWidth, i / kWidth);
-    phase.push_back(p.log_luminance - p.reference);
+    phase.push_back(p.signal - p.reference);
   }
   events.clear();
   camera.rebase(frames[2].luminance.data());
@@ -328,13 +331,13 @@ TEST(EventCamera, RebaseMakesNoEventsAndKeepsThePhaseOfEveryPixel) {
   EXPECT_TRUE(events.empty());
   for (int i = 0; i < kWidth * kHeight; ++i) {
     const PixelState p = camera.pixel(i % kWidth, i / kWidth);
-    EXPECT_NEAR(p.log_luminance - p.reference, phase[static_cast<std::size_t>(i)], 1e-12);
+    EXPECT_NEAR(p.signal - p.reference, phase[static_cast<std::size_t>(i)], 1e-12);
   }
 }
 
 TEST(EventCamera, ResetStartsTheSameThrowAgain) {
   EventCameraSpec spec;
-  spec.background_on_hz = 30;
+  spec.shot_noise_on_hz = 30;
   EventCamera camera(spec, kWidth, kHeight, 5, 2, "top");
   const auto frames = film(kWidth, kHeight, every(900, 90000), sine);
   const auto first = emulate(camera, frames);

@@ -120,12 +120,21 @@ TEST_F(ThrownBall, GivesACameraAtRestTheSameEventsByItsRegionAndByWholePictures)
     ball_p_W_ = toss.p_W;
     ball_v_W_ = toss.v_W;
     const auto wanted = samples(70000);
-    for (const EventCameraSpec& spec : {ideal_event_camera(), EventCameraSpec()}) {
+    EventCameraSpec slow;  // pixels that still settle when the region has moved on
+    slow.jitter_us = 0;    // is drawn event by event, in their order
+    for (const EventCameraSpec& spec : {ideal_event_camera(), slow}) {
       const auto by_region = events(spec, wanted, false);
       EXPECT_GT(regions_, 40);
       const auto by_picture = events(spec, wanted, true);
       ASSERT_GT(by_picture.size(), 3000u);
-      EXPECT_TRUE(by_region == by_picture);
+      if (spec.photoreceptor_hz == 0) {
+        EXPECT_TRUE(by_region == by_picture);
+        continue;
+      }
+      const auto difference = compare(by_region, by_picture);
+      EXPECT_LT(std::abs(difference.count), 0.001);
+      EXPECT_GT(difference.matched, 0.998);
+      EXPECT_LE(difference.p90_us, 1);
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "sim/events/background.h"
+#include "sim/events/poisson_events.h"
 
 #include <utility>
 
@@ -6,8 +6,8 @@
 
 namespace dodgesim {
 
-BackgroundActivity::BackgroundActivity(const RandomStream& stream, std::uint32_t pixel_count,
-                                       double rate_hz, double on_share)
+PoissonEvents::PoissonEvents(const RandomStream& stream, std::uint32_t pixel_count, double rate_hz,
+                             double on_share)
     : stream_(stream),
       pixel_count_(pixel_count),
       mean_wait_us_(rate_hz > 0 && pixel_count > 0 ? 1e6 / (rate_hz * pixel_count) : 0),
@@ -15,22 +15,21 @@ BackgroundActivity::BackgroundActivity(const RandomStream& stream, std::uint32_t
   reset(0);
 }
 
-BackgroundActivity::BackgroundActivity(const RandomStream& stream,
-                                       std::vector<std::uint32_t> pixels, double rate_hz,
-                                       double on_share)
-    : BackgroundActivity(stream, static_cast<std::uint32_t>(pixels.size()), rate_hz, on_share) {
+PoissonEvents::PoissonEvents(const RandomStream& stream, std::vector<std::uint32_t> pixels,
+                             double rate_hz, double on_share)
+    : PoissonEvents(stream, static_cast<std::uint32_t>(pixels.size()), rate_hz, on_share) {
   pixels_ = std::move(pixels);
   reset(0);
 }
 
-void BackgroundActivity::reset(TimeUs t_us) {
+void PoissonEvents::reset(TimeUs t_us) {
   origin_us_ = t_us;
   time_us_ = 0;
   number_ = 0;
   if (mean_wait_us_ > 0) draw();
 }
 
-void BackgroundActivity::take_until(TimeUs t_us, std::vector<BackgroundEvent>& out) {
+void PoissonEvents::take_until(TimeUs t_us, std::vector<PoissonEvent>& out) {
   if (mean_wait_us_ == 0) return;
   while (next_.t_us <= t_us) {
     out.push_back(next_);
@@ -38,12 +37,13 @@ void BackgroundActivity::take_until(TimeUs t_us, std::vector<BackgroundEvent>& o
   }
 }
 
-void BackgroundActivity::draw() {
+void PoissonEvents::draw() {
   const auto random = stream_.block(number_++);
   time_us_ -= mean_wait_us_ * natural_log(unit_interval(random[0]));
   const std::uint64_t index = (static_cast<std::uint64_t>(random[1]) * pixel_count_) >> 32;
   next_.pixel = pixels_.empty() ? static_cast<std::uint32_t>(index) : pixels_[index];
   next_.on = unit_interval(random[2]) < on_share_;
+  next_.chance = unit_interval(random[3]);
   // The clock's first microsecond at or after the event.
   const auto whole = static_cast<TimeUs>(time_us_);
   next_.t_us = origin_us_ + whole + (static_cast<double>(whole) < time_us_ ? 1 : 0);

@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sim/base/vector_level.h"
+#include "sim/events/luminance_bounds.h"
+#include "sim/events/pixel_signal.h"
+#include "sim/events/response.h"
+
+namespace dodgesim {
+
+namespace {
+
+// Luminance in, response out.
+[[gnu::always_inline]] inline void respond(const Response& response, double* values,
+                                           std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) values[i] = response.at(values[i]);
+}
+void respond_portable(const Response& r, double* values, std::size_t n) { respond(r, values, n); }
+DODGESIM_TARGET_AVX2 void respond_avx2(const Response& r, double* values, std::size_t n) {
+  respond(r, values, n);
+}
+DODGESIM_TARGET_AVX512 void respond_avx512(const Response& r, double* values, std::size_t n) {
+  respond(r, values, n);
+}
+constexpr std::array<void (*)(const Response&, double*, std::size_t), kVectorLevels> kRespond = {
+    respond_portable, respond_avx2, respond_avx512};
+
+class ExactSignal : public PixelSignal {
+ public:
+  ExactSignal(const EventCameraSpec& spec, std::size_t pixels)
+      : response_(spec.log_epsilon, spec.linear_below),
+        luminance_(pixels),
+        bounds_(pixels, spec.log_epsilon) {}
+
+  void reset(const float* luminance) override {
+    std::copy_n(luminance, luminance_.size(), luminance_.begin());
+  }
+
+  void begin() override { values_.clear(); }
+
+  void scan(const RowPart& part, unsigned char* may_fire) override {
+    bounds_.scan(part.first, part.size, part.luminance, may_fire);
+  }
+
+  void take(const RowPart& part, std::span<const std::uint32_t> places,
+            std::vector<Candidate>& candidates) override {
+    float* const last = luminance_.data() + part.first;
+    for (const std::uint32_t i : places) {
+      candidates.push_back(
+          {static_cast<std::uint32_t>(part.first) + i, 0, part.last_sample_us(i), 0, 0});
+      values_.push_back(last[i]);
+      values_.push_back(part.luminance[i]);
+    }
+    std::copy_n(part.luminance, part.size, last);
+  }
+
+  void finish(std::span<Candidate> candidates) override {
+    static const auto respond = kRespond[static_cast<std::size_t>(widest_vector_level())];
+    respond(response_, values_.data(), values_.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      candidates[i].s0 = values_[2 * i];
+      candidates[i].s1 = values_[2 * i + 1];
+    }
+  }
+
+  void knots(const Candidate& candidate, double t1_us, std::vector<Knot>& knots) const override {
+    knots.push_back({t1_us, candidate.s1});
+  }
+
+  void set_bounds(std::size_t index, double low, double high) override {
+    bounds_.set(index, response_.inverse(low), response_.inverse(high));
+  }
+
+  void set_held(std::size_t index) override { bounds_.set_empty(index); }
+
+  double value(std::size_t index, double) const override { return response_.at(luminance_[index]); }
+
+  double rebase(std::size_t index, float luminance) override {
+    const double before = response_.at(luminance_[index]);
+    luminance_[index] = luminance;
+    return response_.at(luminance) - before;
+  }
+
+ private:
+  Response response_;
+  std::vector<float> luminance_;  // at each pixel's last sample
+  LuminanceBounds bounds_;
+  std::vector<double> values_;  // of the candidates: before and now
+};
+
+}  // namespace
+
+std::unique_ptr<PixelSignal> make_exact_signal(const EventCameraSpec& spec, std::size_t pixels) {
+  return std::make_unique<ExactSignal>(spec, pixels);
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/events/photoreceptor.h"
+#include "sim/events/pixel_signal.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr double kSecondsPerUs = 1e-6;
+
+// The bounds are rounded to float; this keeps them on the safe side.
+constexpr double kBoundMargin = 1e-6;
+
+class FilteredSignal : public PixelSignal {
+ public:
+  FilteredSignal(const EventCameraSpec& spec, std::size_t pixels, double leak_per_s,
+                 double tolerance)
+      : photoreceptor_(spec),
+        order_(photoreceptor_.order()),
+        leak_per_us_(leak_per_s * kSecondsPerUs),
+        tolerance_(tolerance),
+        u_(pixels),
+        y_(order_ > 0 ? pixels : 0),
+        z_(order_ > 1 ? pixels : 0),
+        low_(pixels),
+        high_(pixels) {}
+
+  void reset(const float* luminance) override {
+    for (std::size_t i = 0; i < u_.size(); ++i) {
+      u_[i] = static_cast<float>(photoreceptor_.response().at(luminance[i]));
+    }
+    if (order_ > 0) y_ = u_;
+    if (order_ > 1) z_ = u_;
+  }
+
+  void begin() override { bent_.clear(); }
+
+  void scan(const RowPart& part, unsigned char* may_fire) override {
+    new_u_.resize(part.size);
+    new_y_.resize(part.size);
+    new_z_.resize(part.size);
+    Photoreceptor::Row row{};
+    row.size = part.size;
+    row.luminance = part.luminance;
+    double earliest_us = part.same_last_us;
+    if (part.last_us != nullptr) {
+      earliest_us = *std::min_element(part.last_us, part.last_us + part.size);
+      dt_s_.resize(part.size);
+      for (std::size_t i = 0; i < part.size; ++i) dt_s_[i] = interval_s(part, i);
+      row.dt_s = dt_s_.data();
+    } else {
+      row.same_dt_s = interval_s(part, 0);
+    }
+    row.u = u_.data() + part.first;
+    row.y = order_ > 0 ? y_.data() + part.first : nullptr;
+    row.z = order_ > 1 ? z_.data() + part.first : nullptr;
+    row.u1 = new_u_.data();
+    row.y1 = new_y_.data();
+    row.z1 = new_z_.data();
+    row.low = low_.data() + part.first;
+    row.high = high_.data() + part.first;
+    // The leak only raises S.
+    row.leaked_before = static_cast<float>(leak_per_us_ * earliest_us);
+    row.leaked = static_cast<float>(leak_per_us_ * part.t_us);
+    row.may_fire = may_fire;
+    photoreceptor_.advance(row);
+  }
+
+  void take(const RowPart& part, std::span<const std::uint32_t> places,
+            std::vector<Candidate>& candidates) override {
+    const std::vector<float>& now = order_ > 1 ? new_z_ : (order_ > 0 ? new_y_ : new_u_);
+    for (const std::uint32_t i : places) {
+      const std::size_t index = part.first + i;
+      const double dt_s = kSecondsPerUs * (part.t_us - part.last_sample_us(i));
+      const Charge before = charge(index);
+      Candidate candidate = {static_cast<std::uint32_t>(index), 0, part.last_sample_us(i), 0, 0};
+      candidate.s0 = before.z + leak_per_us_ * candidate.t0_us;
+      candidate.s1 = static_cast<double>(now[i]) + leak_per_us_ * part.t_us;
+      const auto pieces =
+          photoreceptor_.pieces(before, part.luminance[i], new_u_[i], dt_s, tolerance_);
+      if (pieces.count > 0) {
+        bent_.push_back({before, part.luminance[i], new_u_[i], dt_s, pieces});
+        candidate.bend = static_cast<std::uint32_t>(bent_.size());
+      }
+      candidates.push_back(candidate);
+    }
+    const auto first = static_cast<std::ptrdiff_t>(part.first);
+    std::copy_n(new_u_.begin(), part.size, u_.begin() + first);
+    if (order_ > 0) std::copy_n(new_y_.begin(), part.size, y_.begin() + first);
+    if (order_ > 1) std::copy_n(new_z_.begin(), part.size, z_.begin() + first);
+  }
+
+  void finish(std::span<Candidate>) override {}
+
+  void knots(const Candidate& candidate, double t1_us, std::vector<Knot>& knots) const override {
+    const Bent& bent = bent_[candidate.bend - 1];
+    for (int i = 1; i <= bent.pieces.count; ++i) {
+      const double t_s = i * bent.pieces.step_s;
+      const double t_us = candidate.t0_us + t_s / kSecondsPerUs;
+      if (t_us >= t1_us) break;
+      const Charge then = photoreceptor_.at(bent.before, bent.luminance, bent.u1, bent.dt_s, t_s);
+      knots.push_back({t_us, then.z + leak_per_us_ * t_us});
+    }
+    knots.push_back({t1_us, candidate.s1});
+  }
+
+  void set_bounds(std::size_t index, double low, double high) override {
+    low_[index] = static_cast<float>(low + kBoundMargin * (1 + std::abs(low)));
+    high_[index] = static_cast<float>(high - kBoundMargin * (1 + std::abs(high)));
+  }
+
+  void set_held(std::size_t index) override {
+    low_[index] = std::numeric_limits<float>::infinity();
+    high_[index] = -std::numeric_limits<float>::infinity();
+  }
+
+  double value(std::size_t index, double t_us) const override {
+    return charge(index).z + leak_per_us_ * t_us;
+  }
+
+  double rebase(std::size_t index, float luminance) override {
+    const auto u = static_cast<float>(photoreceptor_.response().at(luminance));
+    const float change = u - u_[index];
+    const double before = charge(index).z;
+    u_[index] = u;
+    if (order_ > 0) y_[index] += change;
+    if (order_ > 1) z_[index] += change;
+    return charge(index).z - before;
+  }
+
+ private:
+  struct Bent {
+    Charge before;
+    double luminance, u1, dt_s;
+    Photoreceptor::Pieces pieces;
+  };
+
+  Charge charge(std::size_t index) const {
+    Charge out;
+    out.u = u_[index];
+    out.y = order_ > 0 ? y_[index] : out.u;
+    out.z = order_ > 1 ? z_[index] : out.y;
+    return out;
+  }
+
+  static float interval_s(const RowPart& part, std::size_t i) {
+    return static_cast<float>(kSecondsPerUs * (part.t_us - part.last_sample_us(i)));
+  }
+
+  Photoreceptor photoreceptor_;
+  int order_;
+  double leak_per_us_;
+  double tolerance_;
+  std::vector<float> u_, y_, z_;  // at each pixel's last sample; y_, z_ as far as the order goes
+  std::vector<float> low_, high_;
+  std::vector<float> dt_s_;
+  std::vector<float> new_u_, new_y_, new_z_;  // of the part that was scanned last
+  std::vector<Bent> bent_;
+};
+
+}  // namespace
+
+std::unique_ptr<PixelSignal> make_filtered_signal(const EventCameraSpec& spec, std::size_t pixels,
+                                                  double leak_per_s, double tolerance) {
+  return std::make_unique<FilteredSignal>(spec, pixels, leak_per_s, tolerance);
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,80 @@
+#include "sim/events/noise.h"
+
+#include <algorithm>
+#include <string>
+
+namespace dodgesim {
+
+namespace {
+
+constexpr double kBrightLux = 1000;
+
+double share(double part, double other) { return part + other > 0 ? part / (part + other) : 0.5; }
+
+std::string named(std::string_view camera, const char* what) {
+  return std::string(camera) + "/" + what;
+}
+
+std::vector<std::uint32_t> draw_hot_pixels(const RandomStream& device, std::uint32_t count,
+                                           double fraction) {
+  std::vector<std::uint32_t> hot;
+  for (std::uint32_t i = 0; fraction > 0 && i < count; ++i) {
+    if (unit_interval(device.block(i)[0]) < fraction) hot.push_back(i);
+  }
+  return hot;
+}
+
+}  // namespace
+
+Noise::Noise(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
+             std::uint64_t throw_index, std::string_view name)
+    : width_(width),
+      bright_share_(spec.shot_noise_bright_share),
+      bright_luminance_(kBrightLux / spec.illuminance_lux),
+      shot_(RandomStream(seed, throw_index, named(name, "shot")),
+            static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height),
+            spec.shot_noise_on_hz + spec.shot_noise_off_hz,
+            share(spec.shot_noise_on_hz, spec.shot_noise_off_hz)),
+      hot_(RandomStream(seed, throw_index, named(name, "hot")),
+           draw_hot_pixels(RandomStream(seed, 0, named(name, "hot pixels")),
+                           static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height),
+                           spec.hot_pixel_fraction),
+           spec.hot_pixel_hz, share(spec.shot_noise_on_hz, spec.shot_noise_off_hz)) {}
+
+void Noise::reset(TimeUs t_us) {
+  shot_.reset(t_us);
+  hot_.reset(t_us);
+  waiting_.clear();
+}
+
+double Noise::accepted_share(float luminance) const {
+  return 1 - (1 - bright_share_) * std::min(1.0, luminance / bright_luminance_);
+}
+
+std::span<const NoiseEvent> Noise::take(TimeUs t_us, const Rect& region, const float* luminance) {
+  drawn_.clear();
+  shot_.take_until(t_us, drawn_);
+  for (const PoissonEvent& event : drawn_) waiting_.push_back({event, kCauseShotNoise});
+  drawn_.clear();
+  hot_.take_until(t_us, drawn_);
+  for (const PoissonEvent& event : drawn_) waiting_.push_back({event, kCauseHotPixel});
+
+  taken_.clear();
+  std::erase_if(waiting_, [&](const Waiting& waiting) {
+    const auto& [event, cause] = waiting;
+    const auto x = static_cast<int>(event.pixel) % width_;
+    const auto y = static_cast<int>(event.pixel) / width_;
+    if (x < region.x0 || x >= region.x1 || y < region.y0 || y >= region.y1) return false;
+    if (cause == kCauseHotPixel || event.chance < accepted_share(luminance[event.pixel])) {
+      taken_.push_back({event.t_us, event.pixel, event.on, cause});
+    }
+    return true;
+  });
+  std::sort(taken_.begin(), taken_.end(), [](const NoiseEvent& a, const NoiseEvent& b) {
+    if (a.pixel != b.pixel) return a.pixel < b.pixel;
+    return a.t_us != b.t_us ? a.t_us < b.t_us : a.on < b.on;
+  });
+  return taken_;
+}
+
+}  // namespace dodgesim

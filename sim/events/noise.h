@@ -1,0 +1,55 @@
+// The noise of an event camera that is not in its pixels' signal: shot noise, which falls with the
+// light, and hot pixels.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "sim/base/time.h"
+#include "sim/events/cause.h"
+#include "sim/events/poisson_events.h"
+#include "sim/events/spec.h"
+#include "sim/render/camera.h"
+
+namespace dodgesim {
+
+struct NoiseEvent {
+  TimeUs t_us = 0;
+  std::uint32_t pixel = 0;  // y * width + x
+  bool on = false;
+  Cause cause = kCauseShotNoise;
+};
+
+class Noise {
+ public:
+  // `name` tells the cameras of a vehicle apart. Which pixels are hot depends on seed and name
+  // only.
+  Noise(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
+        std::uint64_t throw_index, std::string_view name);
+
+  void reset(TimeUs t_us);
+
+  // The events up to t_us of the pixels in `region` that have not been taken before, by (pixel,
+  // time). `luminance` (width x height) is what these pixels see. Valid until the next call.
+  std::span<const NoiseEvent> take(TimeUs t_us, const Rect& region, const float* luminance);
+
+ private:
+  double accepted_share(float luminance) const;
+
+  int width_;
+  double bright_share_;
+  double bright_luminance_;  // from which on the share is bright_share
+  PoissonEvents shot_;
+  PoissonEvents hot_;
+  struct Waiting {
+    PoissonEvent event;
+    Cause cause;
+  };
+  std::vector<PoissonEvent> drawn_;  // scratch
+  std::vector<Waiting> waiting_;     // for a sample of their pixels
+  std::vector<NoiseEvent> taken_;
+};
+
+}  // namespace dodgesim

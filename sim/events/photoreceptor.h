@@ -1,0 +1,74 @@
+// The photoreceptor's bandwidth: a low-pass of the pixel's response to light, whose cut-off falls
+// with the light, and optionally a second one (the source follower) with a fixed cut-off.
+//
+// The input u is the response at the samples and runs linearly between them. The outputs y (first
+// order) and z (second order) at the samples are then known exactly. With x = dt/tau,
+// k = exp(-x) and m = (1 - k)/x, over one interval:
+//   y1 = u1 + k (y0 - u0) - m (u1 - u0)
+// and, as y is a line plus (y0 - u0 + (u1 - u0)/x) exp(-t/tau), z1 follows likewise. tau is that of
+// the light at the interval's end.
+#pragma once
+
+#include <cstddef>
+
+#include "sim/events/response.h"
+
+namespace dodgesim {
+
+struct EventCameraSpec;
+
+// What a pixel's low-passes hold.
+struct Charge {
+  double u = 0;  // the response to the last sample's light
+  double y = 0;  // behind the photoreceptor
+  double z = 0;  // behind the follower; y if there is none
+};
+
+class Photoreceptor {
+ public:
+  explicit Photoreceptor(const EventCameraSpec& spec);
+
+  int order() const { return order_; }  // of the low-pass: 0, 1 or 2
+  const Response& response() const { return response_; }
+
+  // Cut-off [1/s, angular] of the first low-pass at a luminance.
+  double cutoff_rad_s(double luminance) const { return dark_rad_s_ + rad_s_ * luminance; }
+
+  // One pixel, t_s after a sample; at dt_s after it, it shows `luminance`, to which the response is
+  // u1.
+  Charge at(const Charge& before, double luminance, double u1, double dt_s, double t_s) const;
+
+  // Into how many straight pieces of step_s each, with a longer one to the end, z must be cut over
+  // the dt_s between two samples so that it does not stray from them by more than `tolerance`.
+  // count 0: one straight line will do.
+  struct Pieces {
+    int count;
+    double step_s;
+  };
+  Pieces pieces(const Charge& before, double luminance, double u1, double dt_s,
+                double tolerance) const;
+
+  // A row of pixels.
+  struct Row {
+    std::size_t size;
+    const float* luminance;
+    const float* dt_s;  // since each pixel's last sample; null: same_dt_s
+    float same_dt_s;
+    const float *u, *y, *z;  // before; y and z as far as the order goes
+    float *u1, *y1, *z1;     // after
+    // Bounds of z: a pixel whose z stays strictly between them makes no event.
+    const float *low, *high;
+    float leaked_before, leaked;  // what the leak has added to z before and after
+    unsigned char* may_fire;      // 1: z may have left its bounds, or the luminance is no number
+  };
+  // In single precision; the same bytes at every vector level (see sim/base/vector_level.h).
+  void advance(const Row& row) const;
+  void advance(const Row& row, int vector_level) const;
+
+ private:
+  Response response_;
+  int order_;
+  double rad_s_, dark_rad_s_, follower_rad_s_;
+};
+
+}  // namespace dodgesim

@@ -1,0 +1,294 @@
+#include "sim/events/pixel_array.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+static_assert(std::endian::native == std::endian::little);
+
+namespace {
+
+constexpr double kArmed = -std::numeric_limits<double>::infinity();
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// A bandwidth bends S between samples; it is followed to within this share of the thresholds.
+constexpr double kCurveShare = 0.05;
+
+// Flags are looked at eight at a time.
+constexpr std::size_t kWord = 8;
+
+float checked(float luminance) {
+  if (!(luminance >= 0 && luminance <= std::numeric_limits<float>::max())) {
+    throw SimulationError("An event camera was shown a luminance of " + std::to_string(luminance) +
+                          "; it must be finite and not negative.");
+  }
+  return luminance;
+}
+
+}  // namespace
+
+PixelArray::PixelArray(const EventCameraSpec& spec, int width, int height,
+                       const RandomStream& device, const RandomStream& start, bool keep_causes)
+    : width_(static_cast<std::size_t>(width)),
+      refractory_us_(static_cast<double>(spec.refractory_us)),
+      start_(start),
+      pixels_(width_ * static_cast<std::size_t>(height)),
+      row_keeps_times_(static_cast<std::size_t>(height)),
+      sampled_us_(pixels_.size()),
+      may_fire_((width_ + kWord - 1) / kWord * kWord) {
+  draw_thresholds(spec, device);
+  double leak_per_s = 0;
+  if (spec.leak_hz > 0) {
+    // One current for all pixels, such that their mean rate is leak_hz.
+    double inverse_sum = 0;
+    double alive = 0;
+    for (const Pixel& pixel : pixels_) {
+      if (pixel.threshold_on == kNever) continue;
+      inverse_sum += 1.0 / pixel.threshold_on;
+      ++alive;
+    }
+    if (alive > 0) leak_per_s = spec.leak_hz * alive / inverse_sum;
+  }
+  leak_per_us_ = 1e-6 * leak_per_s;
+  const double tolerance =
+      kCurveShare * std::min(spec.contrast_threshold_on, spec.contrast_threshold_off);
+  const bool exact = spec.photoreceptor_hz <= 0 && spec.leak_hz <= 0;
+  signal_ = exact ? make_exact_signal(spec, pixels_.size())
+                  : make_filtered_signal(spec, pixels_.size(), leak_per_s, tolerance);
+  if (keep_causes) {
+    shown_.resize(pixels_.size());
+    leaking_us_.resize(pixels_.size());
+  }
+}
+
+void PixelArray::draw_thresholds(const EventCameraSpec& spec, const RandomStream& device) {
+  for (std::uint32_t i = 0; i < pixels_.size(); ++i) {
+    double on = spec.contrast_threshold_on;
+    double off = spec.contrast_threshold_off;
+    const auto random = device.block(i);
+    if (spec.mismatch_sigma > 0) {
+      on += spec.mismatch_sigma * normal_quantile(unit_interval(random[0]));
+      off += spec.mismatch_sigma * normal_quantile(unit_interval(random[1]));
+    }
+    const bool dead = unit_interval(random[2]) < spec.dead_pixel_fraction;
+    pixels_[i].threshold_on = dead ? kNever : std::max(on, spec.threshold_min);
+    pixels_[i].threshold_off = dead ? kNever : std::max(off, spec.threshold_min);
+  }
+}
+
+void PixelArray::reset(TimeUs t_us, const Picture& picture) {
+  for (std::size_t i = 0; i < pixels_.size(); ++i) checked(picture.luminance[i]);
+  signal_->reset(picture.luminance);
+  reset_us_ = t_us;
+  last_us_ = 0;
+  std::fill(row_keeps_times_.begin(), row_keeps_times_.end(), 0);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    Pixel& pixel = pixels_[i];
+    // After a long rest the leak has brought pixels anywhere between two of its events.
+    double leaked = 0;
+    if (leak_per_us_ > 0 && pixel.threshold_on != kNever) {
+      leaked = unit_interval(start_.block(i)[0]) * pixel.threshold_on;
+    }
+    pixel.reference = signal_->value(i, 0) - leaked;
+    pixel.held_until_us = kArmed;
+    if (!leaking_us_.empty()) leaking_us_[i] = leaked > 0 ? -leaked / leak_per_us_ : 0;
+    set_bounds(i);
+  }
+  show({0, 0, static_cast<int>(width_), static_cast<int>(row_keeps_times_.size())}, picture);
+}
+
+void PixelArray::sample(TimeUs t_us, const Rect& region, const Picture& picture,
+                        std::span<const NoiseEvent> noise, TimeUs origin_us, EventWords& events) {
+  const auto now_us = static_cast<double>(t_us - reset_us_);
+  candidates_.clear();
+  signal_->begin();
+  Run state = {noise, static_cast<double>(origin_us - reset_us_), &events};
+  std::span<const NoiseEvent> unlisted = noise;
+  for (int y = region.y0; y < region.y1; ++y) sample_row(y, now_us, region, picture, unlisted);
+  signal_->finish(candidates_);
+  for (const Candidate& candidate : candidates_) {
+    run(candidate, now_us, cause_at(candidate.index, picture), state);
+  }
+  show(region, picture);
+  const auto height = static_cast<int>(row_keeps_times_.size());
+  if (region.x0 == 0 && region.y0 == 0 && region.x1 == static_cast<int>(width_) &&
+      region.y1 == height) {
+    std::fill(row_keeps_times_.begin(), row_keeps_times_.end(), 0);
+    last_us_ = now_us;
+  } else {
+    for (int y = region.y0; y < region.y1; ++y) {
+      keep_times(static_cast<std::size_t>(y), region, now_us);
+    }
+  }
+}
+
+// Finds the pixels of a row that may fire, and lists them as candidates.
+void PixelArray::sample_row(int y, double t_us, const Rect& region, const Picture& picture,
+                            std::span<const NoiseEvent>& noise) {
+  const auto row = static_cast<std::size_t>(y);
+  const auto x0 = static_cast<std::size_t>(region.x0);
+  RowPart part{};
+  part.first = row * width_ + x0;
+  part.size = static_cast<std::size_t>(region.x1 - region.x0);
+  part.luminance = picture.luminance + part.first;
+  part.t_us = t_us;
+  part.last_us = row_keeps_times_[row] != 0 ? sampled_us_.data() + part.first : nullptr;
+  part.same_last_us = last_us_;
+  unsigned char* const flags = may_fire_.data();
+  std::memset(flags + part.size / kWord * kWord, 0, may_fire_.size() - part.size / kWord * kWord);
+  signal_->scan(part, flags);
+  for (; !noise.empty() && noise.front().pixel < part.first + part.size; noise = noise.subspan(1)) {
+    flags[noise.front().pixel - part.first] = 1;
+  }
+  places_.clear();
+  for (std::size_t word = 0; word < part.size; word += kWord) {
+    std::uint64_t any = 0;
+    std::memcpy(&any, flags + word, sizeof any);
+    // Eight flags at once, each 0 or 1; the lowest byte is the leftmost pixel.
+    for (; any != 0; any &= any - 1) {
+      const std::size_t i = word + static_cast<std::size_t>(std::countr_zero(any)) / kWord;
+      checked(part.luminance[i]);
+      places_.push_back(static_cast<std::uint32_t>(i));
+      __builtin_prefetch(&pixels_[part.first + i], 1);
+    }
+  }
+  signal_->take(part, places_, candidates_);
+}
+
+void PixelArray::keep_times(std::size_t y, const Rect& region, double t_us) {
+  double* const times = sampled_us_.data() + y * width_;
+  if (row_keeps_times_[y] == 0) std::fill_n(times, width_, last_us_);
+  row_keeps_times_[y] = 1;
+  std::fill(times + region.x0, times + region.x1, t_us);
+}
+
+void PixelArray::run(const Candidate& candidate, double t1_us, Cause cause, Run& run) {
+  run.first_us = candidate.t0_us + 1;
+  Line line = {candidate.t0_us, t1_us, candidate.s0, candidate.s1};
+  if (candidate.bend == 0) {
+    run_line(candidate.index, line, cause, run);
+  } else {
+    knots_.clear();
+    signal_->knots(candidate, t1_us, knots_);
+    for (const Knot& knot : knots_) {
+      line.t1_us = knot.t_us;
+      line.s1 = knot.s;
+      run_line(candidate.index, line, cause, run);
+      line.t0_us = knot.t_us;
+      line.s0 = knot.s;
+    }
+  }
+  set_bounds(candidate.index);
+}
+
+void PixelArray::run_line(std::size_t index, const Line& line, Cause cause, Run& run) {
+  Pixel& pixel = pixels_[index];
+  for (; !run.noise.empty() && run.noise.front().pixel == index; run.noise = run.noise.subspan(1)) {
+    const NoiseEvent& event = run.noise.front();
+    const auto t_us = static_cast<double>(event.t_us - reset_us_);
+    if (t_us > line.t1_us) break;
+    fire_crossings(index, line, t_us, cause, run);
+    if (pixel.held_until_us != kArmed || pixel.threshold_on == kNever) continue;
+    emit(index, t_us, event.on, event.cause, run);
+    pixel.reference = line.at(t_us);
+    if (refractory_us_ > 0) pixel.held_until_us = t_us + refractory_us_;
+  }
+  fire_crossings(index, line, line.t1_us, cause, run);
+}
+
+// Moves the pixel along the line up to until_us, which must not go back from call to call.
+void PixelArray::fire_crossings(std::size_t index, const Line& line, double until_us, Cause cause,
+                                Run& run) {
+  Pixel& pixel = pixels_[index];
+  const double s_until = line.at(until_us);
+  const bool on = line.s1 > line.s0;
+  const double change = on ? pixel.threshold_on : -pixel.threshold_off;
+  while (true) {
+    if (pixel.held_until_us != kArmed) {
+      if (pixel.held_until_us > until_us) return;
+      pixel.reference = line.at(pixel.held_until_us);
+      pixel.held_until_us = kArmed;
+    }
+    const double level = pixel.reference + change;
+    if (on ? s_until < level : s_until > level) return;
+    pixel.reference = level;
+    const double crossing_us = line.time_of(level);
+    Cause why = cause;
+    if (!leaking_us_.empty() && on &&
+        leak_per_us_ * (crossing_us - leaking_us_[index]) > 0.5 * pixel.threshold_on) {
+      why = kCauseLeak;
+    }
+    // Rounded to the clock, but no later than what comes next and after the last sample.
+    const double rounded_us = std::min(std::floor(crossing_us + 0.5), std::floor(until_us));
+    emit(index, std::max(rounded_us, run.first_us), on, why, run);
+    if (refractory_us_ > 0) pixel.held_until_us = crossing_us + refractory_us_;
+  }
+}
+
+void PixelArray::emit(std::size_t index, double t_us, bool on, Cause cause, Run& run) {
+  run.events->push(static_cast<TimeUs>(t_us - run.origin_us),
+                   EventWords::address(index % width_, index / width_), on, cause);
+  if (!leaking_us_.empty()) leaking_us_[index] = t_us + refractory_us_;
+}
+
+void PixelArray::set_bounds(std::size_t index) {
+  const Pixel& pixel = pixels_[index];
+  if (pixel.held_until_us != kArmed) {
+    signal_->set_held(index);
+  } else {
+    signal_->set_bounds(index, pixel.reference - pixel.threshold_off,
+                        pixel.reference + pixel.threshold_on);
+  }
+}
+
+void PixelArray::rebase(const Picture& picture) {
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    pixels_[i].reference += signal_->rebase(i, checked(picture.luminance[i]));
+    set_bounds(i);
+  }
+  show({0, 0, static_cast<int>(width_), static_cast<int>(row_keeps_times_.size())}, picture);
+}
+
+void PixelArray::show(const Rect& region, const Picture& picture) {
+  if (shown_.empty()) return;
+  if (picture.cause == nullptr) {
+    throw std::invalid_argument("A picture must say what its pixels show.");
+  }
+  for (int y = region.y0; y < region.y1; ++y) {
+    const std::size_t first = static_cast<std::size_t>(y) * width_;
+    std::copy(picture.cause + first + region.x0, picture.cause + first + region.x1,
+              shown_.begin() + static_cast<std::ptrdiff_t>(first) + region.x0);
+  }
+}
+
+// A pixel that an object enters or leaves between two samples fires because of the object.
+Cause PixelArray::cause_at(std::size_t index, const Picture& picture) const {
+  return shown_.empty() ? kCauseScene : std::max(shown_[index], picture.cause[index]);
+}
+
+double PixelArray::Line::at(double t_us) const {
+  if (t_us >= t1_us) return s1;
+  return s0 + (s1 - s0) * (t_us - t0_us) / (t1_us - t0_us);
+}
+
+double PixelArray::Line::time_of(double s) const {
+  return t0_us + (s - s0) * (t1_us - t0_us) / (s1 - s0);
+}
+
+PixelState PixelArray::state(std::size_t index) const {
+  const Pixel& pixel = pixels_[index];
+  const bool own_time = row_keeps_times_[index / width_] != 0;
+  const double t_us = own_time ? sampled_us_[index] : last_us_;
+  return {signal_->value(index, t_us), pixel.reference, pixel.threshold_on, pixel.threshold_off,
+          pixel.held_until_us != kArmed};
+}
+
+}  // namespace dodgesim

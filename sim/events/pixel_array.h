@@ -1,0 +1,135 @@
+// The pixels of an event camera: each turns the luminance that it sees into events.
+//
+// A pixel answers to the signal S: the response L to the luminance (response.h), behind the
+// photoreceptor's bandwidth (photoreceptor.h), plus what the leak has added to it. S runs linearly
+// from sample to sample, or, where a bandwidth bends it by more than kCurveShare of a threshold, in
+// as many straight pieces as it takes. A pixel fires an ON event when S reaches reference + C_on
+// and an OFF event when S falls to reference - C_off, stamped at that crossing (Lichtsteiner et al.
+// 2008; the event model (1) of Falanga et al. 2020); the reference then moves to the level that was
+// crossed, so one interval may hold several events of a pixel.
+//
+// Refractory period: as in the real pixel, whose differencing amplifier is kept in reset after an
+// event, the pixel is held for `refractory_us` and re-armed at its end with reference = S at that
+// instant. What S does in between makes no event.
+//
+// Noise events reset the pixel like any other event: the reference becomes the S of that instant.
+// They are lost when they fall into a refractory period, and in dead pixels.
+//
+// After each sample -C_off < S - reference < C_on at every pixel that is not held: no pixel is ever
+// stuck. Without bandwidth, leak and noise, events and stamps are computed in double precision; the
+// low-passes are kept in single precision. Thresholds, hot and dead pixels belong to the device and
+// stay the same for all throws of a seed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/base/random.h"
+#include "sim/base/time.h"
+#include "sim/events/event_words.h"
+#include "sim/events/noise.h"
+#include "sim/events/pixel_signal.h"
+#include "sim/events/spec.h"
+#include "sim/render/camera.h"
+
+namespace dodgesim {
+
+// One pixel as it is after its last sample, for self-tests.
+struct PixelState {
+  double signal = 0;  // S; the response to the luminance where there is no bandwidth and no leak
+  double reference = 0;
+  double threshold_on = 0;
+  double threshold_off = 0;
+  bool held = false;  // in its refractory period
+};
+
+// Luminance of a picture (width x height, row-major from the top left), finite and >= 0, and
+// optionally what each pixel shows.
+struct Picture {
+  const float* luminance;
+  const Cause* cause = nullptr;
+};
+
+class PixelArray {
+ public:
+  // `device` names the fixed random properties of the pixels, `start` how near each pixel is to its
+  // next leak event at first. With `keep_causes`, every picture must say what its pixels show.
+  PixelArray(const EventCameraSpec& spec, int width, int height, const RandomStream& device,
+             const RandomStream& start, bool keep_causes);
+
+  // The first picture, of the instant t_us: sets every reference.
+  void reset(TimeUs t_us, const Picture& picture);
+
+  // A sample of the pixels of `region`, later than all others. Appends their events since their
+  // last samples, with times since origin_us, which no last sample precedes. `noise` holds their
+  // noise events of that time by (pixel, time).
+  void sample(TimeUs t_us, const Rect& region, const Picture& picture,
+              std::span<const NoiseEvent> noise, TimeUs origin_us, EventWords& events);
+
+  // Another picture of the instant of the last sample, which was one of all pixels: references move
+  // with it, no events.
+  void rebase(const Picture& picture);
+
+  PixelState state(std::size_t index) const;
+
+ private:
+  struct Pixel {
+    double reference = 0;
+    double held_until_us = 0;  // not rounded as the stamps are; kArmed: not held
+    double threshold_on = 0;   // infinite: dead
+    double threshold_off = 0;
+  };
+  // Straight line of S. All times of the pixels count from the reset.
+  struct Line {
+    double t0_us, t1_us;
+    double s0, s1;
+    double at(double t_us) const;
+    double time_of(double s) const;
+  };
+  // What run() needs besides the pixel.
+  struct Run {
+    std::span<const NoiseEvent> noise;  // not yet used
+    double origin_us;                   // since the reset
+    EventWords* events;
+    double first_us = 0;  // earliest stamp of the pixel
+  };
+
+  void draw_thresholds(const EventCameraSpec& spec, const RandomStream& device);
+  void sample_row(int y, double t_us, const Rect& region, const Picture& picture,
+                  std::span<const NoiseEvent>& noise);
+  void keep_times(std::size_t y, const Rect& region, double t_us);
+  void run(const Candidate& candidate, double t1_us, Cause cause, Run& run);
+  void run_line(std::size_t index, const Line& line, Cause cause, Run& run);
+  void fire_crossings(std::size_t index, const Line& line, double until_us, Cause cause, Run& run);
+  void emit(std::size_t index, double t_us, bool on, Cause cause, Run& run);
+  void set_bounds(std::size_t index);
+  void show(const Rect& region, const Picture& picture);
+  Cause cause_at(std::size_t index, const Picture& picture) const;
+
+  std::size_t width_;
+  double refractory_us_;
+  double leak_per_us_ = 0;
+  RandomStream start_;
+  TimeUs reset_us_ = 0;
+  double last_us_ = 0;  // of the last sample of all pixels
+  std::vector<Pixel> pixels_;
+  std::unique_ptr<PixelSignal> signal_;
+
+  // Rows that have been sampled in parts since the last sample of all pixels keep pixels' times.
+  std::vector<unsigned char> row_keeps_times_;
+  std::vector<double> sampled_us_;
+
+  // Only with causes.
+  std::vector<Cause> shown_;        // by each pixel's last sample
+  std::vector<double> leaking_us_;  // since when: the pixel's last event
+
+  // Scratch of one call.
+  std::vector<unsigned char> may_fire_;  // of a row
+  std::vector<std::uint32_t> places_;    // of the row's candidates
+  std::vector<Candidate> candidates_;
+  std::vector<Knot> knots_;
+};
+
+}  // namespace dodgesim
