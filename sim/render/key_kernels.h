@@ -7,7 +7,6 @@
 
 namespace dodgesim {
 
-// Half precision (IEEE 754 binary16) of numbers from 0 to 65504, rounded half up.
 inline constexpr float kLargestHalf = 65504;
 
 // Maps view pixels to a key, up to the depth: with d = direction of a pixel's ray, its point lies
@@ -22,16 +21,17 @@ struct KeyMap {
 };
 
 struct KeyKernels {
-  // Packs each mean of a row with its right neighbour: size - 1 pairs from `size` means.
-  void (*pack)(const float* means, int size, std::uint32_t* pairs);
+  // Half precision (IEEE 754 binary16), rounded half up; of numbers from 0 to kLargestHalf.
+  void (*halve)(const float* values, int size, std::uint16_t* halves);
   // Where view pixels (column, row), (column + step, row), ... lie in the key's depth [px].
   void (*place)(const KeyMap& map, float column, float step, float row, int size, float* x,
                 float* y);
   // Straight between nodes: `cells` cells of kKeyCellPx pixels each from `cells` + 1 nodes, which
   // lie at `share` of the way from `above` to `below`.
   void (*spread)(const float* above, const float* below, float share, int cells, float* out);
-  // Reads the pairs at (u, v), linearly in between.
-  void (*read)(const std::uint32_t* pairs, int stride, const float* u, const float* v, int size,
+  // Reads `means` (half precision) at (u, v), linearly in between. May look at the element after
+  // the last one that it needs.
+  void (*read)(const std::uint16_t* means, int stride, const float* u, const float* v, int size,
                float* luminance);
 };
 

@@ -42,7 +42,7 @@ KeyPicture::KeyPicture(const Intrinsics& view, const KeySpec& spec)
   const int margin = static_cast<int>(spec.margin_px);
   wide_ = {view.width + 2 * margin, view.height + 2 * margin, view.f};
   fine_ = {supersampling_ * wide_.width, supersampling_ * wide_.height, supersampling_ * view.f};
-  means_.resize(area(fine_));
+  means_.resize(area(fine_) + 1);
   column_sums_.resize(static_cast<std::size_t>(fine_.width));
   row_means_.resize(static_cast<std::size_t>(fine_.width));
   inverse_depth_.resize(area(wide_));
@@ -84,7 +84,7 @@ void KeyPicture::set_aperture_means(const std::vector<float>& luminance) {
       for (int i = 0; i + n <= width; ++i) means[i] += sums[i + k];
     }
     for (int i = 0; i + n <= width; ++i) means[i] *= share;
-    key_kernels().pack(means, width - n + 1, means_.data() + std::ptrdiff_t{j} * width);
+    key_kernels().halve(means, width - n + 1, means_.data() + std::ptrdiff_t{j} * width);
   }
 }
 
