@@ -58,9 +58,6 @@ class KeyPicture {
   void set(const Eigen::Isometry3d& X_WC, const std::vector<float>& luminance,
            const std::vector<float>& inverse_depth);
 
-  // Nothing can be shown until the next set().
-  void forget() { is_set_ = false; }
-
   // Writes the pixels of `region` of the view from X_WC into `luminance` (width x height of the
   // view). False, and nothing is written, if a new picture must be drawn. Equal on every processor,
   // bit for bit.
