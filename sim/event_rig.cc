@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <numbers>
 #include <string>
 
+#include "sim/base/random.h"
 #include "sim/events/event_log.h"
 #include "sim/world/view_distance.h"
 
@@ -27,6 +29,13 @@ std::vector<double> object_radii(const World& world) {
   return radii;
 }
 
+// Often enough for the flicker of the light, too.
+SamplingSpec sampling_of(const EventRigSetup& setup) {
+  SamplingSpec sampling = setup.sampling;
+  sampling.min_rate_hz = std::max(sampling.min_rate_hz, flicker_sampling_hz(setup.render.flicker));
+  return sampling;
+}
+
 // The camera names that the noise streams carry.
 std::string camera_name(int camera) { return camera == 0 ? "top" : "bottom"; }
 
@@ -37,7 +46,7 @@ struct EventRig::Eye {
   Eye(const World& world, const EventRigSetup& setup, int camera)
       : index(camera),
         X_BC(world.vehicle().X_BC.at(static_cast<std::size_t>(camera))),
-        sampler(setup.sampling, setup.intrinsics, X_BC, object_radii(world)),
+        sampler(sampling_of(setup), setup.intrinsics, X_BC, object_radii(world)),
         pixels(setup.events, setup.intrinsics.width, setup.intrinsics.height, setup.seed,
                setup.throw_index, camera_name(camera)),
         packets(setup.packet_us),
@@ -59,7 +68,11 @@ struct EventRig::Eye {
 };
 
 EventRig::EventRig(const World& world, const EventRigSetup& setup)
-    : world_(world), setup_(setup), renderer_(world, setup.intrinsics, setup.render) {
+    : world_(world),
+      setup_(setup),
+      renderer_(world, setup.intrinsics, setup.render),
+      flicker_phase_rad_(2 * std::numbers::pi *
+                         RandomStream(setup.seed, setup.throw_index, "flicker").uniform()) {
   for (int i = 0; i < setup.cameras; ++i) {
     eyes_.push_back(std::make_unique<Eye>(world, setup, i));
   }
@@ -88,7 +101,19 @@ void EventRig::show(Eye& eye, const Snapshot& snapshot, const Rect& region,
     eye.key.show(X_WC, region, luminance.data());
   }
   draw_objects(eye, snapshot, X_WC, region, luminance);
+  flicker(snapshot.t_us, region, luminance);
   render_s_ += seconds_since(start);
+}
+
+// The light of the instant on a part of the view that was drawn in the mean light.
+void EventRig::flicker(TimeUs t_us, const Rect& region, std::vector<float>& luminance) const {
+  if (setup_.render.flicker.flicker_hz <= 0) return;
+  const auto factor =
+      static_cast<float>(flicker_factor(setup_.render.flicker, flicker_phase_rad_, t_us));
+  for (std::ptrdiff_t y = region.y0; y < region.y1; ++y) {
+    const auto row = luminance.begin() + y * setup_.intrinsics.width;
+    std::for_each(row + region.x0, row + region.x1, [factor](float& light) { light *= factor; });
+  }
 }
 
 // Draws the objects over a picture of the static scene.

@@ -68,6 +68,7 @@ class EventRig {
   void show(Eye& eye, const Snapshot& snapshot, const Rect& region, std::vector<float>& luminance);
   void draw_objects(Eye& eye, const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
                     const Rect& region, std::vector<float>& luminance);
+  void flicker(TimeUs t_us, const Rect& region, std::vector<float>& luminance) const;
   void take_picture(Eye& eye, const Snapshot& snapshot);
   void take_region(Eye& eye, const Snapshot& snapshot, const Rect& region);
   Rect whole() const { return {0, 0, setup_.intrinsics.width, setup_.intrinsics.height}; }
@@ -80,6 +81,7 @@ class EventRig {
   std::vector<float> key_luminance_, key_inverse_depth_;  // as the renderer draws a key
   std::vector<float> region_luminance_;                   // width x height
   std::vector<Event> events_;
+  double flicker_phase_rad_;
   std::int64_t keys_ = 0;
   std::int64_t pictures_ = 0;
   std::int64_t regions_ = 0;

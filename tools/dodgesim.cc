@@ -38,7 +38,9 @@ int run_program(int argc, char** argv) {
       "Your own scenario:\n"
       "  cp scenarios/demo.yaml mine.yaml                         start from one that works\n"
       "  dodgesim explain throw                                   what can be thrown, and how\n"
-      "  dodgesim validate mine.yaml                              every mistake, with its line\n\n"
+      "  dodgesim validate mine.yaml                              every mistake, with its line\n"
+      "Your own video:\n"
+      "  dodgesim emulate v.npy --timestamps t.npy --camera ideal --out events.h5\n\n"
       "Exit codes: 0 ok, 1 below the baseline, 2 usage or scenario error, 3 incomplete,\n"
       "4 input/output error. \"dodgesim COMMAND --help\" says more.");
   program.require_subcommand(1);
@@ -49,6 +51,8 @@ int run_program(int argc, char** argv) {
   add_replay_command(program, exit_code);
   add_validate_command(program, exit_code);
   add_explain_command(program, exit_code);
+  add_emulate_command(program, exit_code);
+  add_bench_command(program, joined(argc, argv), exit_code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -6,7 +6,7 @@
 
 namespace dodgesim {
 
-// Bad command line, scenario or model. Exit code 2.
+// Bad command line, scenario, model or input data. Exit code 2.
 class ScenarioError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

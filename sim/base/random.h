@@ -34,6 +34,15 @@ class RandomStream {
   int buffered_ = 0;
 };
 
+// Random bits of the number `counter` under a key (SplitMix64, Steele et al. 2014): for the many
+// small draws for which a block of a stream costs too much. Take the key from a stream.
+inline std::uint64_t mixed_bits(std::uint64_t key, std::uint64_t counter) {
+  std::uint64_t bits = key + counter * 0x9e3779b97f4a7c15u;
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
+  return bits ^ (bits >> 31);
+}
+
 // Maps 32 random bits to (0, 1), never 0 and never 1.
 inline double unit_interval(std::uint32_t bits) {
   return (static_cast<double>(bits) + 0.5) * (1.0 / 4294967296.0);

@@ -7,10 +7,10 @@
 #include "sim/base/error.h"
 #include "sim/campaign/csv.h"
 #include "sim/campaign/manifest.h"
-#include "sim/campaign/output_file.h"
 #include "sim/campaign/progress.h"
 #include "sim/campaign/tables.h"
 #include "sim/config/resolve_throw.h"
+#include "sim/files/output_file.h"
 
 namespace dodgesim {
 

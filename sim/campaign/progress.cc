@@ -5,22 +5,38 @@
 
 namespace dodgesim {
 
-Progress::Progress(int total, bool visible)
-    : total_(total), visible_(visible), begin_(std::chrono::steady_clock::now()) {}
+namespace {
 
-void Progress::show(int finished) {
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kShowEvery(200);
+
+}  // namespace
+
+Progress::Progress(std::int64_t total, bool visible, std::string unit)
+    : total_(total),
+      visible_(visible),
+      unit_(std::move(unit)),
+      begin_(Clock::now()),
+      shown_(begin_ - kShowEvery) {}
+
+void Progress::show(std::int64_t finished) {
   if (!visible_) return;
-  const double passed_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  const double left_s = passed_s / finished * (total_ - finished);
+  const auto now = Clock::now();
+  if (now - shown_ < kShowEvery) return;
+  shown_ = now;
+  const double passed_s = std::chrono::duration<double>(now - begin_).count();
+  const double left_s =
+      passed_s / static_cast<double>(finished) * static_cast<double>(total_ - finished);
   // \x1b[K clears what is left of a longer line.
-  std::fprintf(stderr, "\r%d of %d throws, %s to go\x1b[K", finished, total_,
-               duration_text(left_s).c_str());
+  std::fprintf(stderr, "\r%lld of %lld %s, %s to go\x1b[K", static_cast<long long>(finished),
+               static_cast<long long>(total_), unit_.c_str(), duration_text(left_s).c_str());
   std::fflush(stderr);
 }
 
 void Progress::finish() {
   if (visible_) std::fprintf(stderr, "\r\x1b[K");
+  visible_ = false;
 }
 
 std::string duration_text(double duration_s) {

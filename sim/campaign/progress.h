@@ -2,22 +2,28 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 namespace dodgesim {
 
 class Progress {
  public:
-  // Silent unless `visible`.
-  Progress(int total, bool visible);
+  // Silent unless `visible`. `unit` is what is counted.
+  Progress(std::int64_t total, bool visible, std::string unit = "throws");
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress() { finish(); }  // so that an error message begins a line of its own
 
-  void show(int finished);
-  void finish();  // ends the line
+  void show(std::int64_t finished);  // of 1 and more; writes a few times a second at most
+  void finish();                     // ends the line
 
  private:
-  int total_;
+  std::int64_t total_;
   bool visible_;
+  std::string unit_;
   std::chrono::steady_clock::time_point begin_;
+  std::chrono::steady_clock::time_point shown_;
 };
 
 // "1 h 05 min", "3 min 20 s", "12 s".

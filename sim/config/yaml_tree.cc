@@ -227,7 +227,7 @@ YamlNode parse_yaml(std::string_view text, Problems& problems) {
   }
   if (root.kind == YamlNode::Kind::kNull) problems.fail({}, "The file is empty.");
   if (root.kind != YamlNode::Kind::kMap) {
-    problems.fail(root.at, "A scenario must be a map of keys, one a line, such as \"seed: 1\".");
+    problems.fail(root.at, "The file must be a map of keys, one a line, such as \"seed: 1\".");
   }
   return root;
 }

@@ -70,7 +70,6 @@ void EventCamera::add_region(TimeUs t_us, const Rect& region, const Picture& pic
 
 void EventCamera::update(TimeUs t_us, const Picture& picture, std::vector<Event>& out) {
   sample(t_us, {0, 0, width_, height_}, picture);
-  words_.sort();
   causes_.clear();
   readout_.push(words_, t_us_, t_us, out, keep_causes_ ? &causes_ : nullptr);
   words_.clear();

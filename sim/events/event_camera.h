@@ -48,7 +48,7 @@ class EventCamera {
 
   // The next picture, of t_us later than the last sample. Appends the events with stamps in
   // (previous picture, t_us] in (t, y, x, polarity) order. Throws SimulationError for luminance
-  // that is negative or not finite; add_region() does, too.
+  // that is negative or not finite (so does add_region()); the camera must then be reset.
   void update(TimeUs t_us, const Picture& picture, std::vector<Event>& out);
   void update(TimeUs t_us, const float* luminance, std::vector<Event>& out) {
     update(t_us, Picture{luminance}, out);

@@ -56,18 +56,20 @@ void EventHash::add(std::span<const Event> events) {
 
 std::uint64_t EventHash::value() const { return XXH64_digest(state_.get()); }
 
+void append_line(std::string& text, const Event& event) {
+  append_number(text, event.t_us, ' ');
+  append_number(text, event.x, ' ');
+  append_number(text, event.y, ' ');
+  append_number(text, event.polarity > 0 ? 1 : 0, '\n');
+}
+
 EventLog::EventLog(const std::filesystem::path& path) : path_(path), file_(path) {
   if (!file_) throw IoError("The event log " + path_.string() + " cannot be created.");
 }
 
 void EventLog::add(std::span<const Event> events) {
   buffer_.clear();
-  for (const Event& event : events) {
-    append_number(buffer_, event.t_us, ' ');
-    append_number(buffer_, event.x, ' ');
-    append_number(buffer_, event.y, ' ');
-    append_number(buffer_, event.polarity > 0 ? 1 : 0, '\n');
-  }
+  for (const Event& event : events) append_line(buffer_, event);
   file_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
 }
 

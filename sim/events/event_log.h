@@ -31,8 +31,10 @@ class EventHash {
   std::unique_ptr<XXH64_state_s, Free> state_;
 };
 
-// Writes text, one event a line: t_us x y p, with p 1 for ON and 0 for OFF, as common readers want
-// it.
+// Appends an event as a line: t_us x y p, with p 1 for ON and 0 for OFF, as common readers want it.
+void append_line(std::string& text, const Event& event);
+
+// Writes text, one event a line.
 class EventLog {
  public:
   // Throws IoError if the file cannot be created.

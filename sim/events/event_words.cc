@@ -6,6 +6,19 @@
 
 namespace dodgesim {
 
+namespace {
+
+void insertion_sort(std::uint64_t* begin, std::uint64_t* end) {
+  for (std::uint64_t* next = begin + 1; next < end; ++next) {
+    const std::uint64_t word = *next;
+    std::uint64_t* at = next;
+    for (; at > begin && at[-1] > word; --at) *at = at[-1];
+    *at = word;
+  }
+}
+
+}  // namespace
+
 // A radix sort by time alone, then the few of the same microsecond among themselves.
 void EventWords::sort() {
   constexpr int kDigitBits = 11;
@@ -30,12 +43,22 @@ void EventWords::sort() {
 }
 
 void EventWords::sort_ties() {
-  for (std::size_t first = 0; first < words_.size();) {
+  constexpr std::size_t kFewTies = 16;
+  std::uint64_t* const words = words_.data();
+  const std::size_t size = words_.size();
+  for (std::size_t first = 0; first < size;) {
+    const std::uint64_t time = words[first] >> kTimeShift;
     std::size_t end = first + 1;
-    while (end < words_.size() && words_[end] >> kTimeShift == words_[first] >> kTimeShift) ++end;
-    const auto begin = words_.begin() + static_cast<std::ptrdiff_t>(first);
-    if (end - first > 1) {
-      std::sort(begin, words_.begin() + static_cast<std::ptrdiff_t>(end));
+    bool sorted = true;
+    for (; end < size && words[end] >> kTimeShift == time; ++end) {
+      sorted &= words[end - 1] <= words[end];
+    }
+    if (!sorted) {
+      if (end - first <= kFewTies) {
+        insertion_sort(words + first, words + end);
+      } else {
+        std::sort(words + first, words + end);
+      }
     }
     first = end;
   }

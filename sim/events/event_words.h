@@ -29,6 +29,8 @@ class EventWords {
   void push(TimeUs since_us, std::uint64_t rest) {
     words_.push_back(static_cast<std::uint64_t>(since_us) << kTimeShift | rest);
   }
+  static constexpr int kRestBits = 25;  // of what without_cause() leaves
+  static std::uint64_t without_cause(std::uint64_t rest) { return rest >> kPolarityShift; }
   void clear() { words_.clear(); }
   void sort();
   void sort_ties();  // of words that are in order of time

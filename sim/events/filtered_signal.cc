@@ -79,10 +79,11 @@ class FilteredSignal : public PixelSignal {
       Candidate candidate = {static_cast<std::uint32_t>(index), 0, part.last_sample_us(i), 0, 0};
       candidate.s0 = before.z + leak_per_us_ * candidate.t0_us;
       candidate.s1 = static_cast<double>(now[i]) + leak_per_us_ * part.t_us;
-      const auto pieces =
-          photoreceptor_.pieces(before, part.luminance[i], new_u_[i], dt_s, tolerance_);
-      if (pieces.count > 0) {
-        bent_.push_back({before, part.luminance[i], new_u_[i], dt_s, pieces});
+      const double slope_1s = (static_cast<double>(new_u_[i]) - before.u) / dt_s;
+      const double straight_s =
+          photoreceptor_.straight_s(before, part.luminance[i], slope_1s, tolerance_);
+      if (straight_s < dt_s) {
+        bent_.push_back({before, part.luminance[i], new_u_[i], dt_s, slope_1s, straight_s});
         candidate.bend = static_cast<std::uint32_t>(bent_.size());
       }
       candidates.push_back(candidate);
@@ -97,12 +98,12 @@ class FilteredSignal : public PixelSignal {
 
   void knots(const Candidate& candidate, double t1_us, std::vector<Knot>& knots) const override {
     const Bent& bent = bent_[candidate.bend - 1];
-    for (int i = 1; i <= bent.pieces.count; ++i) {
-      const double t_s = i * bent.pieces.step_s;
-      const double t_us = candidate.t0_us + t_s / kSecondsPerUs;
-      if (t_us >= t1_us) break;
+    double t_s = bent.straight_s;
+    while (t_s < bent.dt_s) {
       const Charge then = photoreceptor_.at(bent.before, bent.luminance, bent.u1, bent.dt_s, t_s);
+      const double t_us = std::min(candidate.t0_us + t_s / kSecondsPerUs, t1_us);
       knots.push_back({t_us, then.z + leak_per_us_ * t_us});
+      t_s += photoreceptor_.straight_s(then, bent.luminance, bent.slope_1s, tolerance_);
     }
     knots.push_back({t1_us, candidate.s1});
   }
@@ -135,7 +136,8 @@ class FilteredSignal : public PixelSignal {
   struct Bent {
     Charge before;
     double luminance, u1, dt_s;
-    Photoreceptor::Pieces pieces;
+    double slope_1s;    // of u
+    double straight_s;  // the first piece
   };
 
   Charge charge(std::size_t index) const {

@@ -51,12 +51,14 @@ inline float natural_log(float x) {
   return k * kLn2High + (2 * s + (s * z * p + k * kLn2Low));
 }
 
-// exp(x) for |x| < 700; relative error below 1e-8. x = k ln 2 + r with |r| <= ln(2)/2.
+// exp(x) for |x| < 700; relative error below 1e-11. x = k ln 2 + r with |r| <= ln(2)/2.
 inline double natural_exp(double x) {
   constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
   const double shifted = x * 1.4426950408889634 + kRound;
   const double r = x - (shifted - kRound) * 6.93147180559945309417e-01;
-  double p = 1.0 / 5040;
+  double p = 1.0 / 362880;
+  p = p * r + 1.0 / 40320;
+  p = p * r + 1.0 / 5040;
   p = p * r + 1.0 / 720;
   p = p * r + 1.0 / 120;
   p = p * r + 1.0 / 24;

@@ -16,14 +16,10 @@ namespace {
 constexpr double kReferenceLux = 1000;
 
 // Longer intervals in units of tau are taken as this; the polynomial below stays finite.
-constexpr float kMostTaus = 1e4f;
+constexpr float kLongest = 1e4f;
 
 // Two low-passes are taken as equal when their cut-offs differ by less than this share.
 constexpr double kEqualShare = 0.01;
-
-// What is left of a transient after this many tau is not followed in pieces.
-constexpr double kTransientTaus = 6;
-constexpr int kMostPieces = 64;
 
 // How a low-pass answers over an interval of x tau: exp(-x), and its mean over the interval.
 template <class Number>
@@ -31,9 +27,9 @@ struct Decay {
   Number k, m;
 };
 
-// exp(x) by its series up to x^8: exp(-x) to within 3e-4 for any x >= 0.
+// exp(x) by its series up to x^8: exp(-x) to within 5e-4 for any x >= 0.
 [[gnu::always_inline]] inline Decay<float> decay(float x) {
-  x = x < kMostTaus ? x : kMostTaus;
+  x = x < kLongest ? x : kLongest;
   float q = 1.0f / 40320;
   q = q * x + 1.0f / 5040;
   q = q * x + 1.0f / 720;
@@ -46,7 +42,17 @@ struct Decay {
   return {k, q * k};
 }
 
-Decay<double> decay(double x) { return {std::exp(-x), x > 0 ? -std::expm1(-x) / x : 1}; }
+// To within 1e-9, and the same on every machine, which libm's exp is not.
+Decay<double> decay(double x) {
+  constexpr double kSmall = 0.01;    // below, a series
+  constexpr double kMostTaus = 690;  // natural_exp's limit; nothing is left then
+  if (x < kSmall) {
+    const double m = 1 - x * (1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120))));
+    return {1 - x * m, m};
+  }
+  const double k = natural_exp(-std::min(x, kMostTaus));
+  return {k, (1 - k) / x};
+}
 
 // What a unit of y's transient at the start leaves in z: the follower's answer to exp(-t/tau).
 template <class Number>
@@ -140,7 +146,8 @@ Photoreceptor::Photoreceptor(const EventCameraSpec& spec)
 
 Charge Photoreceptor::at(const Charge& before, double luminance, double u1, double dt_s,
                          double t_s) const {
-  const double change = (u1 - before.u) * (dt_s > 0 ? t_s / dt_s : 1);
+  if (t_s <= 0) return before;
+  const double change = (u1 - before.u) * t_s / dt_s;
   Charge out;
   out.u = before.u + change;
   out.y = out.u;
@@ -162,30 +169,26 @@ Charge Photoreceptor::at(const Charge& before, double luminance, double u1, doub
   return out;
 }
 
-Photoreceptor::Pieces Photoreceptor::pieces(const Charge& before, double luminance, double u1,
-                                            double dt_s, double tolerance) const {
-  if (order_ == 0) return {0, 0};
+double Photoreceptor::straight_s(const Charge& now, double luminance, double slope_1s,
+                                 double tolerance) const {
+  constexpr double kForEver = std::numeric_limits<double>::infinity();
+  if (order_ == 0) return kForEver;
   const double w1 = cutoff_rad_s(luminance);
-  const double slope = (u1 - before.u) / dt_s;
-  // z is a straight line plus p exp(-w1 t) plus, behind a follower, q exp(-w2 t).
-  double p = before.y - before.u + slope / w1;
-  double curvature = std::abs(p) * w1 * w1;
-  double slowest = w1;
-  if (order_ > 1) {
+  // y is a straight line plus p exp(-w1 t).
+  const double p_w1 = std::abs(w1 * (now.y - now.u) + slope_1s);
+  double curvature = p_w1 * w1;
+  if (order_ == 1) {
+    if (p_w1 < tolerance * w1) return kForEver;
+  } else {
     const double w2 = follower_rad_s_;
-    const double apart = std::max(std::abs(w2 - w1), kEqualShare * w2);
-    p *= w2 / apart;
-    const double q = std::abs(before.z - before.u + slope * (1 / w1 + 1 / w2)) + std::abs(p);
-    curvature = std::abs(p) * w1 * w1 + q * w2 * w2;
-    slowest = std::min(w1, w2);
+    const double from_line = std::abs(now.z - now.u + slope_1s * (1 / w1 + 1 / w2));
+    if (p_w1 / w1 + from_line < tolerance) return kForEver;
+    // z'' = w2 (y' - z'), and (y' - z')' = y'' - w2 (y' - z').
+    const double apart = std::abs(w1 * (now.u - now.y) - w2 * (now.y - now.z));
+    curvature = w2 * (apart + p_w1 * (w1 / std::max(w1, w2)));
   }
-  const double span_s = std::min(dt_s, kTransientTaus / slowest);
-  // A chord over h strays by up to curvature h^2/8, but by no more than the transient itself.
-  const double count = std::ceil(span_s * std::sqrt(curvature / (8 * tolerance)));
-  if (order_ == 1 && std::abs(p) < tolerance) return {0, 0};
-  const int whole = static_cast<int>(std::min<double>(count, kMostPieces));
-  if (whole <= 1 && span_s >= dt_s) return {0, 0};
-  return {whole, span_s / std::max(whole, 1)};
+  // A chord over h strays by up to curvature h^2/8, and the curvature only falls.
+  return std::sqrt(8 * tolerance / curvature);
 }
 
 void Photoreceptor::advance(const Row& row) const {

@@ -34,19 +34,13 @@ class Photoreceptor {
   // Cut-off [1/s, angular] of the first low-pass at a luminance.
   double cutoff_rad_s(double luminance) const { return dark_rad_s_ + rad_s_ * luminance; }
 
-  // One pixel, t_s after a sample; at dt_s after it, it shows `luminance`, to which the response is
-  // u1.
+  // One pixel, t_s after a sample; at dt_s > 0 after it, it shows `luminance`, to which the
+  // response is u1.
   Charge at(const Charge& before, double luminance, double u1, double dt_s, double t_s) const;
 
-  // Into how many straight pieces of step_s each, with a longer one to the end, z must be cut over
-  // the dt_s between two samples so that it does not stray from them by more than `tolerance`.
-  // count 0: one straight line will do.
-  struct Pieces {
-    int count;
-    double step_s;
-  };
-  Pieces pieces(const Charge& before, double luminance, double u1, double dt_s,
-                double tolerance) const;
+  // How long z may be taken to run straight from `now` on without straying by more than
+  // `tolerance`, while u rises by slope_1s at that luminance. Infinite: for ever.
+  double straight_s(const Charge& now, double luminance, double slope_1s, double tolerance) const;
 
   // A row of pixels.
   struct Row {

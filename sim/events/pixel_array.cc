@@ -1,6 +1,7 @@
 #include "sim/events/pixel_array.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -19,11 +20,18 @@ namespace {
 constexpr double kArmed = -std::numeric_limits<double>::infinity();
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+// Of an OFF and an ON event.
+constexpr std::array<double, 2> kSign = {-1, 1};
+
 // A bandwidth bends S between samples; it is followed to within this share of the thresholds.
-constexpr double kCurveShare = 0.05;
+constexpr double kCurveShare = 0.02;
 
 // Flags are looked at eight at a time.
 constexpr std::size_t kWord = 8;
+
+// Rows whose candidates are run together: enough to hide the way to memory, few enough for what
+// they need to stay in the cache.
+constexpr int kBandRows = 8;
 
 float checked(float luminance) {
   if (!(luminance >= 0 && luminance <= std::numeric_limits<float>::max())) {
@@ -51,8 +59,8 @@ PixelArray::PixelArray(const EventCameraSpec& spec, int width, int height,
     double inverse_sum = 0;
     double alive = 0;
     for (const Pixel& pixel : pixels_) {
-      if (pixel.threshold_on == kNever) continue;
-      inverse_sum += 1.0 / pixel.threshold_on;
+      if (pixel.dead()) continue;
+      inverse_sum += 1.0 / pixel.threshold_on();
       ++alive;
     }
     if (alive > 0) leak_per_s = spec.leak_hz * alive / inverse_sum;
@@ -79,8 +87,8 @@ void PixelArray::draw_thresholds(const EventCameraSpec& spec, const RandomStream
       off += spec.mismatch_sigma * normal_quantile(unit_interval(random[1]));
     }
     const bool dead = unit_interval(random[2]) < spec.dead_pixel_fraction;
-    pixels_[i].threshold_on = dead ? kNever : std::max(on, spec.threshold_min);
-    pixels_[i].threshold_off = dead ? kNever : std::max(off, spec.threshold_min);
+    pixels_[i].change[1] = dead ? kNever : std::max(on, spec.threshold_min);
+    pixels_[i].change[0] = dead ? -kNever : -std::max(off, spec.threshold_min);
   }
 }
 
@@ -94,8 +102,8 @@ void PixelArray::reset(TimeUs t_us, const Picture& picture) {
     Pixel& pixel = pixels_[i];
     // After a long rest the leak has brought pixels anywhere between two of its events.
     double leaked = 0;
-    if (leak_per_us_ > 0 && pixel.threshold_on != kNever) {
-      leaked = unit_interval(start_.block(i)[0]) * pixel.threshold_on;
+    if (leak_per_us_ > 0 && !pixel.dead()) {
+      leaked = unit_interval(start_.block(i)[0]) * pixel.threshold_on();
     }
     pixel.reference = signal_->value(i, 0) - leaked;
     pixel.held_until_us = kArmed;
@@ -108,14 +116,18 @@ void PixelArray::reset(TimeUs t_us, const Picture& picture) {
 void PixelArray::sample(TimeUs t_us, const Rect& region, const Picture& picture,
                         std::span<const NoiseEvent> noise, TimeUs origin_us, EventWords& events) {
   const auto now_us = static_cast<double>(t_us - reset_us_);
-  candidates_.clear();
-  signal_->begin();
-  Run state = {noise, static_cast<double>(origin_us - reset_us_), &events};
+  Run state = {noise, origin_us - reset_us_, &events};
   std::span<const NoiseEvent> unlisted = noise;
-  for (int y = region.y0; y < region.y1; ++y) sample_row(y, now_us, region, picture, unlisted);
-  signal_->finish(candidates_);
-  for (const Candidate& candidate : candidates_) {
-    run(candidate, now_us, cause_at(candidate.index, picture), state);
+  for (int y = region.y0; y < region.y1;) {
+    candidates_.clear();
+    signal_->begin();
+    for (const int end = std::min(y + kBandRows, region.y1); y < end; ++y) {
+      sample_row(y, now_us, region, picture, unlisted);
+    }
+    signal_->finish(candidates_);
+    for (const Candidate& candidate : candidates_) {
+      run(candidate, now_us, cause_at(candidate.index, picture), state);
+    }
   }
   show(region, picture);
   const auto height = static_cast<int>(row_keeps_times_.size());
@@ -171,7 +183,7 @@ void PixelArray::keep_times(std::size_t y, const Rect& region, double t_us) {
 }
 
 void PixelArray::run(const Candidate& candidate, double t1_us, Cause cause, Run& run) {
-  run.first_us = candidate.t0_us + 1;
+  run.first_us = static_cast<TimeUs>(candidate.t0_us) + 1;
   Line line = {candidate.t0_us, t1_us, candidate.s0, candidate.s1};
   if (candidate.bend == 0) {
     run_line(candidate.index, line, cause, run);
@@ -196,8 +208,8 @@ void PixelArray::run_line(std::size_t index, const Line& line, Cause cause, Run&
     const auto t_us = static_cast<double>(event.t_us - reset_us_);
     if (t_us > line.t1_us) break;
     fire_crossings(index, line, t_us, cause, run);
-    if (pixel.held_until_us != kArmed || pixel.threshold_on == kNever) continue;
-    emit(index, t_us, event.on, event.cause, run);
+    if (pixel.held_until_us != kArmed || pixel.dead()) continue;
+    emit(index, event.t_us - reset_us_, event.on, event.cause, run);
     pixel.reference = line.at(t_us);
     if (refractory_us_ > 0) pixel.held_until_us = t_us + refractory_us_;
   }
@@ -210,7 +222,9 @@ void PixelArray::fire_crossings(std::size_t index, const Line& line, double unti
   Pixel& pixel = pixels_[index];
   const double s_until = line.at(until_us);
   const bool on = line.s1 > line.s0;
-  const double change = on ? pixel.threshold_on : -pixel.threshold_off;
+  // Which of both it is cannot be predicted: no branches.
+  const double change = pixel.change[on];
+  const double sign = kSign[on];
   while (true) {
     if (pixel.held_until_us != kArmed) {
       if (pixel.held_until_us > until_us) return;
@@ -218,25 +232,26 @@ void PixelArray::fire_crossings(std::size_t index, const Line& line, double unti
       pixel.held_until_us = kArmed;
     }
     const double level = pixel.reference + change;
-    if (on ? s_until < level : s_until > level) return;
+    if (sign * (s_until - level) < 0) return;
     pixel.reference = level;
     const double crossing_us = line.time_of(level);
     Cause why = cause;
     if (!leaking_us_.empty() && on &&
-        leak_per_us_ * (crossing_us - leaking_us_[index]) > 0.5 * pixel.threshold_on) {
+        leak_per_us_ * (crossing_us - leaking_us_[index]) > 0.5 * change) {
       why = kCauseLeak;
     }
     // Rounded to the clock, but no later than what comes next and after the last sample.
-    const double rounded_us = std::min(std::floor(crossing_us + 0.5), std::floor(until_us));
+    const TimeUs rounded_us =
+        std::min(static_cast<TimeUs>(crossing_us + 0.5), static_cast<TimeUs>(until_us));
     emit(index, std::max(rounded_us, run.first_us), on, why, run);
     if (refractory_us_ > 0) pixel.held_until_us = crossing_us + refractory_us_;
   }
 }
 
-void PixelArray::emit(std::size_t index, double t_us, bool on, Cause cause, Run& run) {
-  run.events->push(static_cast<TimeUs>(t_us - run.origin_us),
-                   EventWords::address(index % width_, index / width_), on, cause);
-  if (!leaking_us_.empty()) leaking_us_[index] = t_us + refractory_us_;
+void PixelArray::emit(std::size_t index, TimeUs t_us, bool on, Cause cause, Run& run) {
+  run.events->push(t_us - run.origin_us, EventWords::address(index % width_, index / width_), on,
+                   cause);
+  if (!leaking_us_.empty()) leaking_us_[index] = static_cast<double>(t_us) + refractory_us_;
 }
 
 void PixelArray::set_bounds(std::size_t index) {
@@ -244,8 +259,8 @@ void PixelArray::set_bounds(std::size_t index) {
   if (pixel.held_until_us != kArmed) {
     signal_->set_held(index);
   } else {
-    signal_->set_bounds(index, pixel.reference - pixel.threshold_off,
-                        pixel.reference + pixel.threshold_on);
+    signal_->set_bounds(index, pixel.reference + pixel.change[0],
+                        pixel.reference + pixel.change[1]);
   }
 }
 
@@ -287,7 +302,7 @@ PixelState PixelArray::state(std::size_t index) const {
   const Pixel& pixel = pixels_[index];
   const bool own_time = row_keeps_times_[index / width_] != 0;
   const double t_us = own_time ? sampled_us_[index] : last_us_;
-  return {signal_->value(index, t_us), pixel.reference, pixel.threshold_on, pixel.threshold_off,
+  return {signal_->value(index, t_us), pixel.reference, pixel.change[1], -pixel.change[0],
           pixel.held_until_us != kArmed};
 }
 

@@ -21,6 +21,8 @@
 // stay the same for all throws of a seed.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -75,11 +77,15 @@ class PixelArray {
   PixelState state(std::size_t index) const;
 
  private:
-  struct Pixel {
+  // Aligned: one line of the cache holds all of a pixel.
+  struct alignas(32) Pixel {
     double reference = 0;
     double held_until_us = 0;  // not rounded as the stamps are; kArmed: not held
-    double threshold_on = 0;   // infinite: dead
-    double threshold_off = 0;
+    // Of S since the reference, to an OFF event (negative) and to an ON event; infinite: dead.
+    std::array<double, 2> change{};
+
+    double threshold_on() const { return change[1]; }
+    bool dead() const { return std::isinf(change[1]); }
   };
   // Straight line of S. All times of the pixels count from the reset.
   struct Line {
@@ -91,9 +97,9 @@ class PixelArray {
   // What run() needs besides the pixel.
   struct Run {
     std::span<const NoiseEvent> noise;  // not yet used
-    double origin_us;                   // since the reset
+    TimeUs origin_us;                   // since the reset
     EventWords* events;
-    double first_us = 0;  // earliest stamp of the pixel
+    TimeUs first_us = 0;  // earliest stamp of the pixel
   };
 
   void draw_thresholds(const EventCameraSpec& spec, const RandomStream& device);
@@ -103,7 +109,7 @@ class PixelArray {
   void run(const Candidate& candidate, double t1_us, Cause cause, Run& run);
   void run_line(std::size_t index, const Line& line, Cause cause, Run& run);
   void fire_crossings(std::size_t index, const Line& line, double until_us, Cause cause, Run& run);
-  void emit(std::size_t index, double t_us, bool on, Cause cause, Run& run);
+  void emit(std::size_t index, TimeUs t_us, bool on, Cause cause, Run& run);
   void set_bounds(std::size_t index);
   void show(const Rect& region, const Picture& picture);
   Cause cause_at(std::size_t index, const Picture& picture) const;

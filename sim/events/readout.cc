@@ -1,17 +1,18 @@
 #include "sim/events/readout.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace dodgesim {
 
 namespace {
 
-// Jitters are drawn from this many equally likely values, 16 bits of randomness each.
-constexpr std::size_t kQuantiles = 4096;
-constexpr int kDropBits = 4;
-constexpr std::uint64_t kDrawsPerBlock = 8;
+// How late an event is at the arbiter is drawn from this many equally likely values.
+constexpr int kLatenessBits = 12;
+constexpr std::size_t kLatenesses = std::size_t{1} << kLatenessBits;
+
+// How far ahead what is known of a pixel is fetched from memory.
+constexpr std::size_t kAhead = 8;
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
@@ -29,24 +30,22 @@ TimeUs rounded_up(TimeUs t_us, TimeUs resolution_us) {
 Readout::Readout(const EventCameraSpec& spec, int width, int height, const RandomStream& stream)
     : immediate_(spec.latency_us == 0 && spec.jitter_us == 0 && spec.readout_max_hz == 0 &&
                  spec.stamp_resolution_us == 1),
-      latency_us_(static_cast<double>(spec.latency_us)),
-      jitter_us_(spec.jitter_us),
       service_us_(spec.readout_max_hz > 0 ? std::min(1e6 / spec.readout_max_hz, kLongestServiceUs)
                                           : 0),
       resolution_us_(spec.stamp_resolution_us),
-      width_(static_cast<std::size_t>(width)),
-      stream_(stream) {
-  if (jitter_us_ > 0) {
-    for (std::size_t i = 0; i < kQuantiles; ++i) {
-      normals_.push_back(normal_quantile((static_cast<double>(i) + 0.5) / kQuantiles));
-    }
+      width_(static_cast<std::size_t>(width)) {
+  const auto random = stream.block(0);
+  jitter_key_ = std::uint64_t{random[1]} << 32 | random[0];
+  for (std::size_t i = 0; i < kLatenesses; ++i) {
+    const double normal = normal_quantile((static_cast<double>(i) + 0.5) / kLatenesses);
+    const double late_us = static_cast<double>(spec.latency_us) + spec.jitter_us * normal;
+    lateness_us_.push_back(static_cast<TimeUs>(std::max(0.0, late_us) + 0.5));
   }
   if (service_us_ > 0) waits_until_.resize(width_ * static_cast<std::size_t>(height));
 }
 
 void Readout::reset(TimeUs t_us) {
   reset_us_ = t_us;
-  drawn_ = 0;
   free_us_ = kNever;
   std::fill(waits_until_.begin(), waits_until_.end(), kNever);
   lost_ = 0;
@@ -54,23 +53,21 @@ void Readout::reset(TimeUs t_us) {
   to_leave_.clear();
 }
 
-// How late the next event is at the arbiter.
-TimeUs Readout::late_us() {
-  double late_us = latency_us_;
-  if (jitter_us_ > 0) {
-    const std::uint64_t half = drawn_ % kDrawsPerBlock;
-    if (half == 0) random_ = stream_.block(drawn_ / kDrawsPerBlock);
-    ++drawn_;
-    const std::uint32_t bits = random_[half / 2] >> (half % 2 == 0 ? 0 : 16) & 0xffffu;
-    late_us = std::max(0.0, late_us + jitter_us_ * normals_[bits >> kDropBits]);
-  }
-  return static_cast<TimeUs>(late_us + 0.5);
+// How late the event is at the arbiter: a function of its pixel and its instant alone, whatever the
+// order in which events come.
+TimeUs Readout::late_us(TimeUs since_reset_us, std::uint64_t rest) const {
+  const std::uint64_t counter = static_cast<std::uint64_t>(since_reset_us)
+                                    << EventWords::kRestBits |
+                                EventWords::without_cause(rest);
+  return lateness_us_[mixed_bits(jitter_key_, counter) >> (64 - kLatenessBits)];
 }
 
 void Readout::push(EventWords& events, TimeUs origin_us, TimeUs t_us, std::vector<Event>& out,
                    std::vector<Cause>* causes) {
   EventWords* ready = &events;
-  if (!immediate_) {
+  if (immediate_) {
+    events.sort();
+  } else {
     arrive(events, origin_us, t_us);
     ready = &leaving_;
   }
@@ -85,7 +82,9 @@ void Readout::arrive(EventWords& events, TimeUs origin_us, TimeUs t_us) {
   arriving_.clear();
   for (const Later& later : to_arrive_) arriving_.push(later.t_us - origin_us, later.rest);
   for (std::size_t i = 0; i < events.size(); ++i) {
-    arriving_.push(events.since_us(i) + late_us(), events.rest(i));
+    const TimeUs since_us = events.since_us(i);
+    const std::uint64_t rest = events.rest(i);
+    arriving_.push(since_us + late_us(origin_us + since_us - reset_us_, rest), rest);
   }
   arriving_.sort();
 
@@ -96,6 +95,9 @@ void Readout::arrive(EventWords& events, TimeUs origin_us, TimeUs t_us) {
   std::erase_if(to_leave_, [t_us](const Later& later) { return later.t_us <= t_us; });
   to_arrive_.clear();
   for (std::size_t i = 0; i < arriving_.size(); ++i) {
+    if (service_us_ > 0 && i + kAhead < arriving_.size()) {
+      __builtin_prefetch(&waits_until_[pixel(arriving_.event(i + kAhead, origin_us))]);
+    }
     const TimeUs arrival_us = origin_us + arriving_.since_us(i);
     if (arrival_us > t_us) {
       to_arrive_.push_back({arrival_us, arriving_.rest(i)});
@@ -103,8 +105,8 @@ void Readout::arrive(EventWords& events, TimeUs origin_us, TimeUs t_us) {
     }
     const Event event = arriving_.event(i, origin_us);
     const auto since_us = static_cast<double>(arrival_us - reset_us_);
-    if (!serve(since_us, event.y * width_ + event.x)) continue;
-    const auto served_us = reset_us_ + static_cast<TimeUs>(std::ceil(served_us_));
+    if (!serve(since_us, pixel(event))) continue;
+    const auto served_us = reset_us_ + static_cast<TimeUs>(served_us_);
     const TimeUs stamp_us = rounded_up(served_us, resolution_us_);
     if (stamp_us <= t_us) {
       leaving_.push(stamp_us - origin_us, arriving_.rest(i));

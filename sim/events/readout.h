@@ -4,13 +4,12 @@
 // requests in the order in which they come (row by row in the same microsecond), one in
 // 1/readout_max_hz. While a pixel waits, it makes no other request: such events are lost, and
 // counted; their change of light is forgotten. So no more events wait than there are pixels. The
-// time stamp is the instant at which the service begins, rounded up to a multiple of the clock's
-// resolution. Under random requests of rate r below the limit m the mean wait is that of a queue
-// with one server and constant service time, r/(2 m (m - r)); above it the line grows until pixels
-// wait that fire again. An event leaves once the clock has reached its stamp.
+// time stamp is the microsecond in which the service begins, rounded up to a multiple of the
+// clock's resolution. Under random requests of rate r below the limit m the mean wait is that of a
+// queue with one server and constant service time, r/(2 m (m - r)); above it the line grows until
+// pixels wait that fire again. An event leaves once the clock has reached its stamp.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,7 +27,7 @@ class Readout {
 
   void reset(TimeUs t_us);
 
-  // Takes the events of the pixels up to t_us, sorted, with times since origin_us, and appends
+  // Takes the events of the pixels up to t_us, in any order, with times since origin_us. Appends
   // those that have left the readout by t_us, in order (t, y, x, polarity). `causes` may be null.
   void push(EventWords& events, TimeUs origin_us, TimeUs t_us, std::vector<Event>& out,
             std::vector<Cause>* causes);
@@ -43,20 +42,19 @@ class Readout {
     std::uint64_t rest;  // all but its time, see EventWords
   };
 
-  TimeUs late_us();
+  TimeUs late_us(TimeUs since_reset_us, std::uint64_t rest) const;
   void arrive(EventWords& events, TimeUs origin_us, TimeUs t_us);
+  std::size_t pixel(const Event& event) const { return event.y * width_ + event.x; }
   bool serve(double request_us, std::size_t pixel);
 
   bool immediate_;  // nothing to do
-  double latency_us_, jitter_us_, service_us_;
+  double service_us_;
   TimeUs resolution_us_;
   std::size_t width_;
-  RandomStream stream_;
   TimeUs reset_us_ = 0;
 
-  std::vector<double> normals_;  // quantiles of the standard normal
-  std::uint64_t drawn_ = 0;      // jitters so far
-  std::array<std::uint32_t, 4> random_{};
+  std::uint64_t jitter_key_;
+  std::vector<TimeUs> lateness_us_;  // equally likely
 
   double free_us_ = 0;               // when the arbiter has served all, since the reset
   double served_us_ = 0;             // when it takes the event that it is given last

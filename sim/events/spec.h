@@ -65,7 +65,7 @@ void EventCameraSpec::visit(Visitor& v) {
     "Luminance added before the logarithm; keeps black finite (ESIM: 0.001).");
   v("linear_below", linear_below, 0, 1e3,
     "Luminance below which the response is linear instead of logarithmic, with the same slope "
-    "there.");
+    "there (v2e does so near black). 0: logarithmic everywhere.");
   v("illuminance_lux", illuminance_lux, 1e-3, 2e5,
     "Illuminance of the scene: a white surface under it has luminance 1 (500: a lit office; "
     "assumed).");

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "sim/render/camera.h"
+#include "sim/render/flicker.h"
 #include "sim/world/snapshot.h"
 #include "sim/world/world.h"
 
@@ -30,6 +31,7 @@ struct RenderSpec {
   double sky_luminance = 0.5;
   std::string texel_encoding = "linear";
   std::string texture_filter = "bilinear";
+  FlickerSpec flicker;  // of what event cameras see; the renderer itself draws the mean light
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -46,6 +48,7 @@ struct RenderSpec {
       "What a texel's value v of 0 to 255 means: the reflectance v/255 (the rooms of this "
       "project), "
       "or a code value of a photograph.");
+    flicker.visit(v);
   }
 };
 

@@ -1,38 +1,20 @@
 // The program as its users meet it: exit codes and what it prints.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "tests/cli/program.h"
+
 namespace {
 
 namespace fs = std::filesystem;
+using dodgesim::testing::dodgesim;
+using dodgesim::testing::Outcome;
 using testing::HasSubstr;
-
-struct Outcome {
-  int exit_code = -1;
-  std::string output;  // standard output and error
-};
-
-Outcome dodgesim(const std::string& arguments) {
-  const std::string command =
-      std::string(DODGESIM_BINARY_DIR) + "/dodgesim " + arguments + " 2>&1 </dev/null";
-  FILE* pipe = ::popen(command.c_str(), "r");
-  Outcome outcome;
-  std::array<char, 4096> buffer;
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
-    outcome.output.append(buffer.data(), n);
-  }
-  const int status = ::pclose(pipe);
-  if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
-  return outcome;
-}
 
 std::string contents(const fs::path& path) {
   std::ifstream file(path);

@@ -264,6 +264,41 @@ TEST_F(RigTest, TheSameMotionGivesTheSameEvents) {
   EXPECT_EQ(first, hash(3));
 }
 
+TEST_F(RigTest, AFlickeringLightMakesEveryPixelFireWithIt) {
+  setup_.render.flicker = {100, 0.5};  // log luminance from -0.69 to 0.41: 5 events up, 5 down
+  const auto events = show(place(1.5), Vector3d::Zero(), 160)[0];  // four periods
+  const double pixels = setup_.intrinsics.width * setup_.intrinsics.height;
+  double on = 0;
+  for (const Event& e : events) on += e.polarity > 0;
+  const double off = static_cast<double>(events.size()) - on;
+  EXPECT_NEAR(on / pixels, 4 * 5, 3);
+  EXPECT_NEAR(off / pixels, 4 * 5, 3);
+  // All ON in one half of the period, all OFF in the other, up to the phase of the throw.
+  std::vector<int> signs;
+  std::array<double, 20> balance{};
+  for (const Event& e : events) balance[static_cast<std::size_t>(e.t_us / 500 % 20)] += e.polarity;
+  for (const double b : balance) {
+    if (b != 0) signs.push_back(b > 0 ? 1 : -1);
+  }
+  int changes = signs.front() != signs.back();
+  for (std::size_t i = 1; i < signs.size(); ++i) changes += signs[i] != signs[i - 1];
+  EXPECT_EQ(changes, 2);
+  EXPECT_GE(rig_->drawn() + rig_->turned(), 2 * 79);  // 20 pictures a period and camera
+}
+
+TEST_F(RigTest, TheFlickersPhaseDiffersFromThrowToThrow) {
+  setup_.render.flicker = {100, 0.5};
+  const auto first_us = [&](std::uint64_t throw_index) {
+    setup_.throw_index = throw_index;
+    packets_.clear();
+    world_.reset(kVehicle_p_W, 0, Vector3d::Zero());
+    const auto events = show(place(1.5), Vector3d::Zero(), 40)[0];
+    return events.empty() ? 0 : events.front().t_us * events.front().polarity;
+  };
+  EXPECT_EQ(first_us(0), first_us(0));
+  EXPECT_NE(first_us(0), first_us(1));
+}
+
 TEST_F(RigTest, OneCameraIsEnoughForMono) {
   setup_.cameras = 1;
   const auto events = show(place(1.5), {0, 2, 0}, 20);

@@ -20,6 +20,8 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
 void add_replay_command(CLI::App& program, int& exit_code);
 void add_validate_command(CLI::App& program, int& exit_code);
 void add_explain_command(CLI::App& program, int& exit_code);
+void add_emulate_command(CLI::App& program, int& exit_code);
+void add_bench_command(CLI::App& program, const std::string& command_line, int& exit_code);
 
 // Adds --models: where rooms, vehicles and objects are.
 void add_models_option(CLI::App& command, std::string& models_dir);

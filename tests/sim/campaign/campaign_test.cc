@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "sim/base/error.h"
-#include "sim/campaign/output_file.h"
+#include "sim/files/output_file.h"
 #include "tests/sim/campaign/fake_throws.h"
 
 namespace dodgesim {

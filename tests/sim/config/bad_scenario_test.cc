@@ -112,8 +112,8 @@ const BadScenario kBadScenarios[] = {
     // Not a scenario at all.
     {"Empty", "", "bad.yaml: The file is empty."},
     {"OnlyComments", "# nothing\n", "bad.yaml: The file is empty."},
-    {"List", "- 1\n- 2\n", "bad.yaml:1:1: A scenario must be a map of keys"},
-    {"Text", "hello\n", "bad.yaml:1:1: A scenario must be a map of keys"},
+    {"List", "- 1\n- 2\n", "bad.yaml:1:1: The file must be a map of keys"},
+    {"Text", "hello\n", "bad.yaml:1:1: The file must be a map of keys"},
     {"Syntax", "throw: {size_m: 0.1\nseed: 1\n", "bad.yaml:2:"},
     {"Tab", "throw:\n\tsize_m: 0.1\n", "bad.yaml:2:"},
     {"NotUtf8", "name: \"\xff\"\n", "bad.yaml:1:8: The file is not UTF-8 text (byte 255)."},

@@ -31,6 +31,25 @@ TEST(Scenario, GivenValuesAreReadAndOthersKeepTheirDefaults) {
   EXPECT_EQ(scenario.delays.command_us, DelaySpec{}.command_us);
 }
 
+TEST(Scenario, KeysOfTheEventCameraChangeItsPreset) {
+  const auto events = [](const std::string& keys) {
+    return parse("sensors: {events: {" + keys + "}}\n").sensors.events;
+  };
+  // Whatever comes first.
+  for (const char* keys : {"leak_hz: 3, preset: ideal", "preset: ideal, leak_hz: 3"}) {
+    EXPECT_EQ(events(keys).leak_hz, 3);
+    EXPECT_EQ(events(keys).latency_us, 0);
+    EXPECT_EQ(events(keys).photoreceptor_hz, 0);
+  }
+  EXPECT_EQ(events("leak_hz: 3").latency_us, EventCameraSpec{}.latency_us);
+  EXPECT_LT(events("preset: low_light").illuminance_lux, 10);
+  const Scenario noisy = parse("sensors: {events: {preset: noisy, jitter_us: 7}}\n");
+  const Scenario again = parse(to_yaml(noisy));
+  EXPECT_EQ(again.sensors.events.jitter_us, 7);
+  EXPECT_EQ(again.sensors.events.refractory_us, 500);
+  EXPECT_EQ(to_yaml(again), to_yaml(noisy));
+}
+
 TEST(Scenario, WithoutTheKeyThrowNobodyThrows) {
   EXPECT_FALSE(parse("seed: 1\n").toss.has_value());
   EXPECT_TRUE(parse("throw: {}\n").toss.has_value());

@@ -218,7 +218,7 @@ TEST(EventCamera, EventsAreOrderedWithinAndAcrossUpdates) {
 TEST(EventCamera, SamplingALinearRampTwiceAsOftenGivesTheSameEvents) {
   EventCameraSpec spec;
   spec.photoreceptor_hz = 0;
-  spec.jitter_us = 0;  // is drawn event by event, in their order
+  spec.jitter_us = 0;  // depends on the microsecond
   spec.shot_noise_on_hz = 5;
   spec.hot_pixel_fraction = 0.02;
   const auto run = [&](TimeUs step_us) {

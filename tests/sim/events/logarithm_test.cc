@@ -33,5 +33,24 @@ TEST(NaturalLog, IsExactAtOneAndIncreasesEverywhere) {
   }
 }
 
+TEST(NaturalLog, InSinglePrecisionIsRightToSingleRounding) {
+  RandomStream random(2, 0, "log");
+  for (int i = 0; i < 200000; ++i) {
+    const auto x = static_cast<float>(std::exp(random.uniform(-60, 60)));
+    const double exact = std::log(static_cast<double>(x));
+    ASSERT_LT(std::abs(static_cast<double>(natural_log(x)) - exact),
+              2e-7 * std::max(1.0, std::abs(exact)))
+        << x;
+  }
+}
+
+TEST(NaturalExp, AgreesWithTheLibrarysOverTheWholeRange) {
+  RandomStream random(3, 0, "exp");
+  for (int i = 0; i < 200000; ++i) {
+    const double x = random.uniform(-700, 700) * (i % 2 == 0 ? 1 : 1e-3);
+    ASSERT_LT(std::abs(natural_exp(x) / std::exp(x) - 1), 1e-11) << x;
+  }
+}
+
 }  // namespace
 }  // namespace dodgesim

@@ -59,6 +59,7 @@ TEST(Noise, DoesNotDependOnTheInstantsOfSampling) {
   EventCameraSpec spec;
   for (const double leak_hz : {0.0, 0.1}) {
     spec.leak_hz = leak_hz;
+    if (leak_hz > 0) spec.jitter_us = 0;  // depends on the microsecond
     const auto coarse = dark_events(spec, every(100000, 1000000));
     ASSERT_GT(coarse.size(), 1000u);
     for (const auto& times :
@@ -187,6 +188,97 @@ TEST(ShotNoise, ResetsThePixelItHits) {
       EXPECT_NEAR(state.reference, expected, 1e-4);
     }
   }
+}
+
+TEST(ShotNoise, FallsLinearlyWithTheLightToItsShareAt1000Lux) {
+  EventCameraSpec spec = only_shot_noise();
+  spec.shot_noise_bright_share = 0.25;
+  spec.illuminance_lux = 500;
+  const struct { double luminance, share; } cases[] = {{0, 1}, {1, 0.625}, {2, 0.25}, {50, 0.25}};
+  for (const auto& [luminance, share] : cases) {
+    EventCamera camera(spec, kWidth, kHeight, 1, 0, "top");
+    const double light = luminance;
+    const auto events = emulate(camera, film(kWidth, kHeight, every(1000000, 20000000),
+                                             [&](int, int, TimeUs) { return light; }));
+    const double expected = share * 0.435 * kPixels * 20;
+    EXPECT_NEAR(static_cast<double>(events.size()), expected, 3 * std::sqrt(expected));
+  }
+}
+
+TEST(Leak, MakesOnEventsAtTheSetMeanRateWhateverTheMismatch) {
+  for (const double mismatch : {0.0, 0.03}) {
+    EventCameraSpec spec = ideal_event_camera();
+    spec.mismatch_sigma = mismatch;
+    spec.leak_hz = 2;
+    const double duration_s = 10;
+    const auto events = dark_events(spec, every(100000, 10000000));
+    std::map<std::pair<int, int>, std::vector<TimeUs>> stamps;
+    for (const Event& event : events) {
+      EXPECT_EQ(event.polarity, 1);
+      stamps[{event.x, event.y}].push_back(event.t_us);
+    }
+    // Pixels start anywhere between two events, and then are regular: each count is that of a
+    // uniform phase, within one of its mean.
+    const double expected = 2 * duration_s * kPixels;
+    EXPECT_NEAR(static_cast<double>(events.size()), expected, 3 * std::sqrt(0.25 * kPixels) + 1);
+    EXPECT_EQ(stamps.size(), kPixels);
+    for (const auto& [pixel, times] : stamps) {
+      const TimeUs period_us = times[1] - times[0];
+      if (mismatch == 0) {
+        EXPECT_NEAR(static_cast<double>(period_us), 500000, 2);
+      }
+      for (std::size_t i = 2; i < times.size(); ++i) {
+        EXPECT_NEAR(static_cast<double>(times[i] - times[i - 1]), static_cast<double>(period_us),
+                    3);
+      }
+    }
+    // No common beat: first events come evenly over the first period.
+    double early = 0;
+    for (const auto& [pixel, times] : stamps) early += times[0] < 250000;
+    EXPECT_NEAR(early, 0.5 * kPixels, 4 * std::sqrt(0.25 * kPixels));
+  }
+}
+
+TEST(Leak, AddsToARisingSignalAndHoldsUpAFallingOne) {
+  EventCameraSpec spec = ideal_event_camera();
+  spec.leak_hz = 10;  // 2 of log luminance in a second
+  const auto count = [&](double slope) {
+    EventCamera camera(spec, kWidth, kHeight, 1, 0, "top");
+    return static_cast<double>(emulate(camera, film(kWidth, kHeight, every(10000, 1000000),
+                                                    [&](int, int, TimeUs t) {
+                                                      return std::exp(slope * seconds(t)) -
+                                                             spec.log_epsilon;
+                                                    }))
+                                   .size()) /
+           kPixels;
+  };
+  EXPECT_NEAR(count(3), 25, 0.6);
+  EXPECT_NEAR(count(-6), 20, 1.1);
+  EXPECT_NEAR(count(-2), 0, 0.01);
+}
+
+TEST(DeadPixels, HaveTheSetShareAndAreSilentWhateverHappens) {
+  EventCameraSpec spec = event_camera_preset("noisy");
+  spec.dead_pixel_fraction = 0.1;
+  spec.hot_pixel_fraction = 0.3;
+  const auto silent = [&](std::uint64_t throw_index) {
+    EventCamera camera(spec, kWidth, kHeight, 1, throw_index, "top");
+    std::vector<int> count(kWidth * kHeight);
+    for (const Event& event :
+         emulate(camera, film(kWidth, kHeight, every(20000, 400000), [](int x, int y, TimeUs t) {
+                   return 1.5 + std::sin(30 * seconds(t) + x + 3 * y);
+                 }))) {
+      ++count[static_cast<std::size_t>(event.y * kWidth + event.x)];
+    }
+    std::vector<bool> is_silent;
+    for (const int n : count) is_silent.push_back(n == 0);
+    return is_silent;
+  };
+  const auto first = silent(0);
+  const double expected = 0.1 * kPixels;
+  EXPECT_NEAR(static_cast<double>(std::count(first.begin(), first.end(), true)), expected,
+              3 * std::sqrt(0.9 * expected));
+  EXPECT_EQ(silent(7), first);  // they belong to the device
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ TEST(Region, ThatShowsNothingNewChangesNothing) {
   EventCameraSpec spec = everything();
   spec.photoreceptor_hz = 0;         // takes its cut-off from the samples
   spec.shot_noise_bright_share = 1;  // or the rate would come from the samples
-  spec.jitter_us = 0;                // is drawn event by event, in their order
+  spec.jitter_us = 0;                // depends on the microsecond
   EventCamera camera(spec, kWidth, kHeight, 5, 0, "top");
   Frames frames = film(kWidth, kHeight, {0, 10000, 20000}, sine);
   const auto plain = emulate(camera, frames);

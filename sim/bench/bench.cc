@@ -1,0 +1,138 @@
+#include "sim/bench/bench.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "sim/base/error.h"
+#include "sim/campaign/build_info.h"
+#include "sim/campaign/manifest.h"
+#include "sim/config/closest_name.h"
+
+namespace dodgesim {
+
+namespace {
+
+// Whether `asked` is the name or its first parts.
+bool names(const std::string& asked, const std::string& name) {
+  return name == asked || name.starts_with(asked + ".");
+}
+
+// All that may be asked for: every name and its first parts.
+std::vector<std::string> known_names(const std::vector<BenchCase>& cases) {
+  std::set<std::string> known;
+  for (const BenchCase& bench : cases) {
+    for (const Quantity& quantity : bench.quantities) {
+      const std::string& name = quantity.name;
+      known.insert(name);
+      for (std::size_t dot = name.find('.'); dot != std::string::npos;
+           dot = name.find('.', dot + 1)) {
+        known.insert(name.substr(0, dot));
+      }
+    }
+  }
+  return {known.begin(), known.end()};
+}
+
+}  // namespace
+
+double Measurement::median() const {
+  std::vector<double> sorted = runs;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t half = sorted.size() / 2;
+  return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
+}
+
+std::vector<BenchCase> all_bench_cases() {
+  std::vector<BenchCase> all;
+  for (const auto& cases : {emulator_cases(), renderer_cases(), loop_cases()}) {
+    all.insert(all.end(), cases.begin(), cases.end());
+  }
+  return all;
+}
+
+std::vector<BenchCase> select(std::vector<BenchCase> cases,
+                              const std::vector<std::string>& asked_names) {
+  if (asked_names.empty()) return cases;
+  const std::vector<std::string> known = known_names(cases);
+  for (const std::string& asked : asked_names) {
+    if (std::find(known.begin(), known.end(), asked) != known.end()) continue;
+    std::string near = closest_name(asked, known);
+    for (const std::string& name : known) {
+      if (name.ends_with("." + asked)) near = name;  // the first part was left out
+    }
+    throw ScenarioError(
+        "There is no benchmark case \"" + asked + "\"" +
+        (near.empty() ? "; --list names them all." : "; did you mean " + near + "?"));
+  }
+  for (BenchCase& bench : cases) {
+    for (Quantity& quantity : bench.quantities) {
+      quantity.wanted = std::any_of(asked_names.begin(), asked_names.end(),
+                                    [&](const auto& asked) { return names(asked, quantity.name); });
+    }
+  }
+  std::erase_if(cases, [](const BenchCase& bench) {
+    return std::none_of(bench.quantities.begin(), bench.quantities.end(),
+                        [](const Quantity& quantity) { return quantity.wanted; });
+  });
+  return cases;
+}
+
+std::vector<Measurement> measure(const std::vector<BenchCase>& cases, const BenchOptions& options,
+                                 const std::function<void(const Measurement&)>& report) {
+  std::vector<Measurement> measurements;
+  for (const BenchCase& bench : cases) {
+    const BenchRun run = bench.prepare(options);
+    std::vector<Measurement> measured;
+    for (const Quantity& quantity : bench.quantities) measured.push_back({quantity, {}});
+    const int runs = options.runs > 0 ? options.runs : bench.runs;
+    for (int i = 0; i < runs; ++i) {
+      const std::vector<double> values = run();
+      for (std::size_t q = 0; q < measured.size(); ++q) measured[q].runs.push_back(values.at(q));
+    }
+    for (const Measurement& measurement : measured) {
+      if (!measurement.quantity.wanted) continue;
+      report(measurement);
+      measurements.push_back(measurement);
+    }
+  }
+  return measurements;
+}
+
+std::string line(const Measurement& measurement) {
+  const double value = measurement.median();
+  int decimals = 4;
+  for (double limit = 1; decimals > 0 && value >= limit; limit *= 10) --decimals;
+  char number[64];
+  std::snprintf(number, sizeof number, "%.*f", decimals, value);
+  return measurement.quantity.name + " " + number + " " + measurement.quantity.unit;
+}
+
+std::string bench_json(const std::vector<Measurement>& measurements,
+                       const std::string& command_line, const std::string& gl_renderer) {
+  const BuildInfo build = build_info();
+  const Machine machine = machine_info();
+  nlohmann::ordered_json json;
+  json["program"] = {
+      {"name", "dodgesim"},         {"version", build.version},       {"commit", build.commit},
+      {"modified", build.modified}, {"build_type", build.build_type}, {"compiler", build.compiler}};
+  json["libraries"] = {
+      {"mujoco", build.mujoco}, {"opencv", build.opencv}, {"gl_renderer", gl_renderer}};
+  json["machine"] = {{"cpu", machine.cpu},
+                     {"cpu_flags", machine.cpu_flags},
+                     {"cores", machine.cores},
+                     {"system", machine.system}};
+  json["bench"] = {{"command_line", command_line}, {"finished", utc_now()}};
+  json["cases"] = nlohmann::ordered_json::array();
+  for (const Measurement& measurement : measurements) {
+    json["cases"].push_back({{"case", measurement.quantity.name},
+                             {"unit", measurement.quantity.unit},
+                             {"meaning", measurement.quantity.meaning},
+                             {"median", measurement.median()},
+                             {"runs", measurement.runs}});
+  }
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace dodgesim

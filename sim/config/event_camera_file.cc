@@ -1,0 +1,65 @@
+#include "sim/config/event_camera_file.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "sim/base/error.h"
+#include "sim/config/closest_name.h"
+#include "sim/config/parameter_docs.h"
+#include "sim/config/reader.h"
+#include "sim/config/yaml_tree.h"
+
+namespace dodgesim {
+
+namespace {
+
+// Visitor that finds out which presets there are.
+struct PresetNames {
+  std::vector<std::string> names;
+
+  void operator()(std::string_view key, const std::string&,
+                  std::initializer_list<const char*> allowed, const char*) {
+    if (key == "preset") names.assign(allowed.begin(), allowed.end());
+  }
+  template <class... Rest>
+  void operator()(const char*, const Rest&...) {}
+};
+
+std::vector<std::string> preset_names() {
+  PresetNames visitor;
+  EventCameraSpec().visit(visitor);
+  return visitor.names;
+}
+
+EventCameraSpec load(const std::string& path) {
+  ReadContext context(path);
+  EventCameraSpec spec;
+  Documenter documenter;
+  spec.visit(documenter);
+  for (const ParameterDoc& doc : documenter.take()) context.all_keys.push_back(doc.path);
+  const YamlNode root = parse_yaml(read_scenario_text(path), context.problems);
+  Reader reader(root, "", context);
+  spec.visit(reader);
+  reader.finish();
+  context.problems.raise_if_any();
+  return spec;
+}
+
+}  // namespace
+
+EventCameraSpec named_event_camera(const std::string& name_or_file) {
+  const std::string end = std::filesystem::path(name_or_file).extension().string();
+  if (end == ".yaml" || end == ".yml") return load(name_or_file);
+  const std::vector<std::string> names = preset_names();
+  if (std::find(names.begin(), names.end(), name_or_file) != names.end()) {
+    return event_camera_preset(name_or_file);
+  }
+  std::string known;
+  for (const std::string& name : names) known += name + ", ";
+  const std::string near = closest_name(name_or_file, names);
+  throw ScenarioError("There is no event camera \"" + name_or_file + "\"; known are " + known +
+                      "and files that end in .yaml" +
+                      (near.empty() ? "." : "; did you mean " + near + "?"));
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,91 @@
+#include "sim/files/event_writer.h"
+
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "sim/base/error.h"
+#include "sim/events/event_log.h"
+#include "sim/files/hdf5_event_writer.h"
+#include "sim/files/npy_header.h"
+#include "sim/files/output_file.h"
+
+namespace dodgesim {
+
+static_assert(std::endian::native == std::endian::little);
+
+namespace {
+
+class TextWriter : public EventWriter {
+ public:
+  TextWriter(const std::filesystem::path& path, TimeUs t_offset_us)
+      : file_(path), t_offset_us_(t_offset_us) {}
+
+  void add(std::span<const Event> events) override {
+    for (Event event : events) {
+      event.t_us += t_offset_us_;
+      line_.clear();
+      append_line(line_, event);
+      file_.write(line_);
+    }
+  }
+
+  void finish() override { file_.commit(); }
+
+ private:
+  OutputFile file_;
+  TimeUs t_offset_us_;
+  std::string line_;
+};
+
+class NpyWriter : public EventWriter {
+ public:
+  NpyWriter(const std::filesystem::path& path, TimeUs t_offset_us)
+      : file_(path), t_offset_us_(t_offset_us) {
+    file_.write(front());
+  }
+
+  void add(std::span<const Event> events) override {
+    for (const Event& event : events) {
+      std::array<char, 13> record{};
+      const TimeUs t_us = t_offset_us_ + event.t_us;
+      std::memcpy(record.data(), &t_us, 8);
+      std::memcpy(record.data() + 8, &event.x, 2);
+      std::memcpy(record.data() + 10, &event.y, 2);
+      std::memcpy(record.data() + 12, &event.polarity, 1);
+      file_.write({record.data(), record.size()});
+    }
+    count_ += events.size();
+  }
+
+  void finish() override {
+    file_.rewrite_front(front());
+    file_.commit();
+  }
+
+ private:
+  // Of the same length for any count, so that it can be replaced once the count is known.
+  std::string front() const {
+    constexpr std::size_t kBytes = 192;  // enough for 20 digits
+    return npy_front("[('t', '<i8'), ('x', '<u2'), ('y', '<u2'), ('p', '|i1')]", {count_}, kBytes);
+  }
+
+  OutputFile file_;
+  TimeUs t_offset_us_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<EventWriter> make_event_writer(const std::filesystem::path& path,
+                                               const Recording& recording) {
+  const std::string end = path.extension().string();
+  if (end == ".txt") return std::make_unique<TextWriter>(path, recording.t_offset_us);
+  if (end == ".npy") return std::make_unique<NpyWriter>(path, recording.t_offset_us);
+  if (end == ".h5" || end == ".hdf5") return make_hdf5_event_writer(path, recording);
+  throw ScenarioError(path.string() +
+                      " must end in .h5 (or .hdf5), .npy or .txt, which decides on " +
+                      "the format of the events.");
+}
+
+}  // namespace dodgesim

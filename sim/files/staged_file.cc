@@ -1,0 +1,45 @@
+#include "sim/files/staged_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+StagedFile::StagedFile(std::filesystem::path path)
+    : path_(std::move(path)), partial_(partial_name(path_)) {
+  std::error_code ignored;
+  // Otherwise found out only by commit(), when all the work is done.
+  if (std::filesystem::is_directory(path_, ignored)) fail("could not be created", EISDIR);
+  fd_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (fd_ < 0) fail("could not be created", errno);
+}
+
+StagedFile::~StagedFile() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  ::unlink(partial_.c_str());
+}
+
+void StagedFile::commit() {
+  // Some file systems report a full disk only here.
+  if (::fsync(fd_) != 0 && errno != EINVAL) fail("could not be written", errno);
+  const int fd = fd_;
+  fd_ = -1;
+  if (::close(fd) == 0 && ::rename(partial_.c_str(), path_.c_str()) == 0) return;
+  const int reason = errno;
+  ::unlink(partial_.c_str());
+  fail("could not be written", reason);
+}
+
+void StagedFile::fail(const std::string& what, int error_number) const {
+  const std::string reason =
+      error_number == 0 ? "" : std::string(": ") + std::strerror(error_number);
+  throw IoError(path_.string() + " " + what + reason + ".");
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,38 @@
+// A file that is either whole or absent: made under the temporary name PATH.partial, flushed to the
+// disk, and only then renamed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace dodgesim {
+
+class StagedFile {
+ public:
+  // Creates PATH.partial, empty. All functions throw IoError with the path and the system's reason.
+  explicit StagedFile(std::filesystem::path path);
+  StagedFile(const StagedFile&) = delete;
+  StagedFile& operator=(const StagedFile&) = delete;
+  ~StagedFile();  // without commit() the temporary file is removed
+
+  // What PATH is called until it is whole.
+  static std::filesystem::path partial_name(const std::filesystem::path& path) {
+    return path.string() + ".partial";
+  }
+
+  const std::filesystem::path& partial() const { return partial_; }
+  int fd() const { return fd_; }  // open for writing until commit()
+
+  // Waits until the disk has the contents and gives the file its name.
+  void commit();
+
+  // Throws IoError "PATH <what>: <reason>." with the text of `error_number`, or without a reason
+  // when it is 0.
+  [[noreturn]] void fail(const std::string& what, int error_number) const;
+
+ private:
+  std::filesystem::path path_, partial_;
+  int fd_ = -1;
+};
+
+}  // namespace dodgesim

@@ -1,0 +1,394 @@
+// dodgesim emulate, against a plain event camera written here from the definition.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "sim/base/random.h"
+#include "tests/cli/program.h"
+#include "tests/sim/files/video_files.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using dodgesim::RandomStream;
+using dodgesim::testing::contents;
+using dodgesim::testing::dodgesim;
+using dodgesim::testing::npy_array;
+using dodgesim::testing::Outcome;
+using dodgesim::testing::put;
+using testing::ContainsRegex;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr int kWidth = 19;
+constexpr int kHeight = 7;
+constexpr std::size_t kPixels = kWidth * kHeight;
+
+struct Event {
+  double t_us = 0;
+  int x = 0, y = 0, p = 0;
+};
+using EventsByPixel = std::map<std::pair<int, int>, std::vector<Event>>;  // (y, x)
+
+struct Film {
+  std::vector<std::int64_t> times;
+  std::vector<float> luminance;
+};
+
+// Random walks of ln(I), steps and gentle slopes among them, at uneven instants.
+Film random_film(std::size_t frames, std::int64_t start_us) {
+  RandomStream random(4, 0, "film");
+  Film film;
+  std::vector<double> l(kPixels, -1);
+  std::int64_t t_us = start_us;
+  for (std::size_t n = 0; n < frames; ++n) {
+    film.times.push_back(t_us);
+    t_us += 1 + static_cast<std::int64_t>(random.uniform(0, 2500));
+    for (double& value : l) {
+      value += random.uniform() < 0.05 ? random.uniform(-3, 3) : random.uniform(-0.15, 0.15);
+      value = std::clamp(value, -9.0, 3.0);
+      film.luminance.push_back(static_cast<float>(std::exp(value)));
+    }
+  }
+  return film;
+}
+
+// The same film as it would stand in a file of bytes. No pixel comes back to its first value, which
+// is a whole number of thresholds from its reference: rounding would decide on that event.
+std::vector<std::uint8_t> as_bytes(const Film& film) {
+  std::vector<std::uint8_t> bytes;
+  for (const float value : film.luminance) {
+    const auto byte = static_cast<std::uint8_t>(std::min(254.0f, 100 * value));
+    const std::size_t i = bytes.size();
+    const bool comes_back = i >= kPixels && byte == bytes[i % kPixels];
+    bytes.push_back(static_cast<std::uint8_t>(byte + (comes_back ? 1 : 0)));
+  }
+  return bytes;
+}
+
+// What the camera `ideal` is: an event at every crossing of reference +- 0.2, time by time, of
+// frames whose values / white are luminance.
+template <class T>
+EventsByPixel reference_events(const std::vector<std::int64_t>& times, const std::vector<T>& values,
+                               double white) {
+  constexpr double kThreshold = 0.2;
+  EventsByPixel events;
+  const auto l = [&](std::size_t frame, std::size_t pixel) {
+    return std::log(1e-3 + static_cast<double>(values[frame * kPixels + pixel]) / white);
+  };
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    const int x = static_cast<int>(i % kWidth);
+    const int y = static_cast<int>(i / kWidth);
+    double reference = l(0, i);
+    for (std::size_t n = 1; n < times.size(); ++n) {
+      const double l0 = l(n - 1, i), l1 = l(n, i);
+      const auto t0 = static_cast<double>(times[n - 1] - times[0]);
+      const auto t1 = static_cast<double>(times[n] - times[0]);
+      const double sign = l1 > l0 ? 1 : -1;
+      while (sign * (l1 - reference) >= kThreshold) {
+        reference += sign * kThreshold;
+        events[{y, x}].push_back(
+            {t0 + (reference - l0) / (l1 - l0) * (t1 - t0), x, y, sign > 0 ? 1 : 0});
+      }
+    }
+  }
+  return events;
+}
+
+std::size_t count(const EventsByPixel& events) {
+  std::size_t n = 0;
+  for (const auto& [pixel, stream] : events) n += stream.size();
+  return n;
+}
+
+class EmulateTest : public testing::Test {
+ protected:
+  EmulateTest() {
+    write(film_);
+    out_ = (root_ / "events.txt").string();
+  }
+
+  void write(const Film& film) const {
+    put(root_ / "f.npy", npy_array("<f4", film.luminance, kHeight, kWidth));
+    put(root_ / "t.npy", npy_array("<i8", film.times));
+  }
+
+  // With the files of the film, unless others are named.
+  Outcome emulate(const std::string& options) const {
+    return dodgesim("emulate " + (root_ / "f.npy").string() + " --timestamps " +
+                    (root_ / "t.npy").string() + " " + options);
+  }
+  Outcome ideal() const { return emulate("--camera ideal --out " + out_); }
+
+  void expect_refused(const Outcome& outcome, int exit_code, const std::string& message) const {
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(message));
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    EXPECT_FALSE(fs::exists(out_));
+    EXPECT_FALSE(fs::exists(out_ + ".partial"));
+  }
+
+  // The ideal camera makes these events of the files.
+  void expect_events(const EventsByPixel& expected) const {
+    const Outcome outcome = ideal();
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, StartsWith("events: " + std::to_string(count(expected)) + " ("));
+    EventsByPixel seen;
+    std::ifstream file(out_);
+    std::int64_t t_us = 0, before_us = 0;
+    std::int64_t on = 0, off = 0;
+    for (Event event; file >> t_us >> event.x >> event.y >> event.p;) {
+      EXPECT_GE(t_us, before_us) << "in order of time";
+      before_us = t_us;
+      event.t_us = static_cast<double>(t_us - film_.times.front());
+      seen[{event.y, event.x}].push_back(event);
+      ++(event.p == 1 ? on : off);
+    }
+    EXPECT_THAT(outcome.output,
+                HasSubstr("(" + std::to_string(on) + " ON, " + std::to_string(off) + " OFF)\n"));
+    ASSERT_EQ(count(seen), count(expected));
+    for (const auto& [pixel, stream] : expected) {
+      ASSERT_EQ(seen[pixel].size(), stream.size());
+      for (std::size_t i = 0; i < stream.size(); ++i) {
+        EXPECT_EQ(seen[pixel][i].p, stream[i].p);
+        EXPECT_LE(std::abs(seen[pixel][i].t_us - stream[i].t_us), 1);
+      }
+    }
+  }
+
+  dodgesim::testing::TemporaryDirectory root_;
+  const Film film_ = random_film(100, 1600000000000000);
+  std::string out_;
+};
+
+TEST_F(EmulateTest, TheIdealCameraMakesExactlyTheCrossings) {
+  const EventsByPixel expected = reference_events(film_.times, film_.luminance, 1);
+  ASSERT_GT(count(expected), 5000u);
+  expect_events(expected);
+}
+
+TEST_F(EmulateTest, BytesAreSharesOf255) {
+  const std::vector<std::uint8_t> bytes = as_bytes(film_);
+  put(root_ / "f.npy", npy_array("|u1", bytes, kHeight, kWidth));
+  const EventsByPixel expected = reference_events(film_.times, bytes, 255);
+  ASSERT_GT(count(expected), 4000u);
+  expect_events(expected);
+}
+
+TEST_F(EmulateTest, SaysHowFastTheEmulationIsBesideTheLogarithm) {
+  const Outcome outcome = ideal();
+  const std::string number = "[0-9]+(\\.[0-9]+)?";
+  EXPECT_THAT(outcome.output, MatchesRegex("events: [0-9]+ \\([0-9]+ ON, [0-9]+ OFF\\)\n"
+                                           "video: 100 frames of 19 x 7 px, " +
+                                           number +
+                                           " s\n"
+                                           "emulation: " +
+                                           number + " frames/s, " + number +
+                                           " Mev/s\n"
+                                           "cv::log: " +
+                                           number +
+                                           " frames/s\n"
+                                           "emulation takes " +
+                                           number + " of the time of cv::log\n"))
+      << outcome.output;
+}
+
+TEST_F(EmulateTest, EventsDoNotDependOnTheOriginOfTime) {
+  for (const std::int64_t start_us : {std::int64_t{0}, std::int64_t{-5000}}) {
+    const Film shifted = random_film(100, start_us);
+    write(film_);
+    ASSERT_EQ(emulate("--camera sees1 --out " + (root_ / "a.txt").string()).exit_code, 0);
+    write(shifted);
+    ASSERT_EQ(emulate("--camera sees1 --out " + (root_ / "b.txt").string()).exit_code, 0);
+    std::ifstream a(root_ / "a.txt"), b(root_ / "b.txt");
+    std::int64_t ta = 0, tb = 0;
+    std::string rest_a, rest_b;
+    while (a >> ta) {
+      std::getline(a, rest_a);
+      b >> tb;
+      std::getline(b, rest_b);
+      ASSERT_EQ(ta - film_.times.front(), tb - start_us);
+      ASSERT_EQ(rest_a, rest_b);
+    }
+    EXPECT_FALSE(b >> tb);
+  }
+}
+
+TEST_F(EmulateTest, TheSeedDecidesOnNoiseAndMismatchAlone) {
+  const auto events = [this](const std::string& options) {
+    EXPECT_EQ(emulate(options + " --out " + out_).exit_code, 0) << options;
+    return contents(out_);
+  };
+  const std::string sees1 = events("--camera sees1 --seed 1");
+  EXPECT_EQ(events("--camera sees1"), sees1);
+  EXPECT_NE(events("--camera sees1 --seed 2"), sees1);
+  EXPECT_EQ(events("--camera ideal --seed 1"), events("--camera ideal --seed 2"));
+  EXPECT_EQ(emulate("--camera ideal --seed -1 --out " + out_).exit_code, 2);
+}
+
+TEST_F(EmulateTest, ReadsACameraFromAFile) {
+  const auto events = [this](const std::string& camera) {
+    const Outcome outcome = emulate("--camera " + camera + " --out " + out_);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return contents(out_);
+  };
+  for (const std::string preset : {"sees1", "ideal", "noisy", "low_light"}) {
+    EXPECT_EQ(events(put(root_ / "camera.yaml", "preset: " + preset + "\n")), events(preset));
+  }
+  EXPECT_EQ(events(put(root_ / "camera.yaml", "refractory_us: 100\n")), events("sees1"))
+      << "the default";
+  EXPECT_EQ(events(put(root_ / "camera.yaml", "log_epsilon: 0.01\npreset: ideal\n")),
+            events(put(root_ / "other.yaml", "preset: ideal\nlog_epsilon: 0.01\n")));
+  std::set<std::string> different;
+  for (const std::string preset : {"sees1", "ideal", "noisy", "low_light"}) {
+    different.insert(events(preset));
+  }
+  EXPECT_EQ(different.size(), 4u);
+}
+
+TEST_F(EmulateTest, ARecordingEndsWithItsLastFrame) {
+  // What is still on its way from the pixel to its time stamp is not in it.
+  constexpr std::int64_t kLatencyUs = 5000;
+  ASSERT_EQ(ideal().exit_code, 0);
+  std::istringstream all(contents(out_));
+  std::string expected, rest;
+  for (std::int64_t t_us = 0; all >> t_us && std::getline(all, rest);) {
+    if (t_us + kLatencyUs > film_.times.back()) continue;
+    expected += std::to_string(t_us + kLatencyUs) + rest + "\n";
+  }
+  const std::string late = put(root_ / "late.yaml", "preset: ideal\nlatency_us: 5000\n");
+  ASSERT_EQ(emulate("--camera " + late + " --out " + out_).exit_code, 0);
+  EXPECT_TRUE(contents(out_) == expected);
+}
+
+TEST_F(EmulateTest, ReportsEventsThatTheReadoutLoses) {
+  const auto summary = [this](const std::string& readout_max_hz) {
+    const std::string camera =
+        put(root_ / "camera.yaml", "preset: ideal\nreadout_max_hz: " + readout_max_hz + "\n");
+    const Outcome outcome = emulate("--camera " + camera + " --out " + out_);
+    EXPECT_EQ(outcome.exit_code, 0);
+    return outcome.output;
+  };
+  EXPECT_THAT(summary("0"), Not(HasSubstr("lost")));
+  EXPECT_THAT(summary("1e4"), ContainsRegex("lost: [1-9][0-9]* events, because readout_max_hz "));
+}
+
+TEST_F(EmulateTest, RefusesBadCamerasWithFileLineAndKey) {
+  const std::string path = (root_ / "camera.yaml").string();
+  const auto refused = [&](const std::string& yaml) {
+    put(path, yaml);
+    const Outcome outcome = emulate("--camera " + path + " --out " + out_);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_FALSE(fs::exists(out_));
+    return outcome.output;
+  };
+  EXPECT_EQ(refused("contrast_threshold_on: 99\n"),
+            path + ":1:24: contrast_threshold_on is 99, but must be between 0.01 and 10.\n");
+  EXPECT_EQ(refused("# mine\nrefractory: 5\n"),
+            path + ":2:1: refractory is not a known key; did you mean refractory_us?\n");
+  EXPECT_EQ(refused("mismatch_sigma: much\n"),
+            path + ":1:17: mismatch_sigma is \"much\", but must be a number between 0 and 1.\n");
+  EXPECT_THAT(refused("- 1\n"), StartsWith(path + ":1:1: The file must be a map of keys"));
+  EXPECT_EQ(refused(""), path + ": The file is empty.\n");
+  expect_refused(emulate("--camera sees --out " + out_), 2, "did you mean sees1?");
+  expect_refused(emulate("--camera davis --out " + out_), 2,
+                 "There is no event camera \"davis\"; known are sees1, ideal, noisy, low_light, "
+                 "and files that end");
+  expect_refused(emulate("--camera none.yaml --out " + out_), 2, "There is no such file.");
+}
+
+TEST_F(EmulateTest, RefusesBadVideosWithOneSentence) {
+  const std::string good = contents(root_ / "f.npy");
+  put(root_ / "f.npy", good.substr(0, good.size() - 1));
+  expect_refused(ideal(), 2, "f.npy is truncated: ");
+  put(root_ / "f.npy", good + "x");
+  expect_refused(ideal(), 2, "f.npy holds 1 bytes too many: ");
+  Film film = film_;
+  film.times.back() = film.times.front();
+  write(film);
+  expect_refused(ideal(), 2, "t.npy does not increase: ");
+  film = film_;
+  film.times.pop_back();
+  write(film);
+  expect_refused(ideal(), 2, "t.npy has the shape (99,), but ");
+  film = film_;
+  film.luminance[57 * kPixels] = -1;  // when many events have been written
+  write(film);
+  expect_refused(ideal(), 2, " in frame 57, row 0, column 0, but luminance must be finite");
+  film = random_film(1, 0);
+  write(film);
+  expect_refused(ideal(), 2, "events need at least two frames");
+}
+
+TEST_F(EmulateTest, RefusesWhatHdf5CannotHold) {
+  Film film = random_film(6, 0);
+  for (std::size_t n = 0; n < 6; ++n) {
+    film.times[n] = static_cast<std::int64_t>(n) * 1000000000;  // 83 minutes in all
+  }
+  write(film);
+  out_ = (root_ / "events.h5").string();
+  expect_refused(ideal(), 2, "cannot hold the recording of 5000000000 us");
+  out_ = (root_ / "events.npy").string();
+  EXPECT_EQ(ideal().exit_code, 0);
+}
+
+TEST_F(EmulateTest, ReportsFilesThatCannotBeReadOrWrittenWithExitCode4) {
+  const std::string full = out_ + ".partial";
+  fs::create_symlink("/dev/full", full);
+  expect_refused(ideal(), 4, "events.txt could not be written: No space left on device.");
+  out_ = (root_ / "no/such/events.h5").string();
+  expect_refused(ideal(), 4, "events.h5 could not be created: No such file or directory.");
+  fs::remove(root_ / "f.npy");
+  expect_refused(ideal(), 4, "f.npy could not be opened: No such file or directory.");
+}
+
+TEST_F(EmulateTest, DoesNotOverwriteItsInput) {
+  const std::string before = contents(root_ / "t.npy");
+  // The second name is taken while the file is being written.
+  for (const char* times : {"t.npy", "events.npy.partial"}) {
+    const std::string input = put(root_ / times, before);
+    const std::string out = (root_ / (times == std::string("t.npy") ? times : "events.npy"));
+    const Outcome outcome = dodgesim("emulate " + (root_ / "f.npy").string() + " --timestamps " +
+                                     input + " --camera ideal --out " + out);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_THAT(outcome.output, HasSubstr("would overwrite the input"));
+    EXPECT_EQ(contents(input), before);
+  }
+}
+
+TEST_F(EmulateTest, WritesValidFilesWithoutEvents) {
+  put(root_ / "f.npy", npy_array("<f4", std::vector<float>(3 * kPixels, 0.5f), kHeight, kWidth));
+  put(root_ / "t.npy", npy_array("<i8", std::vector<std::int64_t>{1, 2, 3}));
+  for (const std::string end : {".h5", ".npy", ".txt"}) {
+    const fs::path out = root_ / ("none" + end);
+    const Outcome outcome = emulate("--camera ideal --out " + out.string());
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.output, StartsWith("events: 0 (0 ON, 0 OFF)\n"));
+    EXPECT_TRUE(fs::exists(out)) << end;
+  }
+}
+
+TEST_F(EmulateTest, TakesPicturesOfAnyShape) {
+  for (const auto& [height, width] :
+       {std::pair<std::uint64_t, std::uint64_t>{1, 1}, {1, 3000}, {3000, 1}, {720, 1280}}) {
+    std::vector<std::uint8_t> bytes(2 * height * width, 20);
+    bytes.back() = 200;
+    put(root_ / "f.npy", npy_array("|u1", bytes, height, width));
+    put(root_ / "t.npy", npy_array("<i8", std::vector<std::int64_t>{0, 1073741823}));
+    ASSERT_EQ(ideal().exit_code, 0);
+    const std::string events = contents(out_);
+    EXPECT_EQ(std::count(events.begin(), events.end(), '\n'), 11)
+        << "ln((1e-3 + 200/255) / (1e-3 + 20/255)) / 0.2 is 11.4";
+    EXPECT_THAT(events,
+                EndsWith(std::to_string(width - 1) + " " + std::to_string(height - 1) + " 1\n"));
+  }
+}
+
+}  // namespace

@@ -1,0 +1,191 @@
+// Events of pixels with a photoreceptor's bandwidth: their stamps against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "sim/base/random.h"
+#include "tests/sim/events/reference.h"
+
+namespace dodgesim {
+namespace {
+
+using testing::emulate;
+using testing::every;
+using testing::film;
+using testing::Frames;
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+constexpr TimeUs kStepUs = 1000;
+
+// One pixel that sees luminance `a`, and after kStepUs + 1 us `b`, sampled at the given period.
+std::vector<Event> step_response(const EventCameraSpec& spec, double a, double b,
+                                 TimeUs period_us) {
+  std::vector<TimeUs> times = {0, kStepUs, kStepUs + 1};
+  while (times.back() < 100000) times.push_back(times.back() + period_us);
+  EventCamera camera(spec, 1, 1, 1, 0, "top");
+  return emulate(camera,
+                 film(1, 1, times, [&](int, int, TimeUs t) { return t > kStepUs ? b : a; }));
+}
+
+// When a rising share of a step, share(t) from 0 to 1, passes `level`, by bisection [us].
+double instant(const std::function<double(double)>& share, double level) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (share(middle) < level ? low : high) = middle;
+  }
+  return 1e6 * low;
+}
+
+class StepResponse : public ::testing::TestWithParam<TimeUs> {};
+INSTANTIATE_TEST_SUITE_P(Periods, StepResponse, ::testing::Values(50, 1000, 30000));
+
+TEST_P(StepResponse, EventsLieOnTheExponential) {
+  EventCameraSpec spec = ideal_event_camera();
+  spec.photoreceptor_hz = 3000;
+  for (const auto& [a, b] : {std::pair{0.1, 0.9}, {0.9, 0.1}, {0.02, 0.05}}) {
+    const double w = kTwoPi * (100 + 1500 * b);  // at half of 1000 lux
+    const double swing = std::abs(std::log((1e-3 + b) / (1e-3 + a)));
+    const auto events = step_response(spec, a, b, GetParam());
+    ASSERT_EQ(events.size(), std::floor(swing / 0.2));
+    for (std::size_t k = 0; k < events.size(); ++k) {
+      const double level = 0.2 * static_cast<double>(k + 1) / swing;
+      const double expected_us = kStepUs + 0.5 - 1e6 * std::log(1 - level) / w;
+      EXPECT_EQ(events[k].polarity, b > a ? 1 : -1);
+      // The pixel follows the curve to a share of its threshold; where it is flat, that is late.
+      const double slope_1us = 1e-6 * w * swing * (1 - level);
+      EXPECT_NEAR(static_cast<double>(events[k].t_us), expected_us, 1.5 + 0.004 / slope_1us);
+    }
+  }
+}
+
+TEST_P(StepResponse, OfSecondOrderStartsFlat) {
+  EventCameraSpec spec = ideal_event_camera();
+  spec.photoreceptor_hz = 3000;
+  spec.follower_hz = 400;
+  const double w1 = kTwoPi * (100 + 1500 * 0.9), w2 = kTwoPi * 400;
+  const double swing = std::log(0.901 / 0.101);
+  const auto events = step_response(spec, 0.1, 0.9, GetParam());
+  ASSERT_EQ(events.size(), std::floor(swing / 0.2));
+  const auto share = [&](double t_s) {
+    return 1 - (w1 * std::exp(-w2 * t_s) - w2 * std::exp(-w1 * t_s)) / (w1 - w2);
+  };
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    const double level = 0.2 * static_cast<double>(k + 1) / swing;
+    const double expected_us = kStepUs + 0.5 + instant(share, level);
+    const double t_s = 1e-6 * (expected_us - kStepUs);
+    const double slope_1us = 1e6 * swing * (share(t_s + 1e-12) - share(t_s)) + 1e-12;
+    const double per_us = 1e-6 * slope_1us * 1e6;
+    EXPECT_NEAR(static_cast<double>(events[k].t_us), expected_us, 1.5 + 0.006 / per_us);
+  }
+}
+
+TEST(LowPass, ATenTimesDarkerSceneAnswersTenTimesSlower) {
+  EventCameraSpec spec = ideal_event_camera();
+  spec.photoreceptor_hz = 3000;
+  spec.photoreceptor_dark_hz = 0.01;
+  const auto at = [&](double lux) {
+    spec.illuminance_lux = lux;
+    return static_cast<double>(step_response(spec, 0.1, 0.9, 1000).at(4).t_us - kStepUs);
+  };
+  EXPECT_NEAR(at(50) / at(500), 10, 0.2);
+  EXPECT_NEAR(at(5) / at(50), 10, 0.2);
+}
+
+TEST(LowPass, SamplingMoreOftenGivesTheSameEvents) {
+  // The light rises steadily by 300/s in log luminance, which the photoreceptor follows with a lag.
+  EventCameraSpec spec = ideal_event_camera();
+  spec.photoreceptor_hz = 3000;
+  spec.follower_hz = 2000;
+  const auto run = [&](TimeUs period_us) {
+    EventCamera camera(spec, 1, 1, 1, 0, "top");
+    return emulate(camera, film(1, 1, every(period_us, 20000), [&](int, int, TimeUs t) {
+                     return 0.01 * std::exp(300 * seconds(t)) - spec.log_epsilon;
+                   }));
+  };
+  const auto coarse = run(1000), fine = run(50);
+  ASSERT_EQ(coarse.size(), fine.size());
+  ASSERT_GT(coarse.size(), 25u);
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    // The cut-off of an interval is that of its end: coarse samples answer earlier.
+    EXPECT_LE(coarse[i].t_us, fine[i].t_us + 3);
+    EXPECT_NEAR(static_cast<double>(coarse[i].t_us), static_cast<double>(fine[i].t_us), 100);
+  }
+}
+
+TEST(LowPass, FastFlickerMakesNoEvents) {
+  // 5 kHz by a factor of 2 under a cut-off of 250 Hz: a twentieth of the swing of 0.7 is left.
+  EventCameraSpec spec = ideal_event_camera();
+  spec.photoreceptor_hz = 500;
+  spec.photoreceptor_dark_hz = 0.01;
+  const auto flicker = [](int, int, TimeUs t) { return t / 100 % 2 == 0 ? 1.0 : 0.5; };
+  const Frames frames = film(1, 1, every(20, 50000), flicker);
+  EventCamera slow(spec, 1, 1, 1, 0, "top");
+  const auto settled = emulate(slow, frames);
+  EXPECT_LT(settled.size(), 4u);  // while it settles
+  EventCamera fast(ideal_event_camera(), 1, 1, 1, 0, "top");
+  EXPECT_GT(emulate(fast, frames).size(), 1000u);
+}
+
+TEST(LowPass, NoPixelIsEverStuckAndOrderHolds) {
+  for (const double follower_hz : {0.0, 800.0}) {
+    EventCameraSpec spec;  // sees1
+    spec.follower_hz = follower_hz;
+    spec.leak_hz = 20;
+    constexpr int kWidth = 37, kHeight = 11;
+    EventCamera camera(spec, kWidth, kHeight, 3, 0, "top");
+    const auto luminance = [](int x, int y, TimeUs t) {
+      const auto block = RandomStream(7, 0, "walk")
+                             .block(static_cast<std::uint64_t>(t) * 1000 +
+                                    static_cast<std::uint64_t>(y * kWidth + x));
+      return std::exp(4 * unit_interval(block[0]) - 4);
+    };
+    std::vector<Event> events;
+    for (const auto& frame : film(kWidth, kHeight, every(700, 70000), luminance)) {
+      if (frame.t_us == 0) {
+        camera.reset(0, frame.luminance.data());
+        continue;
+      }
+      camera.update(frame.t_us, frame.luminance.data(), events);
+      for (int i = 0; i < kWidth * kHeight; ++i) {
+        const PixelState p = camera.pixel(i % kWidth, i / kWidth);
+        if (p.held) continue;
+        ASSERT_LT(p.signal - p.reference, p.threshold_on);
+        ASSERT_GT(p.signal - p.reference, -p.threshold_off);
+      }
+    }
+    EXPECT_GT(events.size(), 10000u);
+    EXPECT_TRUE(std::is_sorted(events.begin(), events.end(), testing::event_order));
+  }
+}
+
+TEST(LowPass, RebaseMakesNoEventsAndKeepsWhatIsStillSettling) {
+  EventCameraSpec spec = ideal_event_camera();
+  spec.photoreceptor_hz = 3000;
+  spec.follower_hz = 1000;
+  const auto run = [&](bool rebase) {
+    EventCamera camera(spec, 1, 1, 1, 0, "top");
+    std::vector<Event> events;
+    const float dark = 0.1f, bright = 0.9f;
+    camera.reset(0, &dark);
+    camera.update(100, &bright, events);  // not yet settled
+    if (rebase) camera.rebase(&bright);
+    camera.update(10000, &bright, events);
+    return events;
+  };
+  ASSERT_GT(run(false).size(), 8u);
+  EXPECT_EQ(run(true), run(false));
+  EventCamera camera(spec, 1, 1, 1, 0, "top");
+  std::vector<Event> events;
+  const float dark = 0.1f, bright = 0.9f;
+  camera.reset(0, &dark);
+  camera.update(100, &dark, events);
+  camera.rebase(&bright);
+  camera.update(10000, &bright, events);
+  EXPECT_TRUE(events.empty());
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,273 @@
+#include "sim/events/photoreceptor.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "sim/base/random.h"
+#include "sim/base/vector_level.h"
+#include "sim/events/spec.h"
+
+namespace dodgesim {
+namespace {
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+
+EventCameraSpec slow(double photoreceptor_hz, double follower_hz) {
+  EventCameraSpec spec = ideal_event_camera();
+  spec.photoreceptor_hz = photoreceptor_hz;
+  spec.follower_hz = follower_hz;
+  return spec;
+}
+
+// The two low-passes, integrated in small steps (Runge-Kutta, fourth order).
+Charge integrated(const Charge& before, double w1, double w2, double u1, double dt_s, double t_s) {
+  constexpr int kSteps = 4000;
+  const double h = t_s / kSteps;
+  const auto u = [&](double t) { return before.u + (u1 - before.u) * t / dt_s; };
+  double y = before.y, z = before.z;
+  for (int i = 0; i < kSteps; ++i) {
+    const double t = i * h;
+    const auto dy = [&](double at, double y_at) { return w1 * (u(at) - y_at); };
+    const auto dz = [&](double y_at, double z_at) { return w2 * (y_at - z_at); };
+    const double a = dy(t, y), p = dz(y, z);
+    const double b = dy(t + h / 2, y + h / 2 * a), q = dz(y + h / 2 * a, z + h / 2 * p);
+    const double c = dy(t + h / 2, y + h / 2 * b), r = dz(y + h / 2 * b, z + h / 2 * q);
+    const double d = dy(t + h, y + h * c), s = dz(y + h * c, z + h * r);
+    y += h / 6 * (a + 2 * b + 2 * c + d);
+    z += h / 6 * (p + 2 * q + 2 * r + s);
+  }
+  return {u(t_s), y, z};
+}
+
+TEST(Photoreceptor, CutOffIsProportionalToTheLight) {
+  EventCameraSpec spec = slow(3000, 0);
+  spec.photoreceptor_dark_hz = 100;
+  for (const double lux : {5.0, 500.0, 1000.0, 1e5}) {
+    spec.illuminance_lux = lux;
+    const Photoreceptor photoreceptor(spec);
+    for (const double luminance : {0.0, 0.1, 1.0, 2.0}) {
+      EXPECT_NEAR(photoreceptor.cutoff_rad_s(luminance) / kTwoPi, 100 + 3 * lux * luminance, 1e-6);
+    }
+  }
+}
+
+TEST(Photoreceptor, AnswersAStepWithAnExponential) {
+  const Photoreceptor photoreceptor(slow(3000, 0));
+  const Charge before = {0.7, -0.4, 0};  // the light has been at 0.7 since the last sample
+  for (const double luminance : {0.0, 0.05, 0.5, 3.0}) {
+    const double w = photoreceptor.cutoff_rad_s(luminance);
+    for (const double taus : {1e-6, 0.1, 1.0, 5.0, 40.0}) {
+      const double t_s = taus / w;
+      const Charge after = photoreceptor.at(before, luminance, 0.7, 50 / w, t_s);
+      EXPECT_NEAR(after.y, 0.7 - 1.1 * std::exp(-taus), 1e-10);
+      EXPECT_EQ(after.z, after.y);
+    }
+  }
+}
+
+TEST(Photoreceptor, LagsARampByItsTimeConstant) {
+  const Photoreceptor photoreceptor(slow(3000, 0));
+  const double w = photoreceptor.cutoff_rad_s(0.3), rate = 400, dt_s = 30 / w;
+  const Charge after = photoreceptor.at({0, 0, 0}, 0.3, rate * dt_s, dt_s, dt_s);
+  EXPECT_NEAR(after.y, rate * (dt_s - 1 / w), 1e-8);
+}
+
+TEST(Photoreceptor, OfSecondOrderAnswersAStepAndARampAsTheDifferentialEquations) {
+  RandomStream random(3, 0, "charges");
+  for (const double follower_hz : {30.0, 490.0, 550.0, 554.0, 560.0, 5000.0}) {
+    const Photoreceptor photoreceptor(slow(3000, follower_hz));
+    const double w1 = photoreceptor.cutoff_rad_s(0.3);  // 550 Hz
+    const double w2 = kTwoPi * follower_hz;
+    for (const double dt_s : {20e-6, 300e-6, 3e-3}) {
+      for (const bool step : {true, false}) {
+        const Charge before = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+        const double u1 = step ? before.u : random.uniform(-1, 1);
+        const double t_s = random.uniform(0.1, 1) * dt_s;
+        const Charge after = photoreceptor.at(before, 0.3, u1, dt_s, t_s);
+        const Charge expected = integrated(before, w1, w2, u1, dt_s, t_s);
+        EXPECT_NEAR(after.u, expected.u, 1e-12);
+        EXPECT_NEAR(after.y, expected.y, 5e-9);
+        // Cut-offs that are nearly equal are taken as equal.
+        EXPECT_NEAR(after.z, expected.z, std::abs(w1 / w2 - 1) < 0.02 ? 5e-3 : 1e-7);
+      }
+    }
+  }
+}
+
+// A row of random pixels, with what the kernel makes of it.
+struct Pixels {
+  Pixels(std::size_t size, std::uint64_t seed) {
+    RandomStream random(seed, 0, "pixels");
+    for (std::size_t i = 0; i < size; ++i) {
+      luminance.push_back(static_cast<float>(std::exp(random.uniform(-9, 3))));
+      dt_s.push_back(static_cast<float>(std::exp(random.uniform(-13, -3))));
+      for (std::vector<float>* charge : {&u, &y, &z}) {
+        charge->push_back(static_cast<float>(random.uniform(-7, 2)));
+      }
+      low.push_back(static_cast<float>(random.uniform(-8, 0)));
+      high.push_back(low.back() + static_cast<float>(random.uniform(0, 6)));
+    }
+    for (std::vector<float>* after : {&u1, &y1, &z1}) after->resize(size);
+    may_fire.resize(size);
+  }
+
+  Photoreceptor::Row row(bool own_time) {
+    return {luminance.size(),
+            luminance.data(),
+            own_time ? dt_s.data() : nullptr,
+            1e-3f,
+            u.data(),
+            y.data(),
+            z.data(),
+            u1.data(),
+            y1.data(),
+            z1.data(),
+            low.data(),
+            high.data(),
+            0.01f,
+            0.02f,
+            may_fire.data()};
+  }
+
+  std::vector<float> luminance, dt_s, u, y, z, u1, y1, z1, low, high;
+  std::vector<unsigned char> may_fire;
+};
+
+TEST(Photoreceptor, RowsAgreeWithSinglePixels) {
+  for (const auto& [photoreceptor_hz, follower_hz] :
+       {std::pair{0.0, 0.0}, {3000.0, 0.0}, {3000.0, 1000.0}}) {
+    EventCameraSpec spec = slow(photoreceptor_hz, follower_hz);
+    spec.linear_below = 0.01;
+    const Photoreceptor photoreceptor(spec);
+    for (const bool own_time : {false, true}) {
+      Pixels p(999, 4);
+      photoreceptor.advance(p.row(own_time));
+      for (std::size_t i = 0; i < 999; ++i) {
+        const double u1 = photoreceptor.response().at(p.luminance[i]);
+        const double dt_s = own_time ? p.dt_s[i] : 1e-3f;
+        const Charge after =
+            photoreceptor.at({p.u[i], p.y[i], p.z[i]}, p.luminance[i], u1, dt_s, dt_s);
+        EXPECT_NEAR(p.u1[i], after.u, 2e-6);
+        // Single precision and a short series for the exponential.
+        const double swing = std::abs(p.u[i] - u1) + std::abs(p.u[i] - p.y[i]);
+        if (photoreceptor.order() > 0) {
+          EXPECT_NEAR(p.y1[i], after.y, 5e-4 * swing + 2e-6);
+        }
+        if (photoreceptor.order() > 1) {
+          EXPECT_NEAR(p.z1[i], after.z, 6e-3 * (swing + std::abs(p.u[i] - p.z[i])) + 2e-6);
+        }
+      }
+    }
+  }
+}
+
+TEST(Photoreceptor, RowsFlagEveryPixelWhoseOutputMayLeaveItsBounds) {
+  const Photoreceptor photoreceptor(slow(3000, 1000));
+  Pixels p(2000, 5);
+  photoreceptor.advance(p.row(true));
+  int quiet = 0;
+  for (std::size_t i = 0; i < p.luminance.size(); ++i) {
+    if (p.may_fire[i] != 0) continue;
+    ++quiet;
+    const double u1 = photoreceptor.response().at(p.luminance[i]);
+    for (int part = 0; part <= 20; ++part) {
+      const double t_s = static_cast<double>(p.dt_s[i]) * part / 20;
+      const Charge then =
+          photoreceptor.at({p.u[i], p.y[i], p.z[i]}, p.luminance[i], u1, p.dt_s[i], t_s);
+      EXPECT_GT(then.z + 0.01, p.low[i]);
+      EXPECT_LT(then.z + 0.02, p.high[i]);
+    }
+  }
+  EXPECT_GT(quiet, 20);
+}
+
+TEST(Photoreceptor, RowsAreTheSameBytesAtEveryVectorLevel) {
+  const float inf = std::numeric_limits<float>::infinity();
+  const std::array<float, 10> odd = {0.0f,
+                                     -0.0f,
+                                     -1.0f,
+                                     std::numeric_limits<float>::quiet_NaN(),
+                                     inf,
+                                     -inf,
+                                     std::numeric_limits<float>::max(),
+                                     std::numeric_limits<float>::denorm_min(),
+                                     1e-40f,
+                                     1e-30f};
+  const auto same = [](const std::vector<float>& a, const std::vector<float>& b) {
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      // Which of many NaNs comes out is not said.
+      if (std::isnan(a[i]) && std::isnan(b[i])) continue;
+      if (std::memcmp(&a[i], &b[i], sizeof a[i]) != 0) return false;
+    }
+    return true;
+  };
+  for (const auto& [photoreceptor_hz, follower_hz] :
+       {std::pair{0.0, 0.0}, {3000.0, 0.0}, {3000.0, 900.0}}) {
+    EventCameraSpec spec = slow(photoreceptor_hz, follower_hz);
+    spec.linear_below = 0.01;
+    const Photoreceptor photoreceptor(spec);
+    for (const std::size_t size : {1u, 7u, 16u, 31u, 64u, 333u}) {
+      for (const bool own_time : {false, true}) {
+        Pixels portable(size, 6), wide(size, 6);
+        for (std::size_t i = 0; i < size; i += 3) {
+          portable.luminance[i] = wide.luminance[i] = odd[i / 3 % odd.size()];
+        }
+        photoreceptor.advance(portable.row(own_time), kPortable);
+        for (std::size_t i = 0; i < size; ++i) {
+          if (!(portable.luminance[i] >= 0 && portable.luminance[i] < inf)) {
+            EXPECT_EQ(portable.may_fire[i], 1) << portable.luminance[i];
+          }
+        }
+        for (int level = kAvx2; level <= widest_vector_level(); ++level) {
+          photoreceptor.advance(wide.row(own_time), level);
+          EXPECT_TRUE(same(portable.u1, wide.u1));
+          EXPECT_TRUE(same(portable.y1, wide.y1));
+          EXPECT_TRUE(same(portable.z1, wide.z1));
+          EXPECT_EQ(portable.may_fire, wide.may_fire);
+        }
+      }
+    }
+  }
+}
+
+TEST(Photoreceptor, PiecesFollowTheCurveToWithinTheTolerance) {
+  constexpr double kTolerance = 0.004;
+  RandomStream random(8, 0, "curves");
+  for (const double follower_hz : {0.0, 200.0, 2000.0}) {
+    const Photoreceptor photoreceptor(slow(3000, follower_hz));
+    for (int n = 0; n < 300; ++n) {
+      const double luminance = std::exp(random.uniform(-6, 1));
+      const double dt_s = std::exp(random.uniform(-10, -4));
+      Charge before = {random.uniform(-1, 1), random.uniform(-1, 1), 0};
+      before.z = follower_hz > 0 ? random.uniform(-1, 1) : before.y;
+      const double u1 = random.uniform(-1, 1);
+      const auto z = [&](double t_s) {
+        return photoreceptor.at(before, luminance, u1, dt_s, t_s).z;
+      };
+      const double slope_1s = (u1 - before.u) / dt_s;
+      double start_s = 0, farthest = 0;
+      for (int pieces = 0; start_s < dt_s; ++pieces) {
+        ASSERT_LT(pieces, 100);
+        const Charge then = photoreceptor.at(before, luminance, u1, dt_s, start_s);
+        const double end_s = std::min(
+            start_s + photoreceptor.straight_s(then, luminance, slope_1s, kTolerance), dt_s);
+        for (int k = 1; k < 20; ++k) {
+          const double share = k / 20.0;
+          const double chord = (1 - share) * z(start_s) + share * z(end_s);
+          farthest = std::max(farthest, std::abs(z(start_s + share * (end_s - start_s)) - chord));
+        }
+        start_s = end_s;
+      }
+      EXPECT_LT(farthest, 1.01 * kTolerance) << follower_hz << " " << luminance << " " << dt_s;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,157 @@
+// dodgesim emulate: video to events.
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "sim/base/error.h"
+#include "sim/bench/timed_emulation.h"
+#include "sim/campaign/progress.h"
+#include "sim/config/event_camera_file.h"
+#include "sim/files/event_writer.h"
+#include "sim/files/staged_file.h"
+#include "sim/files/video.h"
+#include "tools/commands/command.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(CAMERA:
+  ideal      an event at every change of L = ln(0.001 + I) by 0.2, ON or OFF, and nothing else:
+             no mismatch, bandwidth, refractory period, noise, latency or limit of the readout
+  sees1      the camera of the scenarios, 320 x 240 px in flight, but it takes any size
+  noisy      a worn or badly biased one
+  low_light  sees1 at 5 lux instead of 500
+  FILE.yaml  keys of a scenario's sensors.events at its root, "preset: ideal" among them
+I is the luminance; between frames L runs linearly. The first frame sets the references.
+
+Scale of I: 1 is a white surface under illuminance_lux (500 by default). ideal does not care
+about it beyond the 0.001; for the others it decides how slow the pixels are and how noisy.
+uint8 values are divided by 255 and taken as linear: undo the gamma of ordinary video before.
+
+EVENTS:
+  .h5   as DSEC and RVT: events/x, y, t, p, height, width; ms_to_idx; t_offset (the first
+        time stamp of T.npy, from which t counts); p 1 or 0; up to 71.6 minutes
+  .npy  records t <i8, x <u2, y <u2, p |i1; p +1 or -1
+  .txt  a line "t x y p" an event, t in whole microseconds, p 1 or 0
+t of .npy and .txt is of the clock of T.npy. The recording ends with the last frame: what latency
+or the readout would stamp later is not in it. The file appears when it is whole.
+
+Frames have up to 4096 rows and columns, and are at most 1073 s apart. Memory holds one of them
+and the events up to the next, however long the video is. The speeds printed are of the
+emulation alone, beside cv::log of the same frames in the same run, on one thread.
+
+Examples:
+  dodgesim emulate video.npy --timestamps t.npy --camera ideal --out events.h5
+  dodgesim explain sensors.events                   the keys of a camera's file)";
+
+struct Arguments {
+  std::string frames;
+  std::string times;
+  std::string camera;
+  std::string out;
+  std::uint64_t seed = 1;
+};
+
+struct Counts {
+  std::int64_t on = 0;
+  std::int64_t off = 0;
+};
+
+// Emulates the whole video. What it returns about time stands in `timed`.
+Counts emulate(Video& video, EventCamera& camera, TimedEmulation& timed, EventWriter& writer) {
+  Counts counts;
+  Progress progress(video.frame_count(), ::isatty(STDERR_FILENO) == 1, "frames");
+  TimeUs t_us = 0;
+  std::vector<float> luminance;
+  video.next(t_us, luminance);
+  camera.reset(t_us, luminance.data());
+  std::vector<Event> events;
+  while (video.next(t_us, luminance)) {
+    events.clear();
+    timed.update(t_us, luminance, events);
+    for (const Event& event : events) ++(event.polarity > 0 ? counts.on : counts.off);
+    writer.add(events);
+    progress.show(timed.frames());
+  }
+  progress.finish();
+  return counts;
+}
+
+void report(const Video& video, const EventCamera& camera, const Counts& counts,
+            const TimedEmulation& timed) {
+  const auto frames = static_cast<double>(timed.frames());
+  std::printf("events: %lld (%lld ON, %lld OFF)\n", static_cast<long long>(counts.on + counts.off),
+              static_cast<long long>(counts.on), static_cast<long long>(counts.off));
+  if (camera.lost() > 0) {
+    std::printf("lost: %lld events, because readout_max_hz was exceeded\n",
+                static_cast<long long>(camera.lost()));
+  }
+  std::printf("video: %lld frames of %d x %d px, %.6f s\n",
+              static_cast<long long>(video.frame_count()), video.width(), video.height(),
+              seconds(video.duration_us()));
+  std::printf("emulation: %.0f frames/s, %.2f Mev/s\n", frames / timed.emulation_s(),
+              1e-6 * static_cast<double>(timed.events()) / timed.emulation_s());
+  std::printf("cv::log: %.0f frames/s\n", frames / timed.log_s());
+  std::printf("emulation takes %.3f of the time of cv::log\n", timed.emulation_s() / timed.log_s());
+}
+
+// Neither the output nor what it is called until it is whole may be an input.
+void refuse_same_file(const std::string& out, const std::string& input) {
+  std::error_code ignored;
+  if (!std::filesystem::equivalent(out, input, ignored) &&
+      !std::filesystem::equivalent(StagedFile::partial_name(out), input, ignored)) {
+    return;
+  }
+  throw ScenarioError("--out " + out + " would overwrite the input " + input + ".");
+}
+
+void emulate(const Arguments& arguments) {
+  const EventCameraSpec spec = named_event_camera(arguments.camera);
+  Video video(arguments.frames, arguments.times);
+  refuse_same_file(arguments.out, arguments.frames);
+  refuse_same_file(arguments.out, arguments.times);
+  const auto writer = make_event_writer(
+      arguments.out, {video.width(), video.height(), video.first_us(), video.duration_us()});
+  EventCamera camera(spec, video.width(), video.height(), arguments.seed, 0, "emulate");
+  TimedEmulation timed(camera, spec.log_epsilon);
+  const Counts counts = emulate(video, camera, timed, *writer);
+  writer->finish();
+  report(video, camera, counts, timed);
+}
+
+}  // namespace
+
+void add_emulate_command(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("emulate", "Turn a video into the events of a camera");
+  command
+      ->add_option("frames", arguments->frames,
+                   "(N, H, W) float32 linear luminance, or uint8 of which 255 is luminance 1")
+      ->required()
+      ->type_name("FRAMES.npy");
+  command->add_option("--timestamps", arguments->times, "(N) int64 microseconds, from any origin")
+      ->required()
+      ->type_name("T.npy");
+  command
+      ->add_option("--camera", arguments->camera,
+                   "ideal, sees1, noisy, low_light or a YAML file; see below")
+      ->required()
+      ->type_name("CAMERA");
+  command->add_option("--out", arguments->out, "Where the events go: .h5 (DSEC), .npy or .txt")
+      ->required()
+      ->type_name("EVENTS");
+  command->add_option("--seed", arguments->seed, "Of mismatch and noise")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->footer(kFooter);
+  command->callback([arguments, &exit_code] {
+    emulate(*arguments);
+    exit_code = kOk;
+  });
+}
+
+}  // namespace dodgesim
