@@ -56,16 +56,12 @@ inline double natural_exp(double x) {
   constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: adding it rounds to an integer
   const double shifted = x * 1.4426950408889634 + kRound;
   const double r = x - (shifted - kRound) * 6.93147180559945309417e-01;
-  double p = 1.0 / 362880;
-  p = p * r + 1.0 / 40320;
-  p = p * r + 1.0 / 5040;
-  p = p * r + 1.0 / 720;
-  p = p * r + 1.0 / 120;
-  p = p * r + 1.0 / 24;
-  p = p * r + 1.0 / 6;
-  p = p * r + 0.5;
-  p = p * r + 1.0;
-  p = p * r + 1.0;
+  // The series up to r^9, summed in pairs so that no term waits for all others.
+  const double r2 = r * r, r4 = r2 * r2;
+  const double low = (1.0 + r) + r2 * (1.0 / 2 + r * (1.0 / 6));
+  const double middle = (1.0 / 24 + r * (1.0 / 120)) + r2 * (1.0 / 720 + r * (1.0 / 5040));
+  const double high = 1.0 / 40320 + r * (1.0 / 362880);
+  const double p = low + r4 * (middle + r4 * high);
   const auto k = std::bit_cast<std::uint64_t>(shifted) << 52;  // its low bits are those of k
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(p) + k);
 }
