@@ -88,7 +88,12 @@ template <int kOrder, bool kOwnTime>
       const float y0 = row.y[i];
       const float x1 = (c.dark_rad_s + c.rad_s * light) * dt_s;
       const Decay<float> first = decay(x1);
-      row.y1[i] = u1 + first.k * (y0 - u0) - first.m * (u1 - u0);
+      const float y1 = u1 + first.k * (y0 - u0) - first.m * (u1 - u0);
+      row.y1[i] = y1;
+      // Where y stays on one side of u it only rises or only falls; where it meets u, it turns.
+      const bool apart = (y0 - u0) * (y1 - u1) > 0;
+      least = apart ? y1 : least;
+      most = apart ? y1 : most;
       least = y0 < least ? y0 : least;
       most = y0 > most ? y0 : most;
       if constexpr (kOrder > 1) {
