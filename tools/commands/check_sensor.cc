@@ -1,10 +1,15 @@
 // dodgesim check-sensor: self-tests of the event camera.
+#include <unistd.h>
+
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "sim/base/error.h"
+#include "sim/campaign/progress.h"
 #include "sim/check/report.h"
+#include "sim/check/sampling_study.h"
 #include "sim/check/self_tests.h"
 #include "sim/config/event_camera_file.h"
 #include "sim/files/output_file.h"
@@ -27,7 +32,23 @@ struct Arguments {
   std::string camera = "sees1";
   std::string out;  // empty: no report
   std::uint64_t seed = 1;
+  int sampling = 0;  // throws of the study; 0: none
+  std::string models_dir;
 };
+
+// The study of the sampling instead of the checks.
+int study(const Arguments& arguments) {
+  const SamplingOptions options{arguments.models_dir, arguments.sampling, arguments.seed,
+                                named_event_camera(arguments.camera)};
+  Progress progress(arguments.sampling, ::isatty(STDERR_FILENO) == 1, "throws");
+  const auto results =
+      study_sampling(options, sampling_variants(), [&](int finished) { progress.show(finished); });
+  progress.finish();
+  std::cout << sampling_table(results) << "\n";
+  const Check check = judge(results);
+  for (const CheckLine& line : check.lines) std::cout << line_text(line) << std::endl;
+  return check.failed() ? kBelowBar : kOk;
+}
 
 std::filesystem::path prepared(const std::string& out) {
   std::error_code error;
@@ -74,9 +95,17 @@ void add_check_sensor_command(CLI::App& program, const std::string& command_line
   command->add_option("--seed", arguments->seed, "Of the camera and of the scenes")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
+  command
+      ->add_option("--sampling", arguments->sampling,
+                   "Instead: what the sampling of the rendered scene costs in accuracy, over this\n"
+                   "many random throws, for several settings; some 10 s a throw")
+      ->check(CLI::Range(1, 10000))
+      ->type_name("THROWS");
+  add_models_option(*command, arguments->models_dir);
   command->footer(kFooter);
   command->callback([arguments, command_line, &exit_code] {
-    exit_code = check_sensor(*arguments, command_line);
+    exit_code =
+        arguments->sampling > 0 ? study(*arguments) : check_sensor(*arguments, command_line);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "sim/campaign/result.h"
 #include "sim/config/scenario.h"
 
 namespace dodgesim {
@@ -26,6 +27,9 @@ void add_check_sensor_command(CLI::App& program, const std::string& command_line
 
 // Adds --models: where rooms, vehicles and objects are.
 void add_models_option(CLI::App& command, std::string& models_dir);
+
+// Two lines about precision and recall, without the last line's end.
+std::string truth_text(const EventTruthSums& sums);
 
 // The text "n throws" with the right plural.
 std::string count_of_throws(int n);
