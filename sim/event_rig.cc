@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 
 #include "sim/base/random.h"
@@ -43,12 +41,6 @@ std::string camera_name(int camera) { return camera == 0 ? "top" : "bottom"; }
 
 }  // namespace
 
-// A sample that waits until it can be shown.
-struct EventRig::Look {
-  Sample sample;
-  Snapshot snapshot;  // of the sample's instant
-};
-
 // One camera.
 struct EventRig::Eye {
   Eye(const World& world, const EventRigSetup& setup, int camera)
@@ -59,14 +51,9 @@ struct EventRig::Eye {
                setup.throw_index, camera_name(camera)),
         packets(setup.packet_us),
         view(setup.intrinsics),
-        before(setup.intrinsics, max_turn_px(setup)),
-        now(setup.intrinsics, max_turn_px(setup)),
+        key(setup.intrinsics, setup.keys),
         luminance(static_cast<std::size_t>(setup.intrinsics.width) *
                   static_cast<std::size_t>(setup.intrinsics.height)) {}
-
-  static int max_turn_px(const EventRigSetup& setup) {
-    return static_cast<int>(std::ceil(setup.sampling.max_turn_px));
-  }
 
   int index;
   Eigen::Isometry3d X_BC;
@@ -74,9 +61,7 @@ struct EventRig::Eye {
   EventCamera pixels;
   Packetizer packets;
   ViewDistance view;
-  TurnedPicture before, now;  // the static scene at the last two keys
-  TimeUs before_us = 0, now_us = 0;
-  std::vector<Look> looks;  // not yet taken
+  KeyPicture key;  // of the static scene
   std::vector<float> luminance;
   EventHash hash;
   std::int64_t count = 0;
@@ -85,20 +70,40 @@ struct EventRig::Eye {
 EventRig::EventRig(const World& world, const EventRigSetup& setup)
     : world_(world),
       setup_(setup),
-      renderer_(world, TurnedPicture(setup.intrinsics, Eye::max_turn_px(setup)).intrinsics(),
-                setup.render),
+      renderer_(world, setup.intrinsics, setup.render),
       flicker_phase_rad_(2 * std::numbers::pi *
                          RandomStream(setup.seed, setup.throw_index, "flicker").uniform()) {
   for (int i = 0; i < setup.cameras; ++i) {
     eyes_.push_back(std::make_unique<Eye>(world, setup, i));
   }
   region_luminance_.resize(eyes_.front()->luminance.size());
-  const Intrinsics& wide = eyes_.front()->now.intrinsics();
-  drawn_luminance_.resize(static_cast<std::size_t>(wide.width) *
-                          static_cast<std::size_t>(wide.height));
+  const Intrinsics& key = eyes_.front()->key.intrinsics();
+  key_luminance_.resize(static_cast<std::size_t>(key.width) * static_cast<std::size_t>(key.height));
+  key_inverse_depth_.resize(key_luminance_.size());
 }
 
 EventRig::~EventRig() = default;
+
+void EventRig::draw_key(Eye& eye, const Eigen::Isometry3d& X_WC) {
+  renderer_.render_static(eye.key.intrinsics(), X_WC, key_luminance_.data(),
+                          key_inverse_depth_.data());
+  eye.key.set(X_WC, key_luminance_, key_inverse_depth_);
+  ++keys_;
+}
+
+// A region of what the camera sees.
+void EventRig::show(Eye& eye, const Snapshot& snapshot, const Rect& region,
+                    std::vector<float>& luminance) {
+  const auto start = WallClock::now();
+  const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
+  if (!eye.key.show(X_WC, region, luminance.data())) {
+    draw_key(eye, X_WC);
+    eye.key.show(X_WC, region, luminance.data());
+  }
+  draw_objects(eye, snapshot, X_WC, region, luminance);
+  flicker(snapshot.t_us, region, luminance);
+  render_s_ += seconds_since(start);
+}
 
 // The light of the instant on a part of the view that was drawn in the mean light.
 void EventRig::flicker(TimeUs t_us, const Rect& region, std::vector<float>& luminance) const {
@@ -111,92 +116,37 @@ void EventRig::flicker(TimeUs t_us, const Rect& region, std::vector<float>& lumi
   }
 }
 
-// A part of the view as it is, objects and all.
-void EventRig::draw_region(const Eye& eye, const Snapshot& snapshot, const Rect& region,
-                           std::vector<float>& luminance) {
-  const int margin = eye.now.margin_px();
-  const Rect part = {region.x0 + margin, region.y0 + margin, region.x1 + margin,
-                     region.y1 + margin};
-  renderer_.render(snapshot, snapshot.vehicle.pose() * eye.X_BC, part, drawn_luminance_.data(),
-                   nullptr);
-  const std::ptrdiff_t stride = eye.now.intrinsics().width;
-  for (std::ptrdiff_t y = region.y0; y < region.y1; ++y) {
-    std::copy_n(drawn_luminance_.begin() + (y + margin) * stride + part.x0, region.x1 - region.x0,
-                luminance.begin() + y * setup_.intrinsics.width + region.x0);
-  }
-}
-
 // Draws the objects over a picture of the static scene.
-void EventRig::draw_objects(Eye& eye, const Snapshot& snapshot) {
+void EventRig::draw_objects(Eye& eye, const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
+                            const Rect& region, std::vector<float>& luminance) {
+  Rect part;
+  double farthest_m = 0;
   for (std::size_t i = 0; i < snapshot.objects.size(); ++i) {
-    const Rect outline = eye.sampler.outline(snapshot, i);
-    if (!outline.empty()) draw_region(eye, snapshot, outline, eye.luminance);
+    const Rect outline = intersection(eye.sampler.outline(snapshot, i), region);
+    if (outline.empty()) continue;
+    part = merged(part, outline);
+    const double distance_m = (snapshot.objects[i].p_W - X_WC.translation()).norm();
+    const double radius_m = world_.object(static_cast<int>(i)).bounding_radius_m;
+    farthest_m = std::max(farthest_m, distance_m + radius_m);
   }
-}
-
-// Draws the static scene of a key.
-void EventRig::draw_key(Eye& eye, const Snapshot& snapshot) {
-  const auto start = WallClock::now();
-  std::swap(eye.before, eye.now);
-  eye.before_us = eye.now_us;
-  eye.now_us = snapshot.t_us;
-  still_ = snapshot;
-  still_.launched.assign(snapshot.launched.size(), false);
-  const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
-  const Intrinsics& wide = eye.now.intrinsics();
-  renderer_.render(still_, X_WC, {0, 0, wide.width, wide.height}, drawn_luminance_.data(), nullptr);
-  eye.now.set(X_WC.linear(), drawn_luminance_);
-  ++drawn_;
-  render_s_ += seconds_since(start);
-}
-
-// The whole picture as it is at the last key, or follows from it alone.
-void EventRig::show_last(Eye& eye, const Snapshot& snapshot) {
-  const auto start = WallClock::now();
-  if (snapshot.t_us == eye.now_us) {
-    eye.now.copy_view(eye.luminance);
-  } else {
-    const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
-    turn(setup_.intrinsics, eye.now, X_WC.linear(), eye.luminance);
-    ++turned_;
-  }
-  draw_objects(eye, snapshot);
-  flicker(snapshot.t_us, whole(), eye.luminance);
-  render_s_ += seconds_since(start);
-}
-
-// The whole picture of an instant between the last two keys.
-void EventRig::show_between(Eye& eye, const Snapshot& snapshot) {
-  const auto start = WallClock::now();
-  const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
-  const double share = static_cast<double>(snapshot.t_us - eye.before_us) /
-                       static_cast<double>(eye.now_us - eye.before_us);
-  blend_turned(setup_.intrinsics, eye.before, eye.now, X_WC.linear(), share, region_luminance_,
-               eye.luminance);
-  draw_objects(eye, snapshot);
-  flicker(snapshot.t_us, whole(), eye.luminance);
-  ++turned_;
-  render_s_ += seconds_since(start);
+  if (part.empty()) return;
+  const bool behind_static = farthest_m > eye.key.nearest_m(part);
+  renderer_.draw_objects(snapshot, X_WC, part, behind_static, luminance.data(), nullptr);
 }
 
 void EventRig::start() {
   const Snapshot& now = world_.snapshot();
   for (auto& eye : eyes_) {
-    draw_key(*eye, now);
-    show_last(*eye, now);
+    show(*eye, now, whole(), eye->luminance);
     eye->pixels.reset(now.t_us, eye->luminance.data());
     eye->sampler.reset(now.t_us);
     eye->packets.reset();
-    eye->looks.clear();
   }
 }
 
 void EventRig::rebase() {
   for (auto& eye : eyes_) {
-    if (!eye->looks.empty()) {
-      throw std::logic_error("Event cameras are rebased at an instant that was required.");
-    }
-    show_last(*eye, world_.snapshot());
+    show(*eye, world_.snapshot(), whole(), eye->luminance);
     eye->pixels.rebase(eye->luminance.data());
   }
 }
@@ -210,51 +160,35 @@ void EventRig::advance(const Snapshot& a, const Snapshot& b, const Sink& sink) {
     samples_.clear();
     eye->sampler.advance(a, b, eye->view.nearest_m(world_, b, eye->X_BC), samples_);
     for (const Sample& sample : samples_) {
-      eye->looks.push_back({sample, interpolate(a, b, sample.t_us)});
-      if (sample.is_key() || sample.due) take_looks(*eye, sink);
+      const Snapshot now = interpolate(a, b, sample.t_us);
+      const Rect region = eye->sampler.region(sample, now);
+      if (sample.object != Sample::kWholeImage) {
+        if (!region.empty()) take_region(*eye, now, region);
+        continue;
+      }
+      take_picture(*eye, now);
+      while (const std::optional<Packet> packet = eye->packets.take()) sink(eye->index, *packet);
     }
   }
 }
 
-// Takes the samples that have waited for the last of them.
-void EventRig::take_looks(Eye& eye, const Sink& sink) {
-  const bool key = eye.looks.back().sample.is_key();
-  if (key) draw_key(eye, eye.looks.back().snapshot);
-  for (const Look& look : eye.looks) {
-    const Rect region = eye.sampler.region(look.sample, look.snapshot);
-    if (look.sample.object != Sample::kWholeImage) {
-      if (!region.empty()) take_region(eye, region, look.snapshot);
-      continue;
-    }
-    if (key && look.sample.turned) {
-      show_between(eye, look.snapshot);
-    } else {
-      show_last(eye, look.snapshot);
-    }
-    take_picture(eye, look.sample.t_us);
-    while (const std::optional<Packet> packet = eye.packets.take()) sink(eye.index, *packet);
-  }
-  eye.looks.clear();
-}
-
-void EventRig::take_region(Eye& eye, const Rect& region, const Snapshot& snapshot) {
-  auto start = WallClock::now();
-  draw_region(eye, snapshot, region, region_luminance_);
-  flicker(snapshot.t_us, region, region_luminance_);
+void EventRig::take_region(Eye& eye, const Snapshot& snapshot, const Rect& region) {
+  show(eye, snapshot, region, region_luminance_);
   ++regions_;
-  render_s_ += seconds_since(start);
-  start = WallClock::now();
+  const auto start = WallClock::now();
   eye.pixels.add_region(snapshot.t_us, region, region_luminance_.data());
   emulate_s_ += seconds_since(start);
 }
 
-void EventRig::take_picture(Eye& eye, TimeUs t_us) {
+void EventRig::take_picture(Eye& eye, const Snapshot& snapshot) {
+  show(eye, snapshot, whole(), eye.luminance);
+  ++pictures_;
   const auto start = WallClock::now();
   events_.clear();
-  eye.pixels.update(t_us, eye.luminance.data(), events_);
+  eye.pixels.update(snapshot.t_us, eye.luminance.data(), events_);
   eye.hash.add(events_);
   eye.count += static_cast<std::int64_t>(events_.size());
-  eye.packets.push(events_, t_us);
+  eye.packets.push(events_, snapshot.t_us);
   emulate_s_ += seconds_since(start);
 }
 

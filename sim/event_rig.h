@@ -1,6 +1,5 @@
-// The vehicle's event cameras: decides when each looks, draws what it sees, turns that into events
-// and packs them for the USB link. What lies between two drawn pictures waits for the second of
-// them, but no longer than until an instant that is required.
+// The vehicle's event cameras: decides when each looks, shows it what there is to see, turns that
+// into events and packs them for the USB link.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +10,8 @@
 #include "sim/events/event_camera.h"
 #include "sim/events/packetizer.h"
 #include "sim/events/sampler.h"
+#include "sim/render/key_picture.h"
 #include "sim/render/luminance_renderer.h"
-#include "sim/render/turned_picture.h"
 #include "sim/world/world.h"
 
 namespace dodgesim {
@@ -20,6 +19,7 @@ namespace dodgesim {
 struct EventRigSetup {
   Intrinsics intrinsics;
   RenderSpec render;
+  KeySpec keys;
   EventCameraSpec events;
   SamplingSpec sampling;
   TimeUs packet_us = 1000;
@@ -51,44 +51,39 @@ class EventRig {
   void advance(const Snapshot& a, const Snapshot& b, const Sink& sink);
 
   std::int64_t event_count(int camera) const;
-  std::uint64_t events_hash() const;                 // of all events of all cameras
-  std::int64_t drawn() const { return drawn_; }      // whole pictures that were drawn
-  std::int64_t turned() const { return turned_; }    // whole pictures that follow from two drawn
-  std::int64_t regions() const { return regions_; }  // pictures drawn of an object's region only
-  double render_s() const { return render_s_; }      // wall clock, for reports only
-  double emulate_s() const { return emulate_s_; }    // wall clock, for reports only
+  std::uint64_t events_hash() const;                   // of all events of all cameras
+  std::int64_t keys() const { return keys_; }          // pictures of the room that were drawn
+  std::int64_t pictures() const { return pictures_; }  // whole pictures that were shown
+  std::int64_t regions() const { return regions_; }    // pictures of an object's region only
+  double render_s() const { return render_s_; }        // wall clock, for reports only
+  double emulate_s() const { return emulate_s_; }      // wall clock, for reports only
 
   // The last whole picture of a camera: width x height, linear luminance.
   const std::vector<float>& luminance(int camera) const;
 
  private:
   struct Eye;
-  struct Look;
 
-  Rect whole() const { return {0, 0, setup_.intrinsics.width, setup_.intrinsics.height}; }
+  void draw_key(Eye& eye, const Eigen::Isometry3d& X_WC);
+  void show(Eye& eye, const Snapshot& snapshot, const Rect& region, std::vector<float>& luminance);
+  void draw_objects(Eye& eye, const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
+                    const Rect& region, std::vector<float>& luminance);
   void flicker(TimeUs t_us, const Rect& region, std::vector<float>& luminance) const;
-  void draw_key(Eye& eye, const Snapshot& snapshot);
-  void draw_region(const Eye& eye, const Snapshot& snapshot, const Rect& region,
-                   std::vector<float>& luminance);
-  void draw_objects(Eye& eye, const Snapshot& snapshot);
-  void show_last(Eye& eye, const Snapshot& snapshot);
-  void show_between(Eye& eye, const Snapshot& snapshot);
-  void take_looks(Eye& eye, const Sink& sink);
-  void take_region(Eye& eye, const Rect& region, const Snapshot& snapshot);
-  void take_picture(Eye& eye, TimeUs t_us);
+  void take_picture(Eye& eye, const Snapshot& snapshot);
+  void take_region(Eye& eye, const Snapshot& snapshot, const Rect& region);
+  Rect whole() const { return {0, 0, setup_.intrinsics.width, setup_.intrinsics.height}; }
 
   const World& world_;
   EventRigSetup setup_;
-  LuminanceRenderer renderer_;  // of the view with its margin
-  double flicker_phase_rad_;
+  LuminanceRenderer renderer_;
   std::vector<std::unique_ptr<Eye>> eyes_;
   std::vector<Sample> samples_;
-  Snapshot still_;                       // the scene without its objects
-  std::vector<float> drawn_luminance_;   // as the renderer draws it, with margin
-  std::vector<float> region_luminance_;  // width x height
+  std::vector<float> key_luminance_, key_inverse_depth_;  // as the renderer draws a key
+  std::vector<float> region_luminance_;                   // width x height
   std::vector<Event> events_;
-  std::int64_t drawn_ = 0;
-  std::int64_t turned_ = 0;
+  double flicker_phase_rad_;
+  std::int64_t keys_ = 0;
+  std::int64_t pictures_ = 0;
   std::int64_t regions_ = 0;
   double render_s_ = 0;
   double emulate_s_ = 0;

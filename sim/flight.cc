@@ -116,6 +116,7 @@ std::unique_ptr<EventRig> Flight::make_rig() const {
   EventRigSetup setup;
   setup.intrinsics = intrinsics(scenario_.sensors.camera);
   setup.render = scenario_.sensors.render;
+  setup.keys = scenario_.sensors.keys;
   setup.events = scenario_.sensors.events;
   setup.sampling = scenario_.sensors.sampling;
   setup.packet_us = scenario_.delays.packet_us;
@@ -284,8 +285,8 @@ FlightTiming Flight::timing() const {
   if (rig_) {
     timing.render_s = rig_->render_s();
     timing.emulate_s = rig_->emulate_s();
-    timing.drawn = rig_->drawn();
-    timing.turned = rig_->turned();
+    timing.keys = rig_->keys();
+    timing.pictures = rig_->pictures();
     timing.regions = rig_->regions();
   }
   return timing;

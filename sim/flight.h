@@ -73,9 +73,9 @@ struct FlightTiming {
   double render_s = 0;
   double emulate_s = 0;
   double pilot_s = 0;
-  std::int64_t drawn = 0;    // whole pictures drawn
-  std::int64_t turned = 0;   // whole pictures turned from drawn ones
-  std::int64_t regions = 0;  // pictures of an object's region only
+  std::int64_t keys = 0;      // pictures of the room that were drawn
+  std::int64_t pictures = 0;  // whole pictures that were shown to the cameras
+  std::int64_t regions = 0;   // pictures of an object's region only
 };
 
 class Flight {

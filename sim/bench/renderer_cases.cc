@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "sim/bench/bench_case.h"
+#include "sim/render/key_picture.h"
 #include "sim/render/luminance_renderer.h"
 #include "sim/world/world.h"
 
@@ -26,30 +27,64 @@ class View {
     BodyState ball;
     ball.p_W = kBall_W;
     world_.launch(0, ball);
-    run({0, 0, intrinsics_.width, intrinsics_.height});
+    const Intrinsics& key = key_.intrinsics();
+    key_luminance_.resize(static_cast<std::size_t>(key.width) *
+                          static_cast<std::size_t>(key.height));
+    key_inverse_depth_.resize(key_luminance_.size());
+    draw_keys();
+    draw_ball(whole());
   }
 
   const Intrinsics& intrinsics() const { return intrinsics_; }
+  Rect whole() const { return {0, 0, intrinsics_.width, intrinsics_.height}; }
 
-  // ms per picture of the region, each from another direction.
-  double run(const Rect& region) {
+  // ms per key: the room is drawn, finer and wider than the view.
+  double draw_keys() {
+    return run([this](const Eigen::Isometry3d& X_WC) { draw_key(X_WC); });
+  }
+
+  // ms per region of a picture that is shown from a key.
+  double show(const Rect& region) {
+    draw_key(camera(0));
+    return run([&](const Eigen::Isometry3d& X_WC) { key_.show(X_WC, region, luminance_.data()); });
+  }
+
+  // ms per region with a ball that is drawn over it.
+  double draw_ball(const Rect& region) {
+    return run([&](const Eigen::Isometry3d& X_WC) {
+      renderer_.draw_objects(world_.snapshot(), X_WC, region, false, luminance_.data(), nullptr);
+    });
+  }
+
+ private:
+  // Each picture from another direction.
+  template <class Task>
+  double run(const Task& task) {
     const auto start = std::chrono::steady_clock::now();
     for (int i = 0; i < kPictures; ++i) {
-      const double yaw_rad = kSwingRad * (2.0 * i / (kPictures - 1) - 1);
-      const Eigen::Isometry3d X_WC = world_.snapshot().vehicle.pose() *
-                                     Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
-                                     world_.vehicle().X_BC.front();
-      renderer_.render(world_.snapshot(), X_WC, region, luminance_.data(), nullptr);
+      task(camera(kSwingRad * (2.0 * i / (kPictures - 1) - 1)));
     }
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     return 1e3 * passed.count() / kPictures;
   }
 
- private:
+  Eigen::Isometry3d camera(double yaw_rad) const {
+    return world_.snapshot().vehicle.pose() * Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) *
+           world_.vehicle().X_BC.front();
+  }
+
+  void draw_key(const Eigen::Isometry3d& X_WC) {
+    renderer_.render_static(key_.intrinsics(), X_WC, key_luminance_.data(),
+                            key_inverse_depth_.data());
+    key_.set(X_WC, key_luminance_, key_inverse_depth_);
+  }
+
   Intrinsics intrinsics_;
   World world_;
   LuminanceRenderer renderer_;
+  KeyPicture key_{intrinsics_, KeySpec{}};
   std::vector<float> luminance_;
+  std::vector<float> key_luminance_, key_inverse_depth_;
 };
 
 }  // namespace
@@ -57,7 +92,9 @@ class View {
 std::vector<BenchCase> renderer_cases() {
   const std::vector<int> sides = {16, 40, 80, 160};
   BenchCase bench;
-  bench.quantities = {{"renderer.whole", "ms", "a picture of the furnished room, 320 x 240 px"}};
+  bench.quantities = {
+      {"renderer.key", "ms", "the furnished room is drawn with its margin, 4 samples a pixel"},
+      {"renderer.whole", "ms", "a picture of 320 x 240 px is shown from a key"}};
   for (const int side : sides) {
     const std::string size = std::to_string(side);
     bench.quantities.push_back(
@@ -68,11 +105,12 @@ std::vector<BenchCase> renderer_cases() {
     return [view, sides] {
       const int width = view->intrinsics().width;
       const int height = view->intrinsics().height;
-      std::vector<double> values = {view->run({0, 0, width, height})};
+      std::vector<double> values = {view->draw_keys(), view->show(view->whole())};
       for (const int side : sides) {
         const int x0 = (width - side) / 2;
         const int y0 = (height - side) / 2;
-        values.push_back(view->run({x0, y0, x0 + side, y0 + side}));
+        const Rect region = {x0, y0, x0 + side, y0 + side};
+        values.push_back(view->show(region) + view->draw_ball(region));
       }
       return values;
     };

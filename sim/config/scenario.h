@@ -18,6 +18,7 @@
 #include "sim/control/velocity_controller.h"
 #include "sim/events/spec.h"
 #include "sim/motors/motors.h"
+#include "sim/render/key_picture.h"
 #include "sim/render/luminance_renderer.h"
 #include "sim/sensors/imu.h"
 #include "sim/sensors/range_sensor.h"
@@ -44,6 +45,7 @@ struct SensorsSpec {
   EventCameraSpec events;
   SamplingSpec sampling;
   RenderSpec render;
+  KeySpec keys;
   ImuSpec imu;
   StateEstimateSpec state_estimate;
   RangeSpec range;
@@ -54,6 +56,7 @@ struct SensorsSpec {
     v("events", events, "The event cameras' pixels.");
     v("sampling", sampling, "How often the luminance is drawn from which events are made.");
     v("render", render, "How the luminance is drawn.");
+    v("keys", keys, "When the room is drawn anew, and how finely.");
     v("imu", imu, "Gyroscope and accelerometer.");
     v("state_estimate", state_estimate, "Pose and velocity as the vehicle's estimator gives them.");
     v("range", range, "The range sensor that looks down.");

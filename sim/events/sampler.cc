@@ -39,8 +39,7 @@ Sampler::Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics,
       max_interval_us_(static_cast<TimeUs>(1e6 / spec.min_rate_hz)),
       parts_(1 + object_radius_m_.size()),
       last_seen_(object_radius_m_.size()) {
-  if (!(spec.max_displacement_px > 0) || !(spec.max_parallax_px > 0) || max_interval_us_ < 1 ||
-      spec.min_interval_us < 1) {
+  if (!(spec.max_displacement_px > 0) || max_interval_us_ < 1 || spec.min_interval_us < 1) {
     throw std::invalid_argument("The sampling of an event camera needs positive limits.");
   }
   const double f = intrinsics.f;
@@ -75,10 +74,8 @@ void Sampler::require(TimeUs t_us) {
 }
 
 void Sampler::set_speeds(const Snapshot& a, const Snapshot& b, double nearest_static_m) {
-  const StaticSpeed at_a = static_speed(a, nearest_static_m);
-  const StaticSpeed at_b = static_speed(b, nearest_static_m);
-  parts_[0].speed_pxps = turn_.speed_pxps = std::max(at_a.total, at_b.total);
-  parallax_.speed_pxps = std::max(at_a.parallax, at_b.parallax);
+  parts_[0].speed_pxps =
+      std::max(static_speed(a, nearest_static_m), static_speed(b, nearest_static_m));
   for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
     parts_[1 + i].speed_pxps = std::max(object_speed(a, i), object_speed(b, i));
   }
@@ -92,7 +89,6 @@ void Sampler::advance(const Snapshot& a, const Snapshot& b, double nearest_stati
     const Sample sample = next_sample(now_us);
     const double dt_s = seconds(std::min(sample.t_us, b.t_us) - now_us);
     for (Part& part : parts_) part.moved_px += part.speed_pxps * dt_s;
-    for (Part* part : {&turn_, &parallax_}) part->moved_px += part->speed_pxps * dt_s;
     if (sample.t_us > b.t_us) return;
     samples.push_back(sample);
     now_us = sample.t_us;
@@ -110,13 +106,6 @@ void Sampler::sampled(const Sample& sample) {
     return;
   }
   for (Part& part : parts_) restart(part);
-  if (!sample.turned) {
-    restart(turn_);
-    restart(parallax_);
-  } else if (!sample.due) {
-    return;
-  }
-  last_due_us_ = sample.t_us;
   const auto later = std::upper_bound(required_us_.begin(), required_us_.end(), sample.t_us);
   required_us_.erase(required_us_.begin(), later);
 }
@@ -139,39 +128,16 @@ TimeUs Sampler::time_of_motion(const Part& part, TimeUs now_us) const {
   return std::max(t_us, part.last_us + spec_.min_interval_us);
 }
 
-// The instant at which the static scene's motion asks for its next key, if the speeds last.
-TimeUs Sampler::time_of_key(TimeUs now_us) const {
-  const TimeUs t_us = std::min(time_of_displacement(turn_, spec_.max_turn_px, now_us),
-                               time_of_displacement(parallax_, spec_.max_parallax_px, now_us));
-  return std::max(t_us, turn_.last_us + spec_.min_interval_us);
-}
-
 // The instant at which what was seen must be known.
 TimeUs Sampler::time_due() const {
-  const TimeUs longest_us = last_due_us_ + max_interval_us_;
+  const TimeUs longest_us = parts_[0].last_us + max_interval_us_;
   return required_us_.empty() ? longest_us : std::min(longest_us, required_us_.front());
-}
-
-// Whether a sample that is due at t_us must be drawn.
-bool Sampler::needs_key(TimeUs t_us, TimeUs now_us) const {
-  const double left_s = seconds(t_us - now_us);
-  return turn_.moved_px + turn_.speed_pxps * left_s > spec_.max_turn_px ||
-         parallax_.moved_px + parallax_.speed_pxps * left_s > spec_.max_drift_px;
 }
 
 // The sample after now_us that is due first if the speeds last.
 Sample Sampler::next_sample(TimeUs now_us) const {
   const auto later = [now_us](TimeUs t_us) { return std::max(t_us, now_us + 1); };
-  Sample next{later(time_of_key(now_us))};
-  const TimeUs due_us = later(time_due());
-  if (due_us <= next.t_us) {
-    next = {due_us, Sample::kWholeImage, !needs_key(due_us, now_us), true};
-  }
-  const TimeUs between_us = later(time_of_motion(parts_[0], now_us));
-  if (between_us < next.t_us) {
-    const bool turned = between_us - parts_[0].last_us <= spec_.turn_interval_us;
-    next = {between_us, Sample::kWholeImage, turned};
-  }
+  Sample next{later(std::min(time_of_motion(parts_[0], now_us), time_due()))};
   for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
     const TimeUs t_us = later(time_of_motion(parts_[1 + i], now_us));
     if (t_us < next.t_us) next = {t_us, static_cast<int>(i)};
@@ -215,13 +181,12 @@ Sampler::CameraMotion Sampler::camera_motion(const Snapshot& snapshot) const {
   return camera;
 }
 
-Sampler::StaticSpeed Sampler::static_speed(const Snapshot& snapshot,
-                                           double nearest_static_m) const {
+double Sampler::static_speed(const Snapshot& snapshot, double nearest_static_m) const {
   const CameraMotion camera = camera_motion(snapshot);
   const Eigen::Vector3d& w = camera.w_C;
   const Eigen::Vector3d& v = camera.v_C;
   const double distance = std::max(nearest_static_m, kNearestM);
-  StaticSpeed fastest;
+  double fastest = 0;
   for (const Eigen::Vector2d& p : view_grid_) {
     const double x = p.x();
     const double y = p.y();
@@ -232,10 +197,9 @@ Sampler::StaticSpeed Sampler::static_speed(const Snapshot& snapshot,
     const Eigen::Vector2d shift(-v.x() + x * v.z(), -v.y() + y * v.z());
     // The speed is a convex function of the inverse depth: its maximum is at one of the ends.
     const Eigen::Vector2d parallax = inverse_depth * shift;
-    fastest.total = std::max({fastest.total, turn.norm(), (turn + parallax).norm()});
-    fastest.parallax = std::max(fastest.parallax, parallax.norm());
+    fastest = std::max({fastest, turn.norm(), (turn + parallax).norm()});
   }
-  return {intrinsics_.f * fastest.total, intrinsics_.f * fastest.parallax};
+  return intrinsics_.f * fastest;
 }
 
 double Sampler::object_speed(const Snapshot& snapshot, std::size_t object) const {

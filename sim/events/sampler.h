@@ -7,19 +7,12 @@
 // happens within fast_interval_us): of the whole image for the static scene, of the region about
 // the object for an object. Each camera has its own sampler.
 //
-// Of the whole image most samples need not be drawn: where the static scene moves because the
-// camera turns, a picture of it follows from the pictures before and after (turned_picture.h). So a
-// sample of the whole image is a key, which is drawn, or turned. Between two keys the static scene
-// moves no farther than SamplingSpec::max_turn_px, of which max_parallax_px are due to the camera's
-// translation. What is due cannot wait for the next key: it is a key itself, or turned from the
-// last key alone where translation has moved nothing by more than max_drift_px since.
-//
 // A region reaches so far beyond the object that it holds the pixels that the object enters or
 // leaves until its next sample. Each pixel's curve then bends where the object's edge comes and
 // goes, and runs straight while it shows the static scene.
 //
-// What a loop must do with events that are known late: an event is known once a key or a sample
-// that is due has been taken at or after its stamp, and a packet that ends at T is complete then
+// What a loop must do with events that are known late: an event is known once the whole image has
+// been sampled at or after its stamp, and a packet that ends at T is complete then
 // (see packetizer.h). So that no packet is late, the loop asks by require(T) for a sample at the
 // end T of the last packet that the pilot's next cycle will read; between the cycles only the
 // motion asks for samples. A loop that does not is late by at most the longest interval,
@@ -41,11 +34,8 @@ namespace dodgesim {
 struct Sample {
   TimeUs t_us = 0;
   int object = kWholeImage;  // the index of the object whose region is wanted
-  bool turned = false;       // of the whole image: not drawn but turned from the keys around it
-  bool due = false;          // of the whole image: no later sample can be waited for
 
   static constexpr int kWholeImage = -1;
-  bool is_key() const { return object == kWholeImage && !turned; }
 
   bool operator==(const Sample&) const = default;
 };
@@ -81,11 +71,7 @@ class Sampler {
   Rect region(const Sample& sample, const Snapshot& snapshot);
 
   // Bounds on the speed in the image at one instant [px/s].
-  struct StaticSpeed {
-    double total = 0;
-    double parallax = 0;  // due to the camera's translation alone
-  };
-  StaticSpeed static_speed(const Snapshot& snapshot, double nearest_static_m) const;
+  double static_speed(const Snapshot& snapshot, double nearest_static_m) const;
   double object_speed(const Snapshot& snapshot, std::size_t object) const;  // 0: out of view
 
  private:
@@ -104,9 +90,7 @@ class Sampler {
   };
   TimeUs time_of_displacement(const Part& part, double limit_px, TimeUs now_us) const;
   TimeUs time_of_motion(const Part& part, TimeUs now_us) const;
-  TimeUs time_of_key(TimeUs now_us) const;
   TimeUs time_due() const;
-  bool needs_key(TimeUs t_us, TimeUs now_us) const;
   void set_speeds(const Snapshot& a, const Snapshot& b, double nearest_static_m);
   Sample next_sample(TimeUs now_us) const;
   void sampled(const Sample& sample);
@@ -122,11 +106,9 @@ class Sampler {
   double max_secant_;                         // 1/cos of the angle of the corners of the view
   TimeUs max_interval_us_;
 
-  std::vector<TimeUs> required_us_;  // later than the last sample that was due, in order
-  TimeUs last_due_us_ = 0;           // a key counts
+  std::vector<TimeUs> required_us_;  // later than the last sample of the whole image, in order
 
   std::vector<Part> parts_;          // the static scene, then each object
-  Part turn_, parallax_;             // the static scene since the last key
   std::vector<ImageBox> last_seen_;  // each object at its last region()
 };
 

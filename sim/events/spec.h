@@ -109,10 +109,6 @@ struct SamplingSpec {
   double max_displacement_px = 0.5;
   double fast_displacement_px = 1.0;
   std::int64_t fast_interval_us = 500;
-  double max_turn_px = 16;
-  double max_parallax_px = 1;
-  double max_drift_px = 0;
-  std::int64_t turn_interval_us = 1000;
   double min_rate_hz = 200;
   std::int64_t min_interval_us = 250;
 
@@ -126,20 +122,6 @@ struct SamplingSpec {
       "apart: time stamps are then precise anyway, and counts lose little.");
     v("fast_interval_us", fast_interval_us, 1, 1000000,
       "Interval below which fast_displacement_px counts; 0.5 ms keep time stamps within 0.1 ms.");
-    v("max_turn_px", max_turn_px, 0.01, 64,
-      "Farthest motion in the image between two pictures that are drawn; what lies between them is "
-      "turned from both.");
-    v("max_parallax_px", max_parallax_px, 0.01, 100,
-      "Farthest motion in the image between two drawn pictures due to the camera's translation, "
-      "which is taken to run linearly in time.");
-    v("turn_interval_us", turn_interval_us, 0, 1000000,
-      "Samples farther apart than this are drawn, unless max_drift_px lets them be turned. Turned "
-      "pictures place edges to 0.05 px, which in "
-      "a fast turn is less than 0.1 ms.");
-    v("max_drift_px", max_drift_px, 0, 100,
-      "Motion due to the camera's translation up to which a picture that is needed at once is "
-      "turned from the last drawn one instead of drawn. 0.1 makes a hovering vehicle 3 times as "
-      "fast to simulate and puts the events of its slow drift off by milliseconds.");
     v("min_rate_hz", min_rate_hz, 1, 4000,
       "Rate of the samples of the whole image when nothing moves; its inverse bounds how late an "
       "event is known.");

@@ -11,6 +11,8 @@ struct Intrinsics {
   int height = 240;   // [px]
   double f = 190.68;  // focal length [px]; square pixels, principal point at the image centre
 
+  bool operator==(const Intrinsics&) const = default;
+
   double cx() const { return 0.5 * (width - 1); }
   double cy() const { return 0.5 * (height - 1); }
 
@@ -27,5 +29,11 @@ struct Rect {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
+
+// The pixels of both; may be empty.
+Rect intersection(const Rect& a, const Rect& b);
+
+// The smallest rectangle that holds both; an empty one counts for nothing.
+Rect merged(const Rect& a, const Rect& b);
 
 }  // namespace dodgesim

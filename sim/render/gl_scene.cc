@@ -59,14 +59,11 @@ void set_lights(GLuint program, const SceneGeometry& scene) {
   }
 }
 
-void set_camera(GLuint program, const Intrinsics& intrinsics) {
-  set_floats(program, "u_camera", {intrinsics.f, intrinsics.cx(), intrinsics.cy()});
-}
-
 GlProgram locate(GLuint name) {
   const auto at = [name](const char* uniform) { return glGetUniformLocation(name, uniform); };
   GlProgram p;
   p.name = name;
+  p.camera = at("u_camera");
   p.clip_from_G = at("u_clip_from_G");
   p.X_WG = at("u_X_WG");
   p.texture_shift = at("u_texture_shift");
@@ -116,8 +113,6 @@ const void* buffer_offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
 }
 
-}  // namespace
-
 unsigned upload_texture(const LuminanceTexture& texture, bool trilinear) {
   GLuint name = 0;
   glGenTextures(1, &name);
@@ -146,6 +141,30 @@ unsigned upload_texture(const LuminanceTexture& texture, bool trilinear) {
   }
   glGenerateMipmap(target);
   return name;
+}
+
+}  // namespace
+
+SceneTextures::SceneTextures(const std::vector<LuminanceTexture>& textures, bool trilinear) {
+  for (const LuminanceTexture& texture : textures) {
+    textures_.push_back(
+        {upload_texture(texture, trilinear), texture.cube ? TextureKind::kCube : TextureKind::k2d});
+  }
+}
+
+TextureKind SceneTextures::kind_of(int texture) const {
+  return texture < 0 ? TextureKind::kNone : textures_[static_cast<std::size_t>(texture)].kind;
+}
+
+void SceneTextures::bind(int texture) const {
+  if (texture < 0) return;
+  const Texture& bound = textures_[static_cast<std::size_t>(texture)];
+  glBindTexture(bound.kind == TextureKind::kCube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D, bound.name);
+}
+
+void set_camera(const GlProgram& program, const Intrinsics& intrinsics) {
+  glUniform3f(program.camera, static_cast<float>(intrinsics.f), static_cast<float>(intrinsics.cx()),
+              static_cast<float>(intrinsics.cy()));
 }
 
 VertexBuffer upload_vertices(const std::vector<Vertex>& vertices) {
@@ -181,22 +200,19 @@ GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene)
 }
 
 GlProgram make_primitive_program(mjtGeom type, TextureKind texture, bool hard,
-                                 const SceneGeometry& scene, const Intrinsics& intrinsics,
-                                 const DepthRange& depth) {
+                                 const SceneGeometry& scene, const DepthRange& depth) {
   const GLuint name =
       link_program(primitive_vertex_shader(),
                    primitive_fragment_shader(type, texture, count_lights(scene), hard));
   glUseProgram(name);
   set_lights(name, scene);
-  set_camera(name, intrinsics);
   set_floats(name, "u_depth", {depth.offset(), depth.slope()});
   return locate(name);
 }
 
-GlProgram make_sky_program(TextureKind texture, const Intrinsics& intrinsics, double luminance) {
+GlProgram make_sky_program(TextureKind texture, double luminance) {
   const GLuint name = link_program(sky_vertex_shader(), sky_fragment_shader(texture));
   glUseProgram(name);
-  set_camera(name, intrinsics);
   set_floats(name, "u_sky_luminance", {luminance});
   return locate(name);
 }
@@ -227,7 +243,7 @@ VertexBuffer make_edge_buffer(std::size_t capacity) {
 GlProgram make_edge_program(const Intrinsics& intrinsics, const DepthRange& depth) {
   const GLuint name = link_program(edge_vertex_shader(), edge_fragment_shader());
   glUseProgram(name);
-  set_camera(name, intrinsics);
+  set_floats(name, "u_camera", {intrinsics.f, intrinsics.cx(), intrinsics.cy()});
   set_floats(name, "u_image",
              {static_cast<double>(intrinsics.width), static_cast<double>(intrinsics.height)});
   set_floats(name, "u_near", {depth.near_m});
@@ -239,13 +255,13 @@ GlProgram make_edge_program(const Intrinsics& intrinsics, const DepthRange& dept
 
 GlTarget make_target(int width, int height) {
   GlTarget target;
-  const GLuint luminance = make_image(GL_R32F, GL_RED, GL_FLOAT, width, height);
+  target.luminance = make_image(GL_R32F, GL_RED, GL_FLOAT, width, height);
   const GLuint ids = make_image(GL_R32I, GL_RED_INTEGER, GL_INT, width, height);
   target.luminance_copy = make_image(GL_R32F, GL_RED, GL_FLOAT, width, height);
   target.depth = make_image(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width, height);
-  target.without_ids = make_framebuffer(luminance, target.depth, 0);
-  target.with_ids = make_framebuffer(luminance, target.depth, ids);
-  target.without_depth = make_framebuffer(luminance, 0, 0);
+  target.without_ids = make_framebuffer(target.luminance, target.depth, 0);
+  target.with_ids = make_framebuffer(target.luminance, target.depth, ids);
+  target.without_depth = make_framebuffer(target.luminance, 0, 0);
   return target;
 }
 

@@ -20,6 +20,7 @@ struct DepthRange {
 
 struct GlProgram {
   unsigned name = 0;
+  int camera;                                // f, cx, cy [px]: primitives and sky
   int clip_from_G, X_WG, texture_shift, id;  // triangles (and primitives)
   int rectangle, R_GC, eye_G, size, texture_scale, texture_offset, albedo_emission, margin;
   int conic, conic_origin;  // ellipsoids
@@ -28,7 +29,23 @@ struct GlProgram {
 };
 
 // Uploads. All are GL names.
-unsigned upload_texture(const LuminanceTexture& texture, bool trilinear);
+// The textures of a scene.
+class SceneTextures {
+ public:
+  SceneTextures(const std::vector<LuminanceTexture>& textures, bool trilinear);
+
+  // By index; -1 is none.
+  TextureKind kind_of(int texture) const;
+  void bind(int texture) const;
+
+ private:
+  struct Texture {
+    unsigned name;
+    TextureKind kind;
+  };
+  std::vector<Texture> textures_;
+};
+
 struct VertexBuffer {
   unsigned array = 0, buffer = 0;
   int count = 0;
@@ -45,22 +62,22 @@ static_assert(sizeof(EdgeInstance) == 8 * sizeof(float));
 // Room for `capacity` instances.
 VertexBuffer make_edge_buffer(std::size_t capacity);
 
-// Links a program and sets the uniforms that never change: lights, camera, depth range.
+// Links a program and sets the uniforms that never change: lights, depth range.
 GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene);
 GlProgram make_primitive_program(mjtGeom type, TextureKind texture, bool hard,
-                                 const SceneGeometry& scene, const Intrinsics& intrinsics,
-                                 const DepthRange& depth);
-GlProgram make_sky_program(TextureKind texture, const Intrinsics& intrinsics, double luminance);
+                                 const SceneGeometry& scene, const DepthRange& depth);
+GlProgram make_sky_program(TextureKind texture, double luminance);
 
+void set_camera(const GlProgram& program, const Intrinsics& intrinsics);
 GlProgram make_edge_program(const Intrinsics& intrinsics, const DepthRange& depth);
 
 // Off-screen image: luminance (R32F), ids (R32I), depth. Binding one of the two framebuffers
 // chooses whether ids are written.
 struct GlTarget {
   unsigned without_ids = 0, with_ids = 0;
-  unsigned without_depth = 0;   // framebuffer for passes that read the depth
-  unsigned depth = 0;           // texture
-  unsigned luminance_copy = 0;  // texture of the same size
+  unsigned without_depth = 0;         // framebuffer for passes that read the depth
+  unsigned luminance = 0, depth = 0;  // textures
+  unsigned luminance_copy = 0;        // texture of the same size
 };
 GlTarget make_target(int width, int height);
 

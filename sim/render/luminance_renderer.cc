@@ -4,72 +4,55 @@
 #include <GL/glext.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "sim/render/edge_smoother.h"
 #include "sim/render/gl_scene.h"
 #include "sim/render/osmesa_context.h"
-#include "sim/render/primitive_view.h"
+#include "sim/render/primitive_painter.h"
 #include "sim/render/scene_geometry.h"
+#include "sim/render/triangle_painter.h"
 
 namespace dodgesim {
 
 namespace {
 
-constexpr std::size_t kTextureKinds = 3;
-constexpr mjtGeom kPrimitiveTypes[] = {mjGEOM_ELLIPSOID, mjGEOM_CAPSULE, mjGEOM_CYLINDER,
-                                       mjGEOM_BOX};
-
-std::size_t type_index(mjtGeom type) {
-  return static_cast<std::size_t>(
-      std::find(std::begin(kPrimitiveTypes), std::end(kPrimitiveTypes), type) -
-      std::begin(kPrimitiveTypes));
-}
-
-template <class Matrix>
-void set_matrix(int location, const Matrix& matrix) {
-  const Eigen::Matrix<float, Matrix::RowsAtCompileTime, Matrix::ColsAtCompileTime> m =
-      matrix.template cast<float>();
-  if constexpr (Matrix::RowsAtCompileTime == 4) {
-    glUniformMatrix4fv(location, 1, GL_FALSE, m.data());
-  } else {
-    glUniformMatrix3fv(location, 1, GL_FALSE, m.data());
-  }
-}
-
-void set_vector(int location, const Eigen::Vector3d& v) {
-  glUniform3f(location, static_cast<float>(v.x()), static_cast<float>(v.y()),
-              static_cast<float>(v.z()));
-}
-
-// Quads that stand for an unbounded plane around the camera's foot: small ones nearby, where float
-// positions must be exact, and large ones out to the horizon.
-std::vector<Vertex> tessellate_unbounded(const Surface& surface, double far_m) {
-  constexpr double kInnerM = 30.0;
-  const std::array<double, 4> grid = {-far_m, -kInnerM, kInnerM, far_m};
-  std::vector<Vertex> vertices;
-  const auto corner = [&](std::size_t i, std::size_t j) {
-    const Eigen::Vector3d p(grid[i], grid[j], 0.0);
-    vertices.push_back({p.cast<float>(), Eigen::Vector3f::UnitZ(),
-                        p.cwiseProduct(surface.texture_scale).cast<float>(),
-                        static_cast<float>(surface.albedo),
-                        static_cast<float>(surface.albedo * surface.emission)});
-  };
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      corner(i, j), corner(i + 1, j), corner(i + 1, j + 1);
-      corner(i, j), corner(i + 1, j + 1), corner(i, j + 1);
-    }
-  }
-  return vertices;
-}
+// Smoothed edges need the pixels around them.
+constexpr int kSmoothingPx = 2;
 
 std::vector<int> object_bodies(const World& world) {
   std::vector<int> bodies;
   bodies.reserve(static_cast<std::size_t>(world.object_count()));
   for (int i = 0; i < world.object_count(); ++i) bodies.push_back(world.object_body(i));
   return bodies;
+}
+
+Rect clipped(const Rect& region, const Intrinsics& image) {
+  return {std::max(region.x0, 0), std::max(region.y0, 0), std::min(region.x1, image.width),
+          std::min(region.y1, image.height)};
+}
+
+Rect widened(const Rect& region, int by_px, const Intrinsics& image) {
+  return clipped({region.x0 - by_px, region.y0 - by_px, region.x1 + by_px, region.y1 + by_px},
+                 image);
+}
+
+std::ptrdiff_t offset_of(const Rect& region, const Intrinsics& image) {
+  return std::ptrdiff_t{region.y0} * image.width + region.x0;
+}
+
+void set_scissor(const Rect& region) {
+  glScissor(region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0);
+}
+
+void set_state() {
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+  glEnable(GL_SCISSOR_TEST);
+  glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }
 
 }  // namespace
@@ -80,295 +63,151 @@ class LuminanceRenderer::Impl {
        const RenderSpec& spec);
   void render(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
               float* luminance, std::int32_t* object_id);
+  void render_static(const Intrinsics& intrinsics, const Eigen::Isometry3d& X_WC, float* luminance,
+                     float* inverse_depth);
+  void draw_objects(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
+                    bool behind_static, float* luminance, std::int32_t* object_id);
   const OsmesaContext& context() const { return context_; }
 
  private:
-  void make_programs();
-  Rect clipped(const Rect& region) const;
-  void draw_static(const Eigen::Isometry3d& X_WC, const Rect& region);
-  void read(const Rect& region, float* luminance, std::int32_t* object_id);
-  TextureKind kind_of(int texture) const;
-  void bind_texture(int texture) const;
-  Eigen::Matrix4d clip_from_camera() const;
-  void draw_triangles(const VertexBuffer& buffer, int texture, const Eigen::Isometry3d& X_WG,
-                      const Eigen::Vector3d& texture_shift, int id);
-  void draw_unbounded(const Eigen::Vector3d& eye_W);
-  void draw_sky(const Eigen::Isometry3d& X_WC);
-  void draw_primitives(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region);
-  void set_outline(const GlProgram& program, const Primitive& primitive,
-                   const PrimitiveView& view) const;
-  void draw_primitive(std::size_t index);
+  // Images of one size, with what depends on the camera's intrinsics.
+  struct Canvas {
+    Intrinsics intrinsics;
+    GlTarget target;
+    std::optional<EdgeSmoother> edges;
+  };
+  Canvas& canvas(const Intrinsics& intrinsics);
+  void bind(const Canvas& canvas, bool with_ids);
+  void draw_static_triangles(Canvas& canvas, const Shot& shot, bool with_ids);
+  void put(const Canvas& canvas, const Rect& region, const float* luminance);
+  void read(const Canvas& canvas, const Rect& region, float* luminance, std::int32_t* object_id);
 
   Intrinsics intrinsics_;
   DepthRange depth_;
-  double sky_luminance_;
   OsmesaContext context_;
   SceneGeometry scene_;
-  GlTarget target_;
-  std::vector<unsigned> textures_;
-  std::vector<VertexBuffer> static_buffers_, moving_buffers_, unbounded_buffers_;
-  unsigned no_vertices_ = 0;
-  std::array<GlProgram, kTextureKinds> triangle_programs_;
-  std::array<std::array<GlProgram, kTextureKinds>, std::size(kPrimitiveTypes)> primitive_programs_;
-  std::array<GlProgram, std::size(kPrimitiveTypes)> hard_programs_;
-  GlProgram sky_program_;
-  std::optional<EdgeSmoother> edge_smoother_;
-
-  // Of the frame being drawn.
-  Eigen::Matrix4d clip_from_W_;
-  std::vector<PrimitiveView> views_;
-  std::vector<Eigen::Isometry3d> primitive_poses_;  // X_WG
-  std::vector<std::size_t> order_;                  // primitives to draw, back to front
+  SceneTextures textures_;
+  TrianglePainter triangles_;
+  PrimitivePainter primitives_;
+  std::vector<std::unique_ptr<Canvas>> canvases_;
 };
 
 LuminanceRenderer::Impl::Impl(const mjModel& model, const std::vector<int>& object_bodies,
                               const Intrinsics& intrinsics, const RenderSpec& spec)
     : intrinsics_(intrinsics),
       depth_{spec.near_m, 2.0 * spec.far_m},  // the corners of unbounded planes stay visible
-      sky_luminance_(spec.sky_luminance),
       context_(GlProfile::kCore33, 1, 1),
-      scene_(collect_scene(model, object_bodies, spec.texel_encoding == "srgb")) {
-  target_ = make_target(intrinsics.width, intrinsics.height);
-  for (const LuminanceTexture& texture : scene_.textures) {
-    textures_.push_back(upload_texture(texture, spec.texture_filter == "trilinear"));
+      scene_(collect_scene(model, object_bodies, spec.texel_encoding == "srgb")),
+      textures_(scene_.textures, spec.texture_filter == "trilinear"),
+      triangles_(scene_, textures_, depth_, spec.far_m, spec.sky_luminance),
+      primitives_(scene_, textures_, depth_) {
+  set_state();
+}
+
+LuminanceRenderer::Impl::Canvas& LuminanceRenderer::Impl::canvas(const Intrinsics& intrinsics) {
+  for (const auto& canvas : canvases_) {
+    if (canvas->intrinsics == intrinsics) return *canvas;
   }
-  for (const TriangleBatch& batch : scene_.static_triangles) {
-    static_buffers_.push_back(upload_vertices(batch.vertices));
-  }
-  for (const MovingTriangles& moving : scene_.moving_triangles) {
-    moving_buffers_.push_back(upload_vertices(moving.batch.vertices));
-  }
-  for (const InfinitePlane& plane : scene_.infinite_planes) {
-    unbounded_buffers_.push_back(upload_vertices(tessellate_unbounded(plane.surface, spec.far_m)));
-  }
-  edge_smoother_.emplace(scene_.static_edges, intrinsics, depth_);
-  glGenVertexArrays(1, &no_vertices_);
-  make_programs();
-  views_.resize(scene_.primitives.size());
-  primitive_poses_.resize(scene_.primitives.size());
-  order_.reserve(scene_.primitives.size());
-  glViewport(0, 0, intrinsics.width, intrinsics.height);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  glEnable(GL_SCISSOR_TEST);
-  glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glPixelStorei(GL_PACK_ROW_LENGTH, intrinsics.width);
+  canvases_.push_back(std::make_unique<Canvas>());
+  Canvas& made = *canvases_.back();
+  made.intrinsics = intrinsics;
+  made.target = make_target(intrinsics.width, intrinsics.height);
+  return made;
 }
 
-void LuminanceRenderer::Impl::make_programs() {
-  const auto need_triangles = [this](int texture) {
-    GlProgram& program = triangle_programs_[static_cast<std::size_t>(kind_of(texture))];
-    if (!program.name) program = make_triangle_program(kind_of(texture), scene_);
-  };
-  for (const TriangleBatch& batch : scene_.static_triangles) need_triangles(batch.texture);
-  for (const MovingTriangles& moving : scene_.moving_triangles)
-    need_triangles(moving.batch.texture);
-  for (const InfinitePlane& plane : scene_.infinite_planes) need_triangles(plane.surface.texture);
-  for (const Primitive& primitive : scene_.primitives) {
-    const TextureKind kind = kind_of(primitive.surface.texture);
-    GlProgram& program =
-        primitive_programs_[type_index(primitive.type)][static_cast<std::size_t>(kind)];
-    if (!program.name) {
-      program = make_primitive_program(primitive.type, kind, false, scene_, intrinsics_, depth_);
-    }
-    GlProgram& hard = hard_programs_[type_index(primitive.type)];
-    if (!hard.name) {
-      hard = make_primitive_program(primitive.type, TextureKind::kNone, true, scene_, intrinsics_,
-                                    depth_);
-    }
-  }
-  const bool has_sky = scene_.sky_texture >= 0;
-  sky_program_ =
-      make_sky_program(kind_of(scene_.sky_texture), intrinsics_, has_sky ? 1.0 : sky_luminance_);
+void LuminanceRenderer::Impl::bind(const Canvas& canvas, bool with_ids) {
+  glBindFramebuffer(GL_FRAMEBUFFER, with_ids ? canvas.target.with_ids : canvas.target.without_ids);
+  glViewport(0, 0, canvas.intrinsics.width, canvas.intrinsics.height);
+  glPixelStorei(GL_PACK_ROW_LENGTH, canvas.intrinsics.width);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, canvas.intrinsics.width);
 }
 
-TextureKind LuminanceRenderer::Impl::kind_of(int texture) const {
-  if (texture < 0) return TextureKind::kNone;
-  return scene_.textures[static_cast<std::size_t>(texture)].cube ? TextureKind::kCube
-                                                                 : TextureKind::k2d;
-}
-
-void LuminanceRenderer::Impl::bind_texture(int texture) const {
-  if (texture < 0) return;
-  const bool cube = scene_.textures[static_cast<std::size_t>(texture)].cube;
-  glBindTexture(cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D,
-                textures_[static_cast<std::size_t>(texture)]);
-}
-
-// Clip y grows downwards like the image's rows: window row 0 is the top of the image.
-Eigen::Matrix4d LuminanceRenderer::Impl::clip_from_camera() const {
-  Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
-  clip(0, 0) = 2.0 * intrinsics_.f / intrinsics_.width;
-  clip(1, 1) = 2.0 * intrinsics_.f / intrinsics_.height;
-  clip(2, 2) = 2.0 * depth_.offset() - 1.0;
-  clip(2, 3) = 2.0 * depth_.slope();
-  clip(3, 2) = 1.0;
-  return clip;
-}
-
-void LuminanceRenderer::Impl::draw_triangles(const VertexBuffer& buffer, int texture,
-                                             const Eigen::Isometry3d& X_WG,
-                                             const Eigen::Vector3d& texture_shift, int id) {
-  const GlProgram& program = triangle_programs_[static_cast<std::size_t>(kind_of(texture))];
-  glUseProgram(program.name);
-  const Eigen::Matrix4d clip_from_G = clip_from_W_ * X_WG.matrix();
-  set_matrix(program.clip_from_G, clip_from_G);
-  set_matrix(program.X_WG, X_WG.matrix());
-  set_vector(program.texture_shift, texture_shift);
-  glUniform1i(program.id, id);
-  bind_texture(texture);
-  glBindVertexArray(buffer.array);
-  glDrawArrays(GL_TRIANGLES, 0, buffer.count);
-}
-
-void LuminanceRenderer::Impl::draw_unbounded(const Eigen::Vector3d& eye_W) {
-  for (std::size_t i = 0; i < scene_.infinite_planes.size(); ++i) {
-    const InfinitePlane& plane = scene_.infinite_planes[i];
-    Eigen::Vector3d foot = plane.pose.inverse() * eye_W;
-    foot.z() = 0.0;
-    // Textures repeat: whole periods are left out, so that floats suffice anywhere.
-    Eigen::Vector3d shift =
-        foot.cwiseProduct(plane.surface.texture_scale) + plane.surface.texture_offset;
-    shift -= shift.array().floor().matrix();
-    draw_triangles(unbounded_buffers_[i], plane.surface.texture,
-                   plane.pose * Eigen::Translation3d(foot), shift, 0);
-  }
-}
-
-void LuminanceRenderer::Impl::draw_sky(const Eigen::Isometry3d& X_WC) {
-  glUseProgram(sky_program_.name);
-  set_matrix(sky_program_.R_WC, Eigen::Matrix3d(X_WC.linear()));
-  bind_texture(scene_.sky_texture);
-  glBindVertexArray(no_vertices_);
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-}
-
-// Where a program sends what it shares with its hard twin.
-void LuminanceRenderer::Impl::set_outline(const GlProgram& program, const Primitive& primitive,
-                                          const PrimitiveView& view) const {
-  glUseProgram(program.name);
-  const auto clip = [](int pixel, int size) {
-    return 2.0f * static_cast<float>(pixel) / static_cast<float>(size) - 1.0f;
-  };
-  glUniform4f(program.rectangle, clip(view.bounds.x0, intrinsics_.width),
-              clip(view.bounds.y0, intrinsics_.height), clip(view.bounds.x1, intrinsics_.width),
-              clip(view.bounds.y1, intrinsics_.height));
-  set_matrix(program.R_GC, view.R_GC);
-  set_vector(program.eye_G, view.eye_G);
-  set_vector(program.size, primitive.size);
-  glUniform1i(program.id, primitive.object + 1);
-}
-
-void LuminanceRenderer::Impl::draw_primitive(std::size_t index) {
-  const Primitive& primitive = scene_.primitives[index];
-  const PrimitiveView& view = views_[index];
-  const Surface& surface = primitive.surface;
-  const std::size_t type = type_index(primitive.type);
-  const GlProgram& program =
-      primitive_programs_[type][static_cast<std::size_t>(kind_of(surface.texture))];
-  set_outline(program, primitive, view);
-  glUniform1f(program.margin, static_cast<float>(view.margin));
-  set_matrix(program.X_WG, primitive_poses_[index].matrix());
-  set_vector(program.texture_scale, surface.texture_scale);
-  set_vector(program.texture_offset, surface.texture_offset);
-  glUniform2f(program.albedo_emission, static_cast<float>(surface.albedo),
-              static_cast<float>(surface.albedo * surface.emission));
-  if (primitive.type != mjGEOM_BOX) {
-    set_matrix(program.conic, view.conic);
-    glUniform2f(program.conic_origin, static_cast<float>(view.conic_origin.x()),
-                static_cast<float>(view.conic_origin.y()));
-  }
-  bind_texture(surface.texture);
-  glDepthMask(GL_FALSE);
-  glEnable(GL_BLEND);
-  glColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-
-  // Depth and id where the pixel's centre is hit, for what is drawn later.
-  set_outline(hard_programs_[type], primitive, view);
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
-  glColorMaski(0, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  glColorMaski(1, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-}
-
-void LuminanceRenderer::Impl::draw_primitives(const Snapshot& snapshot,
-                                              const Eigen::Isometry3d& X_WC, const Rect& region) {
-  order_.clear();
-  for (std::size_t i = 0; i < scene_.primitives.size(); ++i) {
-    const Primitive& primitive = scene_.primitives[i];
-    primitive_poses_[i] = primitive.pose;
-    if (primitive.object >= 0) {
-      const auto object = static_cast<std::size_t>(primitive.object);
-      if (!snapshot.launched[object]) continue;
-      primitive_poses_[i] = snapshot.objects[object].pose() * primitive.pose;
-    }
-    views_[i] = view_primitive(primitive, primitive_poses_[i], X_WC, intrinsics_, depth_.near_m);
-    const Rect& bounds = views_[i].bounds;
-    if (!views_[i].visible || std::max(bounds.x0, region.x0) >= std::min(bounds.x1, region.x1) ||
-        std::max(bounds.y0, region.y0) >= std::min(bounds.y1, region.y1)) {
-      continue;
-    }
-    order_.push_back(i);
-  }
-  std::sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
-    return views_[a].distance != views_[b].distance ? views_[a].distance > views_[b].distance
-                                                    : a < b;
-  });
-  glBindVertexArray(no_vertices_);
-  for (const std::size_t index : order_) draw_primitive(index);
+// With smoothed edges.
+void LuminanceRenderer::Impl::draw_static_triangles(Canvas& canvas, const Shot& shot,
+                                                    bool with_ids) {
+  if (!canvas.edges) canvas.edges.emplace(scene_.static_edges, canvas.intrinsics, depth_);
+  Shot wide = shot;
+  wide.region = widened(shot.region, kSmoothingPx, shot.intrinsics);
+  bind(canvas, with_ids);
+  set_scissor(wide.region);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  triangles_.draw_static(wide);
+  canvas.edges->draw(wide.X_WC, wide.region, canvas.target);
+  bind(canvas, with_ids);
+  set_scissor(shot.region);
 }
 
 void LuminanceRenderer::Impl::render(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
                                      const Rect& region, float* luminance,
                                      std::int32_t* object_id) {
-  const Rect part = clipped(region);
-  if (part.empty()) return;
+  const Shot shot{intrinsics_, X_WC, clipped(region, intrinsics_)};
+  if (shot.region.empty()) return;
   context_.make_current();
-  clip_from_W_ = clip_from_camera() * X_WC.inverse().matrix();
-  glBindFramebuffer(GL_FRAMEBUFFER, object_id ? target_.with_ids : target_.without_ids);
-  // Smoothed edges need the pixels around them.
-  constexpr int kBorderPx = 2;
-  const Rect wide =
-      clipped({part.x0 - kBorderPx, part.y0 - kBorderPx, part.x1 + kBorderPx, part.y1 + kBorderPx});
-  draw_static(X_WC, wide);
-  edge_smoother_->draw(X_WC, wide, target_);
-  glBindFramebuffer(GL_FRAMEBUFFER, object_id ? target_.with_ids : target_.without_ids);
-  glScissor(part.x0, part.y0, part.x1 - part.x0, part.y1 - part.y0);
-  for (std::size_t i = 0; i < moving_buffers_.size(); ++i) {
-    const MovingTriangles& moving = scene_.moving_triangles[i];
-    const auto object = static_cast<std::size_t>(moving.object);
-    if (!snapshot.launched[object]) continue;
-    draw_triangles(moving_buffers_[i], moving.batch.texture, snapshot.objects[object].pose(),
-                   Eigen::Vector3d::Zero(), moving.object + 1);
+  Canvas& view = canvas(intrinsics_);
+  draw_static_triangles(view, shot, object_id != nullptr);
+  triangles_.draw_objects(shot, snapshot);
+  primitives_.draw_all(shot, snapshot);
+  read(view, shot.region, luminance, object_id);
+}
+
+void LuminanceRenderer::Impl::render_static(const Intrinsics& intrinsics,
+                                            const Eigen::Isometry3d& X_WC, float* luminance,
+                                            float* inverse_depth) {
+  const Shot shot{intrinsics, X_WC, {0, 0, intrinsics.width, intrinsics.height}};
+  context_.make_current();
+  Canvas& whole = canvas(intrinsics);
+  draw_static_triangles(whole, shot, false);
+  primitives_.draw_static(shot);
+  read(whole, shot.region, luminance, nullptr);
+  glReadPixels(0, 0, intrinsics.width, intrinsics.height, GL_DEPTH_COMPONENT, GL_FLOAT,
+               inverse_depth);
+  const auto pixels =
+      static_cast<std::size_t>(intrinsics.width) * static_cast<std::size_t>(intrinsics.height);
+  const auto offset = static_cast<float>(depth_.offset());
+  const auto per_slope = static_cast<float>(1 / depth_.slope());
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const float value = inverse_depth[i];
+    inverse_depth[i] = value < 1.0f ? (value - offset) * per_slope : 0.0f;
   }
-  draw_primitives(snapshot, X_WC, part);
-  read(part, luminance, object_id);
 }
 
-Rect LuminanceRenderer::Impl::clipped(const Rect& region) const {
-  return {std::max(region.x0, 0), std::max(region.y0, 0), std::min(region.x1, intrinsics_.width),
-          std::min(region.y1, intrinsics_.height)};
-}
-
-void LuminanceRenderer::Impl::draw_static(const Eigen::Isometry3d& X_WC, const Rect& region) {
-  glScissor(region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0);
+void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
+                                           const Rect& region, bool behind_static, float* luminance,
+                                           std::int32_t* object_id) {
+  const Shot shot{intrinsics_, X_WC, clipped(region, intrinsics_)};
+  if (shot.region.empty()) return;
+  context_.make_current();
+  Canvas& view = canvas(intrinsics_);
+  bind(view, object_id != nullptr);
+  set_scissor(shot.region);
   glClear(GL_DEPTH_BUFFER_BIT);
-  for (std::size_t i = 0; i < static_buffers_.size(); ++i) {
-    draw_triangles(static_buffers_[i], scene_.static_triangles[i].texture,
-                   Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), 0);
+  if (behind_static) {
+    triangles_.draw_static(shot);
+    primitives_.draw_static_depth(shot);
   }
-  draw_unbounded(X_WC.translation());
-  draw_sky(X_WC);
+  if (object_id) {
+    constexpr GLint kStatic[4] = {0, 0, 0, 0};
+    glClearBufferiv(GL_COLOR, 1, kStatic);
+  }
+  put(view, shot.region, luminance);
+  triangles_.draw_objects(shot, snapshot);
+  primitives_.draw_objects(shot, snapshot, object_id != nullptr);
+  read(view, shot.region, luminance, object_id);
 }
 
-void LuminanceRenderer::Impl::read(const Rect& region, float* luminance, std::int32_t* object_id) {
+// Writes a region of the canvas.
+void LuminanceRenderer::Impl::put(const Canvas& canvas, const Rect& region,
+                                  const float* luminance) {
+  glBindTexture(GL_TEXTURE_2D, canvas.target.luminance);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, region.x0, region.y0, region.x1 - region.x0,
+                  region.y1 - region.y0, GL_RED, GL_FLOAT,
+                  luminance + offset_of(region, canvas.intrinsics));
+}
+
+void LuminanceRenderer::Impl::read(const Canvas& canvas, const Rect& region, float* luminance,
+                                   std::int32_t* object_id) {
   const int width = region.x1 - region.x0, height = region.y1 - region.y0;
-  const std::ptrdiff_t first = std::ptrdiff_t{region.y0} * intrinsics_.width + region.x0;
+  const std::ptrdiff_t first = offset_of(region, canvas.intrinsics);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glReadPixels(region.x0, region.y0, width, height, GL_RED, GL_FLOAT, luminance + first);
   if (!object_id) return;
@@ -389,6 +228,17 @@ LuminanceRenderer::~LuminanceRenderer() = default;
 void LuminanceRenderer::render(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
                                const Rect& region, float* luminance, std::int32_t* object_id) {
   impl_->render(snapshot, X_WC, region, luminance, object_id);
+}
+
+void LuminanceRenderer::render_static(const Intrinsics& intrinsics, const Eigen::Isometry3d& X_WC,
+                                      float* luminance, float* inverse_depth) {
+  impl_->render_static(intrinsics, X_WC, luminance, inverse_depth);
+}
+
+void LuminanceRenderer::draw_objects(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
+                                     const Rect& region, bool behind_static, float* luminance,
+                                     std::int32_t* object_id) {
+  impl_->draw_objects(snapshot, X_WC, region, behind_static, luminance, object_id);
 }
 
 const std::string& LuminanceRenderer::gl_renderer() const { return impl_->context().renderer(); }

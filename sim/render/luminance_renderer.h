@@ -70,6 +70,19 @@ class LuminanceRenderer {
   void render(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
               float* luminance, std::int32_t* object_id);
 
+  // The static scene alone with any intrinsics, whole: both buffers are as large as that image.
+  // inverse_depth: 1/z_C [1/m] of what is at the pixel's centre, 0 for the sky.
+  void render_static(const Intrinsics& intrinsics, const Eigen::Isometry3d& X_WC, float* luminance,
+                     float* inverse_depth);
+
+  // Draws the objects that are launched over a picture of the static scene. In `region` (clipped to
+  // the image) of the buffers, which are as large as the image, `luminance` is read and written,
+  // and object_id (may be null) becomes 0 where no object is and 1 + i at object i. With
+  // `behind_static`, what is static hides them; without, they are taken to be in front of it, which
+  // is several times faster.
+  void draw_objects(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
+                    bool behind_static, float* luminance, std::int32_t* object_id);
+
   // OpenGL's names for itself, for the manifest of a run.
   const std::string& gl_renderer() const;
   const std::string& gl_version() const;

@@ -63,7 +63,7 @@ TEST(BenchCommand, FliesScenarios) {
   const std::vector<Line> lines = parse(outcome.output);
   ASSERT_THAT(names(lines), ElementsAre("loop.ci.real_time_factor", "loop.ci.render",
                                         "loop.ci.emulate", "loop.ci.pilot", "loop.ci.rest",
-                                        "loop.ci.drawn", "loop.ci.turned", "loop.ci.regions"));
+                                        "loop.ci.keys", "loop.ci.pictures", "loop.ci.regions"));
   double shares = 0;
   for (const Line& line : lines) {
     if (line.unit == "share") shares += line.value;

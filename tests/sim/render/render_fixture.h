@@ -61,6 +61,29 @@ class Scene {
   void render_without_ids(const Eigen::Isometry3d& X_WC, Image& image) {
     renderer_->render(snapshot_, X_WC, full(), image.luminance.data(), nullptr);
   }
+  // The static scene alone, and 1/z_C.
+  Image render_static(const Eigen::Isometry3d& X_WC, std::vector<float>& inverse_depth) {
+    return render_static(X_WC, camera_, inverse_depth);
+  }
+  Image render_static(const Eigen::Isometry3d& X_WC, const Intrinsics& camera,
+                      std::vector<float>& inverse_depth) {
+    Image image(camera, -1.0f);
+    inverse_depth.assign(image.luminance.size(), -1.0f);
+    renderer_->render_static(camera, X_WC, image.luminance.data(), inverse_depth.data());
+    return image;
+  }
+  // The objects over the picture of the static scene.
+  Image draw_objects(const Eigen::Isometry3d& X_WC, const Rect& region, bool behind_static) {
+    std::vector<float> inverse_depth;
+    Image image = render_static(X_WC, inverse_depth);
+    draw_objects(X_WC, region, behind_static, image, image.id.data());
+    return image;
+  }
+  void draw_objects(const Eigen::Isometry3d& X_WC, const Rect& region, bool behind_static,
+                    Image& image, std::int32_t* object_id) {
+    renderer_->draw_objects(snapshot_, X_WC, region, behind_static, image.luminance.data(),
+                            object_id);
+  }
   Rect full() const { return {0, 0, camera_.width, camera_.height}; }
 
  private:

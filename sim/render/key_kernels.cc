@@ -1,0 +1,203 @@
+#include "sim/render/key_kernels.h"
+
+#include <array>
+#include <bit>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+#include "sim/base/vector_level.h"
+
+namespace dodgesim {
+
+namespace {
+
+// By value, so that loops over them are vectorised. Not a number becomes the bound.
+inline float smaller(float a, float b) { return a < b ? a : b; }
+inline float larger(float a, float b) { return a > b ? a : b; }
+
+// The exponents of half and single precision differ by 112, their mantissas by 13 bits.
+constexpr float kFewer = 0x1p-112f, kMore = 0x1p112f;
+constexpr int kMantissaBits = 13;
+
+[[gnu::always_inline]] inline std::uint32_t to_half(float value) {
+  const float bounded = smaller(larger(value, 0.0f), kLargestHalf);
+  return (std::bit_cast<std::uint32_t>(bounded * kFewer) + (1u << (kMantissaBits - 1))) >>
+         kMantissaBits;
+}
+
+[[gnu::always_inline]] inline float from_half(std::uint32_t half) {
+  return std::bit_cast<float>(half << kMantissaBits) * kMore;
+}
+
+[[gnu::always_inline]] inline void halve_row(const float* __restrict values, int size,
+                                             std::uint16_t* __restrict halves) {
+  for (int i = 0; i < size; ++i) halves[i] = static_cast<std::uint16_t>(to_half(values[i]));
+}
+
+// Fixed-point iterations from the direction alone: each reads the depth where the last one led.
+constexpr int kDepthReadings = 3;
+
+[[gnu::always_inline]] inline void place_row(const KeyMap& map, float column, float step, float row,
+                                             int size, float* __restrict x_out,
+                                             float* __restrict y_out) {
+  const KeyMap m = map;
+  const float* const __restrict inverse_depth = map.inverse_depth;
+  for (int i = 0; i < size; ++i) {
+    const float c = column + step * static_cast<float>(i);
+    const float dx = m.direction[0] * c + (m.direction[1] * row + m.direction[2]);
+    const float dy = m.direction[3] * c + (m.direction[4] * row + m.direction[5]);
+    const float dz = m.direction[6] * c + (m.direction[7] * row + m.direction[8]);
+    float x = m.f * (dx / dz) + m.cx;
+    float y = m.f * (dy / dz) + m.cy;
+    for (int k = 0; k < kDepthReadings; ++k) {
+      const int at_x = static_cast<int>(smaller(larger(x, 0.0f), m.last_column) + 0.5f);
+      const int at_y = static_cast<int>(smaller(larger(y, 0.0f), m.last_row) + 0.5f);
+      const float rho = inverse_depth[at_y * m.stride + at_x];
+      // 1/z of the point along the ray from the camera's place, whose z in the key is 1/rho.
+      const float mu = dz * rho / (1.0f - m.t[2] * rho);
+      const float z = dz + m.t[2] * mu;
+      x = m.f * ((dx + m.t[0] * mu) / z) + m.cx;
+      y = m.f * ((dy + m.t[1] * mu) / z) + m.cy;
+    }
+    x_out[i] = dz > 0.0f ? x : -1.0f;
+    y_out[i] = y;
+  }
+}
+
+[[gnu::always_inline]] inline void spread_row(const float* __restrict above,
+                                              const float* __restrict below, float share, int cells,
+                                              float* __restrict out) {
+  for (int cell = 0; cell < cells; ++cell) {
+    const float left = above[cell] + share * (below[cell] - above[cell]);
+    const float right = above[cell + 1] + share * (below[cell + 1] - above[cell + 1]);
+    const float step = (right - left) * (1.0f / kKeyCellPx);
+    for (int i = 0; i < kKeyCellPx; ++i) {
+      out[cell * kKeyCellPx + i] = left + step * static_cast<float>(i);
+    }
+  }
+}
+
+void read_portable(const std::uint16_t* means, int stride, const float* u, const float* v, int size,
+                   float* luminance) {
+  for (int i = 0; i < size; ++i) {
+    const int column = static_cast<int>(u[i]);
+    const int row = static_cast<int>(v[i]);
+    const float fu = u[i] - static_cast<float>(column);
+    const float fv = v[i] - static_cast<float>(row);
+    const std::uint16_t* const top = means + row * stride + column;
+    const std::uint16_t* const bottom = top + stride;
+    const float a = from_half(top[0]), b = from_half(top[1]);
+    const float c = from_half(bottom[0]), d = from_half(bottom[1]);
+    const float upper = a + fu * (b - a);
+    const float lower = c + fu * (d - c);
+    luminance[i] = upper + fv * (lower - upper);
+  }
+}
+
+#if defined(__x86_64__)
+// The same operations, eight or sixteen pixels at a time: compilers know no loads of 16 bits from
+// many places. One load of 32 bits takes a mean and its right neighbour.
+
+DODGESIM_TARGET_AVX2 inline __m256 numbers(__m256i halves) {
+  return _mm256_mul_ps(_mm256_castsi256_ps(_mm256_slli_epi32(halves, kMantissaBits)),
+                       _mm256_set1_ps(kMore));
+}
+
+DODGESIM_TARGET_AVX2 inline __m256 between(__m256 a, __m256 b, __m256 share) {
+  return _mm256_add_ps(a, _mm256_mul_ps(share, _mm256_sub_ps(b, a)));
+}
+
+DODGESIM_TARGET_AVX2 void read_avx2(const std::uint16_t* means, int stride, const float* u,
+                                    const float* v, int size, float* luminance) {
+  constexpr int kLanes = 8;
+  const __m256i low = _mm256_set1_epi32(0xffff);
+  int i = 0;
+  for (; i + kLanes <= size; i += kLanes) {
+    const __m256 at_u = _mm256_loadu_ps(u + i), at_v = _mm256_loadu_ps(v + i);
+    const __m256i column = _mm256_cvttps_epi32(at_u), row = _mm256_cvttps_epi32(at_v);
+    const __m256 fu = _mm256_sub_ps(at_u, _mm256_cvtepi32_ps(column));
+    const __m256 fv = _mm256_sub_ps(at_v, _mm256_cvtepi32_ps(row));
+    const __m256i at = _mm256_add_epi32(_mm256_mullo_epi32(row, _mm256_set1_epi32(stride)), column);
+    const __m256i top = _mm256_i32gather_epi32(reinterpret_cast<const int*>(means), at, 2);
+    const __m256i bottom =
+        _mm256_i32gather_epi32(reinterpret_cast<const int*>(means + stride), at, 2);
+    const __m256 upper =
+        between(numbers(_mm256_and_si256(top, low)), numbers(_mm256_srli_epi32(top, 16)), fu);
+    const __m256 lower =
+        between(numbers(_mm256_and_si256(bottom, low)), numbers(_mm256_srli_epi32(bottom, 16)), fu);
+    _mm256_storeu_ps(luminance + i, between(upper, lower, fv));
+  }
+  read_portable(means, stride, u + i, v + i, size - i, luminance + i);
+}
+
+DODGESIM_TARGET_AVX512 inline __m512 numbers(__m512i halves) {
+  return _mm512_mul_ps(_mm512_castsi512_ps(_mm512_slli_epi32(halves, kMantissaBits)),
+                       _mm512_set1_ps(kMore));
+}
+
+DODGESIM_TARGET_AVX512 inline __m512 between(__m512 a, __m512 b, __m512 share) {
+  return _mm512_add_ps(a, _mm512_mul_ps(share, _mm512_sub_ps(b, a)));
+}
+
+DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, const float* u,
+                                        const float* v, int size, float* luminance) {
+  constexpr int kLanes = 16;
+  const __m512i low = _mm512_set1_epi32(0xffff);
+  int i = 0;
+  for (; i + kLanes <= size; i += kLanes) {
+    const __m512 at_u = _mm512_loadu_ps(u + i), at_v = _mm512_loadu_ps(v + i);
+    const __m512i column = _mm512_cvttps_epi32(at_u), row = _mm512_cvttps_epi32(at_v);
+    const __m512 fu = _mm512_sub_ps(at_u, _mm512_cvtepi32_ps(column));
+    const __m512 fv = _mm512_sub_ps(at_v, _mm512_cvtepi32_ps(row));
+    const __m512i at = _mm512_add_epi32(_mm512_mullo_epi32(row, _mm512_set1_epi32(stride)), column);
+    const __m512i top = _mm512_i32gather_epi32(at, means, 2);
+    const __m512i bottom = _mm512_i32gather_epi32(at, means + stride, 2);
+    const __m512 upper =
+        between(numbers(_mm512_and_si512(top, low)), numbers(_mm512_srli_epi32(top, 16)), fu);
+    const __m512 lower =
+        between(numbers(_mm512_and_si512(bottom, low)), numbers(_mm512_srli_epi32(bottom, 16)), fu);
+    _mm512_storeu_ps(luminance + i, between(upper, lower, fv));
+  }
+  read_portable(means, stride, u + i, v + i, size - i, luminance + i);
+}
+#else
+constexpr auto read_avx2 = read_portable, read_avx512 = read_portable;
+#endif
+
+// One set of functions a level.
+#define DODGESIM_KEY_KERNELS(suffix, target)                                                   \
+  target void halve_##suffix(const float* values, int size, std::uint16_t* halves) {           \
+    halve_row(values, size, halves);                                                           \
+  }                                                                                            \
+  target void place_##suffix(const KeyMap& map, float column, float step, float row, int size, \
+                             float* x, float* y) {                                             \
+    place_row(map, column, step, row, size, x, y);                                             \
+  }                                                                                            \
+  target void spread_##suffix(const float* above, const float* below, float share, int cells,  \
+                              float* out) {                                                    \
+    spread_row(above, below, share, cells, out);                                               \
+  }                                                                                            \
+  constexpr KeyKernels k_##suffix = {halve_##suffix, place_##suffix, spread_##suffix, read_##suffix}
+
+DODGESIM_KEY_KERNELS(portable, );
+DODGESIM_KEY_KERNELS(avx2, DODGESIM_TARGET_AVX2);
+DODGESIM_KEY_KERNELS(avx512, DODGESIM_TARGET_AVX512);
+
+#undef DODGESIM_KEY_KERNELS
+
+constexpr std::array<KeyKernels, kVectorLevels> kKernels = {k_portable, k_avx2, k_avx512};
+
+}  // namespace
+
+const KeyKernels& key_kernels(int vector_level) {
+  return kKernels[static_cast<std::size_t>(vector_level)];
+}
+
+const KeyKernels& key_kernels() {
+  static const int level = widest_vector_level();
+  return key_kernels(level);
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,43 @@
+// The hot loops of key_picture.h, compiled for each width of vectors (see sim/base/vector_level.h).
+// All give the same bytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace dodgesim {
+
+inline constexpr float kLargestHalf = 65504;
+
+// Maps view pixels to a key, up to the depth: with d = direction of a pixel's ray, its point lies
+// at d + t times its inverse distance along the ray.
+struct KeyMap {
+  float direction[9];  // (column, row, 1) of the view to d in the key's frame, row-major
+  float t[3];          // the camera's place in the key's frame [m]
+  float f, cx, cy;     // of the key's depth [px]
+  float last_column, last_row;
+  const float* inverse_depth;  // [1/m]
+  int stride;                  // of inverse_depth
+};
+
+struct KeyKernels {
+  // Half precision (IEEE 754 binary16), rounded half up; of numbers from 0 to kLargestHalf.
+  void (*halve)(const float* values, int size, std::uint16_t* halves);
+  // Where view pixels (column, row), (column + step, row), ... lie in the key's depth [px].
+  void (*place)(const KeyMap& map, float column, float step, float row, int size, float* x,
+                float* y);
+  // Straight between nodes: `cells` cells of kKeyCellPx pixels each from `cells` + 1 nodes, which
+  // lie at `share` of the way from `above` to `below`.
+  void (*spread)(const float* above, const float* below, float share, int cells, float* out);
+  // Reads `means` (half precision) at (u, v), linearly in between. May look at the element after
+  // the last one that it needs.
+  void (*read)(const std::uint16_t* means, int stride, const float* u, const float* v, int size,
+               float* luminance);
+};
+
+inline constexpr int kKeyCellPx = 8;
+
+const KeyKernels& key_kernels();                  // the fastest
+const KeyKernels& key_kernels(int vector_level);  // this processor must have it
+
+}  // namespace dodgesim

@@ -1,0 +1,238 @@
+#include "sim/render/key_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/render/key_kernels.h"
+
+namespace dodgesim {
+
+namespace {
+
+// Nodes this near the border of the key count as outside [px].
+constexpr float kBorderPx = 0.01f;
+
+int cells_of(int pixels) { return (pixels + kKeyCellPx - 1) / kKeyCellPx; }
+
+// The cells that hold a region's pixels.
+Rect cells_about(const Rect& region) {
+  return {region.x0 / kKeyCellPx, region.y0 / kKeyCellPx, cells_of(region.x1), cells_of(region.y1)};
+}
+
+std::size_t area(const Intrinsics& picture) {
+  return static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+}
+
+// Rays of the view's pixels in the key's frame.
+Eigen::Matrix3d directions(const Intrinsics& view, const Eigen::Matrix3d& R_KC) {
+  Eigen::Matrix3d ray;
+  ray << 1 / view.f, 0, -view.cx() / view.f, 0, 1 / view.f, -view.cy() / view.f, 0, 0, 1;
+  return R_KC * ray;
+}
+
+}  // namespace
+
+KeyPicture::KeyPicture(const Intrinsics& view, const KeySpec& spec)
+    : view_(view),
+      supersampling_(static_cast<int>(spec.supersampling)),
+      max_misplacement_px_(spec.max_misplacement_px),
+      max_zoom_(spec.max_zoom),
+      columns_(cells_of(view.width) + 1) {
+  const int margin = static_cast<int>(spec.margin_px);
+  wide_ = {view.width + 2 * margin, view.height + 2 * margin, view.f};
+  fine_ = {supersampling_ * wide_.width, supersampling_ * wide_.height, supersampling_ * view.f};
+  means_.resize(area(fine_) + 1);
+  column_sums_.resize(static_cast<std::size_t>(fine_.width));
+  row_means_.resize(static_cast<std::size_t>(fine_.width));
+  inverse_depth_.resize(area(wide_));
+  tile_columns_ = cells_of(wide_.width);
+  tile_largest_.resize(static_cast<std::size_t>(tile_columns_) *
+                       static_cast<std::size_t>(cells_of(wide_.height)));
+  const auto nodes =
+      static_cast<std::size_t>(columns_) * static_cast<std::size_t>(cells_of(view.height) + 1);
+  node_u_.resize(nodes);
+  node_v_.resize(nodes);
+  row_u_.resize(static_cast<std::size_t>(columns_ * kKeyCellPx));
+  row_v_.resize(row_u_.size());
+}
+
+void KeyPicture::set(const Eigen::Isometry3d& X_WC, const std::vector<float>& luminance,
+                     const std::vector<float>& inverse_depth) {
+  X_KW_ = X_WC.inverse();
+  set_aperture_means(luminance);
+  set_depth(inverse_depth);
+  is_set_ = true;
+}
+
+// means_ at (i, j) is of the pixels from (i, j) to (i + n - 1, j + n - 1), for supersampling n.
+void KeyPicture::set_aperture_means(const std::vector<float>& luminance) {
+  const int n = supersampling_;
+  const int width = fine_.width;
+  const float share = 1.0f / static_cast<float>(n * n);
+  for (int j = 0; j + n <= fine_.height; ++j) {
+    const float* const top = luminance.data() + std::ptrdiff_t{j} * width;
+    float* const __restrict sums = column_sums_.data();
+    std::copy_n(top, width, sums);
+    for (int k = 1; k < n; ++k) {
+      const float* const row = top + std::ptrdiff_t{k} * width;
+      for (int i = 0; i < width; ++i) sums[i] += row[i];
+    }
+    float* const __restrict means = row_means_.data();
+    for (int i = 0; i + n <= width; ++i) means[i] = sums[i];
+    for (int k = 1; k < n; ++k) {
+      for (int i = 0; i + n <= width; ++i) means[i] += sums[i + k];
+    }
+    for (int i = 0; i + n <= width; ++i) means[i] *= share;
+    key_kernels().halve(means, width - n + 1, means_.data() + std::ptrdiff_t{j} * width);
+  }
+}
+
+void KeyPicture::set_depth(const std::vector<float>& inverse_depth) {
+  const int n = supersampling_;
+  for (int j = 0; j < wide_.height; ++j) {
+    const float* const in =
+        inverse_depth.data() + std::ptrdiff_t{j * n + n / 2} * fine_.width + n / 2;
+    float* const __restrict out = inverse_depth_.data() + std::ptrdiff_t{j} * wide_.width;
+    for (int i = 0; i < wide_.width; ++i) out[i] = in[std::ptrdiff_t{i} * n];
+  }
+  nearest_inverse_m_ = 0;
+  misplacement_px_per_m_ = 0;
+  for (int y = 0; y < wide_.height; y += kKeyCellPx) {
+    for (int x = 0; x < wide_.width; x += kKeyCellPx) set_tile(x, y);
+  }
+}
+
+// Of the tile whose first pixel is (x0, y0): its largest inverse depth, and how far it is from what
+// its corners say.
+void KeyPicture::set_tile(int x0, int y0) {
+  const int x1 = std::min(x0 + kKeyCellPx, wide_.width - 1);
+  const int y1 = std::min(y0 + kKeyCellPx, wide_.height - 1);
+  const auto at = [this](int x, int y) {
+    return inverse_depth_[static_cast<std::size_t>(y) * static_cast<std::size_t>(wide_.width) +
+                          static_cast<std::size_t>(x)];
+  };
+  const float corner[4] = {at(x0, y0), at(x1, y0), at(x0, y1), at(x1, y1)};
+  float largest = 0, error = 0;
+  for (int y = y0; y <= y1; ++y) {
+    const float down = y1 > y0 ? static_cast<float>(y - y0) / static_cast<float>(y1 - y0) : 0;
+    const float left = corner[0] + down * (corner[2] - corner[0]);
+    const float right = corner[1] + down * (corner[3] - corner[1]);
+    const float step = x1 > x0 ? (right - left) / static_cast<float>(x1 - x0) : 0;
+    for (int x = x0; x <= x1; ++x) {
+      largest = std::max(largest, at(x, y));
+      error = std::max(error, std::abs(at(x, y) - left - step * static_cast<float>(x - x0)));
+    }
+  }
+  tile_largest_[static_cast<std::size_t>(y0 / kKeyCellPx * tile_columns_ + x0 / kKeyCellPx)] =
+      largest;
+  nearest_inverse_m_ = std::max(nearest_inverse_m_, static_cast<double>(largest));
+  const Eigen::Vector2d ray((x0 - wide_.cx()) / wide_.f, (y0 - wide_.cy()) / wide_.f);
+  misplacement_px_per_m_ =
+      std::max(misplacement_px_per_m_, wide_.f * std::sqrt(1 + ray.squaredNorm()) * error);
+}
+
+// Whether the camera is still so near that what it drew will do.
+bool KeyPicture::near_enough() const {
+  const double moved_m = X_KC_.translation().norm();
+  return moved_m * misplacement_px_per_m_ <= max_misplacement_px_ &&
+         moved_m * nearest_inverse_m_ <= max_zoom_;
+}
+
+bool KeyPicture::show(const Eigen::Isometry3d& X_WC, const Rect& region, float* luminance) {
+  if (!is_set_ || region.empty()) return is_set_;
+  X_KC_ = X_KW_ * X_WC;
+  const Rect cells = cells_about(region);
+  if (!near_enough()) return false;
+  place_nodes(cells);
+  if (!covers(cells)) return false;
+  for (int y = region.y0; y < region.y1; ++y) {
+    place_pixels(y, cells);
+    const int skipped = region.x0 - cells.x0 * kKeyCellPx;
+    key_kernels().read(means_.data(), fine_.width, row_u_.data() + skipped, row_v_.data() + skipped,
+                       region.x1 - region.x0,
+                       luminance + std::ptrdiff_t{y} * view_.width + region.x0);
+  }
+  return true;
+}
+
+std::size_t KeyPicture::node(int column, int row) const {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+         static_cast<std::size_t>(column);
+}
+
+void KeyPicture::place_nodes(const Rect& cells) {
+  KeyMap map{};
+  const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> direction =
+      directions(view_, X_KC_.linear()).cast<float>();
+  std::copy_n(direction.data(), 9, map.direction);
+  const Eigen::Vector3f t = X_KC_.translation().cast<float>();
+  std::copy_n(t.data(), 3, map.t);
+  map.f = static_cast<float>(wide_.f);
+  map.cx = static_cast<float>(wide_.cx());
+  map.cy = static_cast<float>(wide_.cy());
+  map.last_column = static_cast<float>(wide_.width - 1);
+  map.last_row = static_cast<float>(wide_.height - 1);
+  map.inverse_depth = inverse_depth_.data();
+  map.stride = wide_.width;
+  for (int j = cells.y0; j <= cells.y1; ++j) {
+    const std::size_t first = node(cells.x0, j);
+    key_kernels().place(map, static_cast<float>(cells.x0 * kKeyCellPx), kKeyCellPx,
+                        static_cast<float>(j * kKeyCellPx), cells.x1 - cells.x0 + 1,
+                        node_u_.data() + first, node_v_.data() + first);
+  }
+  // Pixels of the key to places among its means.
+  const auto n = static_cast<float>(supersampling_);
+  for (std::size_t i = node(cells.x0, cells.y0); i <= node(cells.x1, cells.y1); ++i) {
+    node_u_[i] *= n;
+    node_v_[i] *= n;
+  }
+}
+
+bool KeyPicture::covers(const Rect& cells) const {
+  const auto last_u = static_cast<float>(fine_.width - supersampling_) - kBorderPx;
+  const auto last_v = static_cast<float>(fine_.height - supersampling_) - kBorderPx;
+  for (int j = cells.y0; j <= cells.y1; ++j) {
+    for (int i = cells.x0; i <= cells.x1; ++i) {
+      const float u = node_u_[node(i, j)], v = node_v_[node(i, j)];
+      if (!(u >= kBorderPx && u <= last_u && v >= kBorderPx && v <= last_v)) return false;
+    }
+  }
+  return true;
+}
+
+// row_u_ and row_v_ for the pixels of the cells in a row of the view.
+void KeyPicture::place_pixels(int row, const Rect& cells) {
+  const int j = row / kKeyCellPx;
+  const float share = static_cast<float>(row % kKeyCellPx) / kKeyCellPx;
+  const std::size_t above = node(cells.x0, j), below = node(cells.x0, j + 1);
+  const int count = cells.x1 - cells.x0;
+  key_kernels().spread(&node_u_[above], &node_u_[below], share, count, row_u_.data());
+  key_kernels().spread(&node_v_[above], &node_v_[below], share, count, row_v_.data());
+}
+
+double KeyPicture::nearest_m(const Rect& region) const {
+  const Rect cells = cells_about(region);
+  float u0 = std::numeric_limits<float>::max(), v0 = u0, u1 = 0, v1 = 0;
+  for (int j = cells.y0; j <= cells.y1; ++j) {
+    for (int i = cells.x0; i <= cells.x1; ++i) {
+      const std::size_t k = node(i, j);
+      u0 = std::min(u0, node_u_[k]), u1 = std::max(u1, node_u_[k]);
+      v0 = std::min(v0, node_v_[k]), v1 = std::max(v1, node_v_[k]);
+    }
+  }
+  const int tile_px = kKeyCellPx * supersampling_;
+  const int rows = static_cast<int>(tile_largest_.size()) / tile_columns_;
+  float largest = 0;
+  for (int y = static_cast<int>(v0) / tile_px;
+       y <= std::min(static_cast<int>(v1) / tile_px, rows - 1); ++y) {
+    for (int x = static_cast<int>(u0) / tile_px;
+         x <= std::min(static_cast<int>(u1) / tile_px, tile_columns_ - 1); ++x) {
+      largest = std::max(largest, tile_largest_[static_cast<std::size_t>(y * tile_columns_ + x)]);
+    }
+  }
+  // Depth along the key's axis bounds the distance from the key, which the camera has left.
+  return 1.0 / static_cast<double>(largest) - X_KC_.translation().norm();
+}
+
+}  // namespace dodgesim

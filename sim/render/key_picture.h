@@ -1,0 +1,102 @@
+// What a camera sees of the static scene, taken from a picture of it that was drawn nearby.
+//
+// Drawing a room in software costs milliseconds; a turning camera needs a thousand pictures a
+// second. What a static scene shows from one pose, it shows from the poses around: a point of known
+// depth moves to where geometry says (Hartley and Zisserman 2004, chapter 6), with the same
+// luminance, as surfaces are Lambertian. So a picture of the static scene, a key, is drawn finer
+// and wider than the camera's view, with its depth, and the view from every later pose is read from
+// it until the view leaves it or the camera has moved so far that an edge of something near would
+// be in the wrong place.
+//
+// Where the pixels of the view lie in the key is computed on a grid of nodes and runs linearly
+// between them. A pixel's luminance is the mean over its square aperture, as a pixel of a sensor
+// collects it, and is read from a picture of all such means, half a pixel apart (with the default
+// supersampling of 2), linearly in between.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sim/render/camera.h"
+
+namespace dodgesim {
+
+struct KeySpec {
+  std::int64_t supersampling = 2;
+  std::int64_t margin_px = 32;
+  double max_misplacement_px = 1;
+  double max_zoom = 0.1;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("supersampling", supersampling, 1, 4,
+      "Pixels drawn for each of the camera's, across and down; their mean is what the camera's "
+      "pixel collects.");
+    v("margin_px", margin_px, 8, 256,
+      "How far a drawn picture reaches beyond the view on every side: so far the camera turns "
+      "before the next is drawn. 0 pixels would draw every picture.");
+    v("max_misplacement_px", max_misplacement_px, 0, 10,
+      "How far the outline of something near may be from its place, because the camera has moved "
+      "since the picture was drawn, before another is drawn. 0 draws every picture.");
+    v("max_zoom", max_zoom, 0, 1,
+      "Share of the distance to the nearest thing in view that the camera may move before another "
+      "picture is drawn.");
+  }
+};
+
+class KeyPicture {
+ public:
+  KeyPicture(const Intrinsics& view, const KeySpec& spec);
+
+  // Of the picture to draw: finer and wider than the view, with the same optical axis.
+  const Intrinsics& intrinsics() const { return fine_; }
+
+  // The picture from X_WC, row-major from the top-left pixel of intrinsics(): linear luminance
+  // (at most 65504) and inverse depth 1/z_C [1/m], 0 for the sky.
+  void set(const Eigen::Isometry3d& X_WC, const std::vector<float>& luminance,
+           const std::vector<float>& inverse_depth);
+
+  // Writes the pixels of `region` of the view from X_WC into `luminance` (width x height of the
+  // view). False, and nothing is written, if a new picture must be drawn. Equal on every processor,
+  // bit for bit.
+  bool show(const Eigen::Isometry3d& X_WC, const Rect& region, float* luminance);
+
+  // A lower bound on the distance from the camera [m] of everything static that the last show()
+  // showed in `region`, which it must have covered; infinite for the sky.
+  double nearest_m(const Rect& region) const;
+
+ private:
+  void set_aperture_means(const std::vector<float>& luminance);
+  void set_depth(const std::vector<float>& inverse_depth);
+  void set_tile(int x0, int y0);
+  bool near_enough() const;
+  void place_nodes(const Rect& cells);
+  bool covers(const Rect& cells) const;
+  void place_pixels(int row, const Rect& cells);
+  std::size_t node(int column, int row) const;
+
+  Intrinsics view_, fine_, wide_;  // wide_: the view with its margin, no finer
+  int supersampling_;
+  double max_misplacement_px_, max_zoom_;
+
+  std::vector<float> column_sums_, row_means_;  // while means are taken
+
+  bool is_set_ = false;
+  Eigen::Isometry3d X_KW_ = Eigen::Isometry3d::Identity();  // K: the camera when it was drawn
+  std::vector<std::uint16_t> means_;  // over apertures, half precision; of fine_ and one more
+  std::vector<float> inverse_depth_;  // of wide_ [1/m]
+  std::vector<float> tile_largest_;   // of inverse_depth_, over tiles of a cell's size [1/m]
+  int tile_columns_ = 0;
+  double nearest_inverse_m_ = 0;      // largest of inverse_depth_
+  double misplacement_px_per_m_ = 0;  // bound on the error of a straight line between nodes
+
+  // Of the last show().
+  Eigen::Isometry3d X_KC_ = Eigen::Isometry3d::Identity();
+  int columns_;                         // of nodes
+  std::vector<float> node_u_, node_v_;  // where a node lies in means_ [px]
+  std::vector<float> row_u_, row_v_;    // where the pixels of a row lie
+};
+
+}  // namespace dodgesim

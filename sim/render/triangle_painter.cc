@@ -1,0 +1,135 @@
+#include "sim/render/triangle_painter.h"
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include "sim/render/gl_values.h"
+
+namespace dodgesim {
+
+namespace {
+
+// Quads that stand for an unbounded plane around the camera's foot: small ones nearby, where float
+// positions must be exact, and large ones out to the horizon.
+std::vector<Vertex> tessellate_unbounded(const Surface& surface, double far_m) {
+  constexpr double kInnerM = 30.0;
+  const std::array<double, 4> grid = {-far_m, -kInnerM, kInnerM, far_m};
+  std::vector<Vertex> vertices;
+  const auto corner = [&](std::size_t i, std::size_t j) {
+    const Eigen::Vector3d p(grid[i], grid[j], 0.0);
+    vertices.push_back({p.cast<float>(), Eigen::Vector3f::UnitZ(),
+                        p.cwiseProduct(surface.texture_scale).cast<float>(),
+                        static_cast<float>(surface.albedo),
+                        static_cast<float>(surface.albedo * surface.emission)});
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      corner(i, j), corner(i + 1, j), corner(i + 1, j + 1);
+      corner(i, j), corner(i + 1, j + 1), corner(i, j + 1);
+    }
+  }
+  return vertices;
+}
+
+// Clip y grows downwards like the image's rows: window row 0 is the top of the image.
+Eigen::Matrix4d clip_from_camera(const Intrinsics& intrinsics, const DepthRange& depth) {
+  Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
+  clip(0, 0) = 2.0 * intrinsics.f / intrinsics.width;
+  clip(1, 1) = 2.0 * intrinsics.f / intrinsics.height;
+  clip(2, 2) = 2.0 * depth.offset() - 1.0;
+  clip(2, 3) = 2.0 * depth.slope();
+  clip(3, 2) = 1.0;
+  return clip;
+}
+
+}  // namespace
+
+TrianglePainter::TrianglePainter(const SceneGeometry& scene, const SceneTextures& textures,
+                                 const DepthRange& depth, double far_m, double sky_luminance)
+    : scene_(scene), textures_(textures), depth_(depth) {
+  for (const TriangleBatch& batch : scene.static_triangles) {
+    static_buffers_.push_back(upload_vertices(batch.vertices));
+    make_program_for(batch.texture);
+  }
+  for (const MovingTriangles& moving : scene.moving_triangles) {
+    moving_buffers_.push_back(upload_vertices(moving.batch.vertices));
+    make_program_for(moving.batch.texture);
+  }
+  for (const InfinitePlane& plane : scene.infinite_planes) {
+    unbounded_buffers_.push_back(upload_vertices(tessellate_unbounded(plane.surface, far_m)));
+    make_program_for(plane.surface.texture);
+  }
+  glGenVertexArrays(1, &no_vertices_);
+  sky_program_ = make_sky_program(textures.kind_of(scene.sky_texture),
+                                  scene.sky_texture >= 0 ? 1.0 : sky_luminance);
+}
+
+const GlProgram& TrianglePainter::program_for(int texture) const {
+  return programs_[static_cast<std::size_t>(textures_.kind_of(texture))];
+}
+
+void TrianglePainter::make_program_for(int texture) {
+  const TextureKind kind = textures_.kind_of(texture);
+  GlProgram& program = programs_[static_cast<std::size_t>(kind)];
+  if (!program.name) program = make_triangle_program(kind, scene_);
+}
+
+void TrianglePainter::draw(const Shot& shot, const VertexBuffer& buffer, int texture,
+                           const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& texture_shift,
+                           int id) {
+  const GlProgram& program = program_for(texture);
+  glUseProgram(program.name);
+  const Eigen::Matrix4d clip_from_G =
+      clip_from_camera(shot.intrinsics, depth_) * (shot.X_WC.inverse() * X_WG).matrix();
+  set_matrix(program.clip_from_G, clip_from_G);
+  set_matrix(program.X_WG, X_WG.matrix());
+  set_vector(program.texture_shift, texture_shift);
+  glUniform1i(program.id, id);
+  textures_.bind(texture);
+  glBindVertexArray(buffer.array);
+  glDrawArrays(GL_TRIANGLES, 0, buffer.count);
+}
+
+void TrianglePainter::draw_static(const Shot& shot) {
+  for (std::size_t i = 0; i < static_buffers_.size(); ++i) {
+    draw(shot, static_buffers_[i], scene_.static_triangles[i].texture,
+         Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), 0);
+  }
+  draw_unbounded(shot);
+  draw_sky(shot);
+}
+
+void TrianglePainter::draw_objects(const Shot& shot, const Snapshot& snapshot) {
+  for (std::size_t i = 0; i < moving_buffers_.size(); ++i) {
+    const MovingTriangles& moving = scene_.moving_triangles[i];
+    const auto object = static_cast<std::size_t>(moving.object);
+    if (!snapshot.launched[object]) continue;
+    draw(shot, moving_buffers_[i], moving.batch.texture, snapshot.objects[object].pose(),
+         Eigen::Vector3d::Zero(), moving.object + 1);
+  }
+}
+
+void TrianglePainter::draw_unbounded(const Shot& shot) {
+  for (std::size_t i = 0; i < scene_.infinite_planes.size(); ++i) {
+    const InfinitePlane& plane = scene_.infinite_planes[i];
+    Eigen::Vector3d foot = plane.pose.inverse() * shot.X_WC.translation();
+    foot.z() = 0.0;
+    // Textures repeat: whole periods are left out, so that floats suffice anywhere.
+    Eigen::Vector3d shift =
+        foot.cwiseProduct(plane.surface.texture_scale) + plane.surface.texture_offset;
+    shift -= shift.array().floor().matrix();
+    draw(shot, unbounded_buffers_[i], plane.surface.texture,
+         plane.pose * Eigen::Translation3d(foot), shift, 0);
+  }
+}
+
+void TrianglePainter::draw_sky(const Shot& shot) {
+  glUseProgram(sky_program_.name);
+  set_camera(sky_program_, shot.intrinsics);
+  set_matrix(sky_program_.R_WC, Eigen::Matrix3d(shot.X_WC.linear()));
+  textures_.bind(scene_.sky_texture);
+  glBindVertexArray(no_vertices_);
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,45 @@
+// Draws what is made of triangles, unbounded planes and the sky with OpenGL. Lives in the context
+// that was current when it was made.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sim/render/gl_scene.h"
+#include "sim/render/scene_geometry.h"
+#include "sim/render/shot.h"
+#include "sim/world/snapshot.h"
+
+namespace dodgesim {
+
+class TrianglePainter {
+ public:
+  // Both must outlive the painter. Unbounded planes end at far_m; `sky_luminance` is that of a sky
+  // without texture.
+  TrianglePainter(const SceneGeometry& scene, const SceneTextures& textures,
+                  const DepthRange& depth, double far_m, double sky_luminance);
+
+  // Into the framebuffer that is bound, within the scissor.
+  void draw_static(const Shot& shot);
+  void draw_objects(const Shot& shot, const Snapshot& snapshot);
+
+ private:
+  static constexpr std::size_t kTextureKinds = 3;
+
+  const GlProgram& program_for(int texture) const;
+  void make_program_for(int texture);
+  void draw(const Shot& shot, const VertexBuffer& buffer, int texture,
+            const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& texture_shift, int id);
+  void draw_unbounded(const Shot& shot);
+  void draw_sky(const Shot& shot);
+
+  const SceneGeometry& scene_;
+  const SceneTextures& textures_;
+  DepthRange depth_;
+  std::vector<VertexBuffer> static_buffers_, moving_buffers_, unbounded_buffers_;
+  unsigned no_vertices_ = 0;
+  std::array<GlProgram, kTextureKinds> programs_;
+  GlProgram sky_program_;
+};
+
+}  // namespace dodgesim

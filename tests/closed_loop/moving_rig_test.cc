@@ -1,0 +1,138 @@
+// A rig that moves and turns fast in the furnished room, with a ball in view: the room seen from
+// pictures drawn nearby against the room drawn anew for every picture.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "sim/event_rig.h"
+#include "tests/closed_loop/flights.h"
+#include "tests/sim/events/moving_plane.h"
+
+namespace dodgesim {
+namespace {
+
+using Eigen::Vector3d;
+using testing::compare;
+
+struct Motion {
+  Vector3d v_W, w_W;
+};
+
+// What one camera of a rig saw of a motion, a tick at a time.
+struct Seen {
+  std::vector<Event> events;
+  std::vector<int> count;  // of the events of each tick
+  std::vector<bool> drew;  // whether a key was drawn in it
+  std::int64_t keys, pictures, regions;
+};
+
+class MovingRig : public ::testing::Test {
+ protected:
+  MovingRig() : world_({scenario("{}").models_dir, "room", "qav_rxl", {{"ball", 0.2}}}) {
+    setup_.intrinsics = intrinsics(CameraSpec{});
+    setup_.events = ideal_event_camera();
+    setup_.cameras = 1;
+    setup_.packet_us = kTickUs;
+    world_.reset(Vector3d(-2, 0.5, 2), 0.2, Vector3d::Zero());
+    BodyState ball;
+    ball.p_W = {0.3, 0.8, 2.1};
+    ball.v_W = {-5, 0, 1};
+    world_.launch(0, ball);
+  }
+
+  Snapshot at(const Motion& motion, TimeUs t_us) const {
+    Snapshot s = world_.snapshot();
+    s.t_us = t_us;
+    s.vehicle.p_W += seconds(t_us) * motion.v_W;
+    s.vehicle.v_W = motion.v_W;
+    s.vehicle.w_W = motion.w_W;
+    s.vehicle.q_W = Eigen::AngleAxisd(seconds(t_us) * motion.w_W.norm(), motion.w_W.normalized()) *
+                    s.vehicle.q_W;
+    s.objects[0].p_W += seconds(t_us) * s.objects[0].v_W;
+    return s;
+  }
+
+  // A picture at the end of every tick at least.
+  Seen see(const Motion& motion, const KeySpec& keys, TimeUs end_us = 40000) {
+    setup_.keys = keys;
+    EventRig rig(world_, setup_);
+    rig.start();
+    Seen seen;
+    for (TimeUs t = 0; t < end_us; t += kTickUs) {
+      rig.require(t + kTickUs);
+      const std::int64_t keys_before = rig.keys();
+      const std::size_t events_before = seen.events.size();
+      rig.advance(at(motion, t), at(motion, t + kTickUs), [&](int, const Packet& packet) {
+        seen.events.insert(seen.events.end(), packet.events.begin(), packet.events.end());
+      });
+      seen.count.push_back(static_cast<int>(seen.events.size() - events_before));
+      seen.drew.push_back(rig.keys() > keys_before);
+    }
+    seen.keys = rig.keys();
+    seen.pictures = rig.pictures();
+    seen.regions = rig.regions();
+    return seen;
+  }
+
+  World world_;
+  EventRigSetup setup_;
+};
+
+KeySpec every_picture() {
+  KeySpec spec;
+  spec.max_misplacement_px = 0;
+  return spec;
+}
+
+const Motion kMotions[] = {{{0, 2, 0}, {0, 0, 5}}, {{1.2, -1.2, 1}, {3, -3, -2.5}}};
+
+TEST_F(MovingRig, SeesNearlyTheEventsOfARigThatDrawsTheRoomForEveryPicture) {
+  for (const Motion& motion : kMotions) {
+    const Seen anew = see(motion, every_picture());
+    EXPECT_GE(anew.keys, anew.pictures);
+    const Seen seen = see(motion, KeySpec());
+    EXPECT_EQ(seen.pictures, anew.pictures);
+    EXPECT_EQ(seen.regions, anew.regions);
+    EXPECT_LT(seen.keys, anew.keys / 10);
+    ASSERT_GT(anew.events.size(), 50000u);
+    const auto difference = compare(seen.events, anew.events);
+    // What is read between the pixels of the key is softer, which costs the finest texture events.
+    EXPECT_LT(std::abs(difference.count), 0.06);
+    EXPECT_LT(difference.median_us, 50);
+    EXPECT_GT(difference.matched, 0.55);
+  }
+}
+
+TEST_F(MovingRig, SeesThemTheBetterTheFinerTheRoomIsDrawn) {
+  const Motion& motion = kMotions[0];
+  KeySpec fine, fine_every = every_picture();
+  fine.supersampling = fine_every.supersampling = 4;
+  const auto difference =
+      compare(see(motion, fine, 20000).events, see(motion, fine_every, 20000).events);
+  EXPECT_LT(std::abs(difference.count), 0.02);
+  EXPECT_LT(difference.median_us, 15);
+  EXPECT_GT(difference.matched, 0.75);
+}
+
+// Events in the ticks with a new key, against a rig that draws them all. The margin is small, so
+// that there are many.
+TEST_F(MovingRig, ANewPictureOfTheRoomMakesNoBurstOfEvents) {
+  for (const Motion& motion : kMotions) {
+    KeySpec narrow;
+    narrow.margin_px = 8;
+    const Seen anew = see(motion, every_picture()), seen = see(motion, narrow);
+    int with_key = 0, expected = 0, keys = 0;
+    for (std::size_t i = 0; i < seen.drew.size(); ++i) {
+      if (!seen.drew[i]) continue;
+      with_key += seen.count[i];
+      expected += anew.count[i];
+      ++keys;
+    }
+    ASSERT_GE(keys, 6);
+    EXPECT_LT(with_key, 1.2 * expected);
+  }
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,271 @@
+#include "sim/render/key_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "sim/base/random.h"
+#include "sim/base/vector_level.h"
+
+namespace dodgesim {
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kSmallestFloat = std::numeric_limits<float>::denorm_min();
+constexpr float kSmallestNormalHalf = 0x1p-14f, kSmallestHalf = 0x1p-24f;
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+// Each function of the kernels over some inputs, one after the other.
+struct Results {
+  std::vector<std::uint16_t> halves;
+  std::vector<float> places, spread, read;
+};
+
+std::vector<float> luminances(int size, RandomStream& random) {
+  const float special[] = {0,
+                           -0.0f,
+                           -1,
+                           kNan,
+                           kInf,
+                           -kInf,
+                           65504,
+                           65519.9f,
+                           65520,
+                           65536,
+                           1e30f,
+                           kSmallestHalf,
+                           6e-5f,
+                           kSmallestFloat,
+                           1e-39f,
+                           1.00048f,
+                           1,
+                           1.0005f,
+                           kSmallestNormalHalf};
+  std::vector<float> values;
+  for (int i = 0; i < size; ++i) {
+    const auto kind = static_cast<std::size_t>(random.uniform(0, 3 * std::size(special)));
+    values.push_back(kind < std::size(special)
+                         ? special[kind]
+                         : static_cast<float>(std::exp(random.uniform(-20, 12))));
+  }
+  return values;
+}
+
+constexpr int kStride = 37, kRows = 29;
+
+std::vector<float> depths(RandomStream& random) {
+  std::vector<float> inverse_depth;
+  for (int i = 0; i < kStride * kRows; ++i) {
+    const double kind = random.uniform();
+    inverse_depth.push_back(kind < 0.2    ? 0.0f
+                            : kind < 0.21 ? kSmallestFloat
+                                          : static_cast<float>(random.uniform(0, 3)));
+  }
+  return inverse_depth;
+}
+
+Results results(int level, int size) {
+  const KeyKernels& kernels = key_kernels(level);
+  Results out;
+  RandomStream random(7, static_cast<std::uint64_t>(size), "kernels");
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto means = luminances(size, random);
+    std::vector<std::uint16_t> halves(static_cast<std::size_t>(size));
+    kernels.halve(means.data(), size, halves.data());
+    out.halves.insert(out.halves.end(), halves.begin(), halves.end());
+
+    const auto inverse_depth = depths(random);
+    KeyMap map{};
+    for (float& d : map.direction) d = static_cast<float>(random.uniform(-0.05, 0.05));
+    map.direction[8] = 1;
+    for (float& t : map.t) t = static_cast<float>(random.uniform(-0.2, 0.2));
+    map.f = 20, map.cx = 18, map.cy = 14;
+    map.last_column = kStride - 1, map.last_row = kRows - 1;
+    map.inverse_depth = inverse_depth.data();
+    map.stride = kStride;
+    if (trial % 4 == 1) map.direction[static_cast<std::size_t>(trial) % 9] = kNan;
+    if (trial % 4 == 2) map.t[trial % 3] = trial % 8 < 4 ? kInf : kNan;
+    if (trial % 4 == 3) map.direction[8] = -1;
+    std::vector<float> x(static_cast<std::size_t>(size)), y(x.size());
+    kernels.place(map, static_cast<float>(trial), 8, 3, size, x.data(), y.data());
+    out.places.insert(out.places.end(), x.begin(), x.end());
+    out.places.insert(out.places.end(), y.begin(), y.end());
+
+    std::vector<float> above, below, spread(static_cast<std::size_t>(size * kKeyCellPx));
+    for (int i = 0; i <= size; ++i) {
+      above.push_back(static_cast<float>(random.uniform(0, 600)));
+      below.push_back(static_cast<float>(random.uniform(0, 600)));
+    }
+    kernels.spread(above.data(), below.data(), 0.375f, size, spread.data());
+    out.spread.insert(out.spread.end(), spread.begin(), spread.end());
+
+    std::vector<std::uint16_t> picture(static_cast<std::size_t>(kStride * kRows + 1));
+    std::vector<float> u, v, read(static_cast<std::size_t>(size));
+    const auto bright = luminances(kStride * kRows, random);
+    kernels.halve(bright.data(), kStride * kRows, picture.data());
+    for (int i = 0; i < size; ++i) {
+      u.push_back(static_cast<float>(random.uniform(0, kStride - 1)));
+      v.push_back(static_cast<float>(random.uniform(0, kRows - 1)));
+    }
+    kernels.read(picture.data(), kStride, u.data(), v.data(), size, read.data());
+    out.read.insert(out.read.end(), read.begin(), read.end());
+  }
+  return out;
+}
+
+TEST(KeyKernels, GiveTheSameBytesAtEveryVectorWidth) {
+  for (int level = kPortable + 1; level <= widest_vector_level(); ++level) {
+    for (const int size : {1, 2, 7, 8, 15, 16, 17, 31, 33, 64, 101}) {
+      const Results narrow = results(kPortable, size), wide = results(level, size);
+      EXPECT_TRUE(same_bytes(wide.halves, narrow.halves)) << level << ", " << size;
+      EXPECT_TRUE(same_bytes(wide.places, narrow.places)) << level << ", " << size;
+      EXPECT_TRUE(same_bytes(wide.spread, narrow.spread)) << level << ", " << size;
+      EXPECT_TRUE(same_bytes(wide.read, narrow.read)) << level << ", " << size;
+    }
+  }
+}
+
+TEST(KeyKernels, TheDefaultIsTheWidestThatTheProcessorHas) {
+  EXPECT_EQ(&key_kernels(), &key_kernels(widest_vector_level()));
+}
+
+// What is read in a picture of 2 x 2 such means, and one element after the last.
+float read_alone(std::uint16_t half) {
+  const std::uint16_t means[5] = {half, half, half, half, 0};
+  const float zero = 0;
+  float out = -1;
+  key_kernels().read(means, 2, &zero, &zero, 1, &out);
+  return out;
+}
+
+std::uint16_t half_of(float value) {
+  std::uint16_t half = 0;
+  key_kernels().halve(&value, 1, &half);
+  return half;
+}
+
+float round_trip(float value) { return read_alone(half_of(value)); }
+
+TEST(KeyKernels, HalfPrecisionKeepsElevenBits) {
+  RandomStream random(1, 0, "half");
+  for (int i = 0; i < 20000; ++i) {
+    const auto value = static_cast<float>(std::exp2(random.uniform(-13.99, 15.99)));
+    ASSERT_LE(std::abs(round_trip(value) - value), 0x1p-11f * value) << value;
+  }
+}
+
+TEST(KeyKernels, HalfPrecisionIsThatOfTheStandard) {
+  // IEEE 754: binary16 of 1 is 0x3c00, of the largest number 0x7bff, of the smallest normal 0x0400.
+  const struct {
+    float value;
+    std::uint16_t half;
+  } values[] = {
+      {0, 0x0000},     {1, 0x3c00},   {0.5f, 0x3800},           {1.0009765625f, 0x3c01},
+      {65504, 0x7bff}, {2.5, 0x4100}, {0.333251953125, 0x3555}, {kSmallestNormalHalf, 0x0400}};
+  for (const auto& [value, half] : values) {
+    EXPECT_EQ(half_of(value), half) << value;
+    EXPECT_EQ(round_trip(value), value);
+  }
+}
+
+TEST(KeyKernels, EveryHalfIsReadAsItIsPacked) {
+  for (std::uint32_t half = 0; half <= 0x7bff; ++half) {
+    const float value = read_alone(static_cast<std::uint16_t>(half));
+    const double mantissa = half & 0x3ff;
+    const int exponent = static_cast<int>(half >> 10);
+    const double expected =
+        exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25);
+    ASSERT_EQ(value, expected) << half;
+    ASSERT_EQ(round_trip(value), value) << half;
+  }
+}
+
+TEST(KeyKernels, WhatHalfPrecisionCannotHoldIsBounded) {
+  EXPECT_EQ(round_trip(65504), 65504);
+  for (const float large : {65505.0f, 65520.0f, 70000.0f, 1e38f, kInf}) {
+    EXPECT_EQ(round_trip(large), 65504) << large;
+  }
+  for (const float none : {-0.0f, -1.0f, -kInf, kSmallestFloat, 0.49f * kSmallestHalf}) {
+    EXPECT_EQ(round_trip(none), 0) << none;
+  }
+  EXPECT_EQ(round_trip(kNan), 0);
+  // Denormal halves keep their steps.
+  EXPECT_EQ(round_trip(kSmallestHalf), kSmallestHalf);
+  EXPECT_NEAR(round_trip(5e-5f), 5e-5f, 0.5 * kSmallestHalf);
+}
+
+TEST(KeyKernels, ReadLinearlyBetweenFourMeans) {
+  const float values[] = {1, 2, 4, 8, 16, 32, 0};  // two rows of three
+  std::uint16_t means[7];
+  key_kernels().halve(values, 7, means);
+  const float u[] = {0.25f, 0, 1.5f}, v[] = {0.5f, 0.75f, 0.25f};
+  float out[3];
+  key_kernels().read(means, 3, u, v, 3, out);
+  EXPECT_EQ(out[0], 0.5f * (1.25f + 10));
+  EXPECT_EQ(out[1], 0.25f * 1 + 0.75f * 8);
+  EXPECT_EQ(out[2], 0.75f * 3 + 0.25f * 24);
+}
+
+TEST(KeyKernels, SpreadIsBilinearInACell) {
+  const float above[] = {3, 11, 5}, below[] = {7, 31, 1};
+  float out[2 * kKeyCellPx];
+  key_kernels().spread(above, below, 0.25f, 2, out);
+  for (int i = 0; i < 2 * kKeyCellPx; ++i) {
+    const int cell = i / kKeyCellPx;
+    const float right = static_cast<float>(i % kKeyCellPx) / kKeyCellPx;
+    const float left_end = 0.75f * above[cell] + 0.25f * below[cell];
+    const float right_end = 0.75f * above[cell + 1] + 0.25f * below[cell + 1];
+    EXPECT_NEAR(out[i], left_end + right * (right_end - left_end), 1e-5f);
+  }
+}
+
+// A fronto-parallel wall at 1/rho, and a key without rotation: the closed form of a translation.
+TEST(KeyKernels, PlaceMovesAPointByItsDepth) {
+  const float rho = 0.5f;
+  const std::vector<float> wall(kStride * kRows, rho);
+  KeyMap map{{0.05f, 0, -0.9f, 0, 0.05f, -0.7f, 0, 0, 1},
+             {0.1f, -0.2f, 0.3f},
+             20,
+             18,
+             14,
+             kStride - 1,
+             kRows - 1,
+             wall.data(),
+             kStride};
+  float x[5], y[5];
+  key_kernels().place(map, 2, 8, 5, 5, x, y);
+  for (int i = 0; i < 5; ++i) {
+    const double dx = 0.05 * (2 + 8 * i) - 0.9, dy = 0.05 * 5 - 0.7;
+    const double length = 1 / 0.5 - 0.3;  // along the axis, from the camera to the wall
+    EXPECT_NEAR(x[i], 20 * (dx * length + 0.1) * 0.5 + 18, 1e-4);
+    EXPECT_NEAR(y[i], 20 * (dy * length - 0.2) * 0.5 + 14, 1e-4);
+  }
+}
+
+TEST(KeyKernels, PlaceLeavesOutWhatLiesBehindTheKey) {
+  const std::vector<float> sky(kStride * kRows, 0.0f);
+  KeyMap map{{0.05f, 0, -0.9f, 0, 0.05f, -0.7f, 0, 0, -1},
+             {0, 0, 0},
+             20,
+             18,
+             14,
+             kStride - 1,
+             kRows - 1,
+             sky.data(),
+             kStride};
+  float x[3], y[3];
+  key_kernels().place(map, 2, 8, 5, 3, x, y);
+  for (const float value : x) EXPECT_LT(value, 0);
+}
+
+}  // namespace
+}  // namespace dodgesim
