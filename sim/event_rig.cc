@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
 #include "sim/base/random.h"
@@ -102,7 +103,9 @@ void EventRig::show(Eye& eye, const Snapshot& snapshot, const Rect& region,
   const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
   if (!eye.key.show(X_WC, region, luminance.data())) {
     draw_key(eye, X_WC);
-    eye.key.show(X_WC, region, luminance.data());
+    if (!eye.key.show(X_WC, region, luminance.data())) {
+      throw std::logic_error("A picture must serve the pose from which it was drawn.");
+    }
   }
   if (setup_.keep_causes) clear_causes(region);
   draw_objects(eye, snapshot, X_WC, region, luminance);

@@ -126,8 +126,8 @@ unsigned upload_texture(const LuminanceTexture& texture, bool trilinear) {
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(target, GL_TEXTURE_MIN_FILTER,
                   trilinear ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST);
-  // 16 bits hold 8-bit texels exactly, and llvmpipe filters them in float, unlike 8 bits. A bright
-  // tint may take texels beyond 1.
+  // 16 bits hold grey texels of 8 bits exactly (photographs to 1/65535), and llvmpipe filters them
+  // in float, unlike 8 bits. A bright tint may take texels beyond 1.
   const float brightest = *std::max_element(texture.texels.begin(), texture.texels.end());
   const GLint format = brightest > 1.0f ? GL_R32F : GL_R16;
   const int faces = texture.cube ? 6 : 1;

@@ -10,6 +10,9 @@ namespace dodgesim {
 
 namespace {
 
+// Rounding of poses; what has moved less has not moved.
+constexpr double kSamePlaceM = 1e-9;
+
 // Nodes this near the border of the key count as outside [px].
 constexpr float kBorderPx = 0.01f;
 
@@ -135,6 +138,7 @@ void KeyPicture::set_tile(int x0, int y0) {
 // Whether the camera is still so near that what it drew will do.
 bool KeyPicture::near_enough() const {
   const double moved_m = X_KC_.translation().norm();
+  if (moved_m < kSamePlaceM) return true;
   return moved_m * misplacement_px_per_m_ <= max_misplacement_px_ &&
          moved_m * nearest_inverse_m_ <= max_zoom_;
 }

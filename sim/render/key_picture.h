@@ -34,9 +34,9 @@ struct KeySpec {
     v("supersampling", supersampling, 1, 4,
       "Pixels drawn for each of the camera's, across and down; their mean is what the camera's "
       "pixel collects.");
-    v("margin_px", margin_px, 8, 256,
+    v("margin_px", margin_px, 16, 256,
       "How far a drawn picture reaches beyond the view on every side: so far the camera turns "
-      "before the next is drawn. 0 pixels would draw every picture.");
+      "before the next is drawn.");
     v("max_misplacement_px", max_misplacement_px, 0, 10,
       "How far the outline of something near may be from its place, because the camera has moved "
       "since the picture was drawn, before another is drawn. 0 draws every picture.");

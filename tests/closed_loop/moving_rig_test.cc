@@ -120,7 +120,7 @@ TEST_F(MovingRig, SeesThemTheBetterTheFinerTheRoomIsDrawn) {
 TEST_F(MovingRig, ANewPictureOfTheRoomMakesNoBurstOfEvents) {
   for (const Motion& motion : kMotions) {
     KeySpec narrow;
-    narrow.margin_px = 8;
+    narrow.margin_px = 16;
     const Seen anew = see(motion, every_picture()), seen = see(motion, narrow);
     int with_key = 0, expected = 0, keys = 0;
     for (std::size_t i = 0; i < seen.drew.size(); ++i) {

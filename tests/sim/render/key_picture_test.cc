@@ -334,6 +334,21 @@ TEST(KeyPicture, TheSkyIsInfinitelyFarAlsoBesideAWall) {
   EXPECT_NEAR(key.nearest_m({0, 0, 160, 120}), 1, 1e-6);
 }
 
+TEST(KeyPicture, SomethingNearThatIsNarrowerThanACellCountsWhereverItIs) {
+  for (int column = 60; column < 80; ++column) {
+    const double x_m = (column - small_view().cx()) / kFocalPx;  // 1 m away, 2 px wide
+    const AnalyticScene pole = [x_m](const Vector3d& p, const Vector3d& d) {
+      const bool hit = std::abs(p.x() + d.x() * (1 - p.z()) / d.z() - x_m) < 1 / kFocalPx;
+      return hit ? Seen{0.9, d.z() / (1 - p.z())} : Seen{0.1, 0.25};
+    };
+    KeyPicture key = key_of(pole, kAtOrigin);
+    shown(key, kAtOrigin);
+    EXPECT_NEAR(key.nearest_m({40, 50, 100, 52}), 1, 1e-6) << column;
+    EXPECT_NEAR(key.nearest_m({column, 50, column + 1, 52}), 1, 1e-6) << column;
+    EXPECT_NEAR(key.nearest_m({110, 50, 150, 52}), 4, 1e-6) << column;
+  }
+}
+
 TEST(KeyPicture, ANewOneReplacesTheOld) {
   const AnalyticScene near = plane({0, 0, 1}, 2, 0.3), far = sky_waves(12);
   KeyPicture key = key_of(near, kAtOrigin);

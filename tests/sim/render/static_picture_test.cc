@@ -182,7 +182,7 @@ const std::string kHidden =
     std::string(kWhiteLight) +
     "<worldbody><geom type='plane' size='9 9 1' pos='6 0 0' zaxis='-1 0 0' rgba='.4 .4 .4 1'/>"
     "<geom type='box' size='.1 .3 .5' pos='3 .4 0' rgba='.3 .3 .3 1'/>"
-    "<geom type='cylinder' size='.2 .6' pos='3 -.9 0' rgba='.6 .6 .6 1'/>" +
+    "<geom type='capsule' size='.2 .6' pos='3 -.9 0' rgba='.6 .6 .6 1'/>" +
     thrown(0, "<geom type='sphere' size='.25' rgba='.9 .9 .9 1'/>") +
     thrown(1, "<geom type='box' size='.2 .2 .2' rgba='.8 .8 .8 1'/>") + "</worldbody>";
 
@@ -192,10 +192,16 @@ TEST(ObjectsOverAStaticPicture, AreHiddenByWhatIsInFrontOfThem) {
   const Isometry3d X_WC = forward_camera();
   std::vector<float> inverse_depth;
   const Image still = scene.render_static(X_WC, inverse_depth);
-  // Wholly behind the box, behind the cylinder's middle, behind the wall.
-  objects[0].p_W = {4, 0.5, 0};
-  objects[1].p_W = {6.5, -0.3, 0};
-  EXPECT_EQ(scene.draw_objects(X_WC, scene.full(), true).luminance, still.luminance);
+  const auto hidden = [&](const Vector3d& ball, const Vector3d& box) {
+    objects[0].p_W = ball;
+    objects[1].p_W = box;
+    return scene.draw_objects(X_WC, scene.full(), true).luminance == still.luminance;
+  };
+  const Vector3d behind_the_wall = {6.5, -0.3, 0};
+  EXPECT_TRUE(hidden({5, -1.5, 0}, behind_the_wall));  // behind the capsule
+  EXPECT_TRUE(hidden({4, 0.5, 0}, behind_the_wall));   // behind the box
+  EXPECT_FALSE(hidden({4, -0.2, 0}, behind_the_wall));
+  EXPECT_TRUE(hidden({4, 0.5, 0}, behind_the_wall));
   const Image through = scene.draw_objects(X_WC, scene.full(), false);
   EXPECT_EQ(through.id_at(136, 120), 1);
   EXPECT_EQ(through.id_at(168, 120), 2);
@@ -206,7 +212,7 @@ TEST(ObjectsOverAStaticPicture, DifferFromTheWholePictureOnlyAtTheEdgeThatHidesT
   auto& objects = scene.snapshot().objects;
   const Isometry3d X_WC = forward_camera();
   objects[0].p_W = {4, 0.1, 0.1};      // half behind the box
-  objects[1].p_W = {4.5, -1.5, -0.2};  // half behind the cylinder
+  objects[1].p_W = {4.5, -1.5, -0.2};  // half behind the capsule
   const Image all = scene.render(X_WC), over = scene.draw_objects(X_WC, scene.full(), true);
   int differ = 0;
   for (int y = 0; y < 240; ++y) {
@@ -250,6 +256,21 @@ TEST(ObjectsOverAStaticPicture, TheNearerHidesTheFartherAndBlendsWithIt) {
         for (int x = 135; x < 185; ++x) ASSERT_GT(over.at(x, y), 0.699);  // no wall in between
       }
     }
+  }
+}
+
+// Its centre is nearer, its surface is not.
+TEST(ObjectsOverAStaticPicture, OneThatIsInsideAnotherIsHiddenByItAlsoWithoutIds) {
+  Scene scene(std::string(kWhiteLight) + "<worldbody>" +
+              thrown(0, "<geom type='sphere' size='.1' rgba='.9 .9 .9 1'/>") +
+              thrown(1, "<geom type='sphere' size='.6' rgba='.7 .7 .7 1'/>") + "</worldbody>");
+  scene.snapshot().objects[0].p_W = {2.9, 0, 0};
+  scene.snapshot().objects[1].p_W = {3, 0, 0};
+  for (const bool with_ids : {false, true}) {
+    Image image(scene.camera(), 0.1f);
+    scene.draw_objects(forward_camera(), scene.full(), false, image,
+                       with_ids ? image.id.data() : nullptr);
+    EXPECT_NEAR(image.at(160, 120), 0.7, 1e-6) << with_ids;
   }
 }
 
