@@ -115,12 +115,26 @@ std::vector<SamplingVariant> sampling_variants() {
     return changed("fast_interval_us " + std::to_string(us),
                    [us](SamplingVariant& v) { v.sampling.fast_interval_us = us; });
   };
+  const auto supersampling = [](std::int64_t n) {
+    return changed("supersampling " + std::to_string(n),
+                   [n](SamplingVariant& v) { v.keys.supersampling = n; });
+  };
   const auto misplacement = [](double px) {
     return changed("max_misplacement_px " + number("%g", px),
                    [px](SamplingVariant& v) { v.keys.max_misplacement_px = px; });
   };
   return {changed("defaults", [](SamplingVariant&) {}),
           changed("whole pictures", [](SamplingVariant& v) { v.whole_pictures = true; }),
+          supersampling(3),
+          supersampling(4),
+          changed("fine: 0.25 px, also when fast, supersampling 4",
+                  [](SamplingVariant& v) {
+                    v.sampling.max_displacement_px = v.sampling.fast_displacement_px = 0.25;
+                    v.sampling.min_interval_us = 60;
+                    v.keys.supersampling = 4;
+                  }),
+          changed("fast_displacement_px 0.5",
+                  [](SamplingVariant& v) { v.sampling.fast_displacement_px = 0.5; }),
           displacement(0.25),
           displacement(1),
           fast(250),
@@ -139,6 +153,7 @@ SamplingVariant sampling_reference() {
       static_cast<std::int64_t>(static_cast<double>(sampling.min_interval_us) / kFiner);
   sampling.min_rate_hz *= kFiner;
   reference.keys.max_misplacement_px = 0;
+  reference.keys.supersampling = 4;
   reference.keys.margin_px = 8;  // the least: no picture is used twice
   reference.whole_pictures = false;
   return reference;
