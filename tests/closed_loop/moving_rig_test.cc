@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/event_rig.h"
+#include "sim/world/room_ray.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/sim/events/moving_plane.h"
 
@@ -35,10 +36,9 @@ class MovingRig : public ::testing::Test {
     setup_.cameras = 1;
     setup_.packet_us = kTickUs;
     world_.reset(Vector3d(-2, 0.5, 2), 0.2, Vector3d::Zero());
-    BodyState ball;
-    ball.p_W = {0.3, 0.8, 2.1};
-    ball.v_W = {-5, 0, 1};
-    world_.launch(0, ball);
+    ball_.p_W = {0.3, 0.8, 2.1};
+    ball_.v_W = {-5, 0, 1};
+    world_.launch(0, ball_);
   }
 
   Snapshot at(const Motion& motion, TimeUs t_us) const {
@@ -53,14 +53,15 @@ class MovingRig : public ::testing::Test {
     return s;
   }
 
-  // A picture at the end of every tick at least.
-  Seen see(const Motion& motion, const KeySpec& keys, TimeUs end_us = 40000) {
+  // A whole picture at least every period_us.
+  Seen see(const Motion& motion, const KeySpec& keys, TimeUs end_us = 40000,
+           TimeUs period_us = kTickUs) {
     setup_.keys = keys;
     EventRig rig(world_, setup_);
     rig.start();
     Seen seen;
     for (TimeUs t = 0; t < end_us; t += kTickUs) {
-      rig.require(t + kTickUs);
+      if (t % period_us == 0) rig.require(t + period_us);
       const std::int64_t keys_before = rig.keys();
       const std::size_t events_before = seen.events.size();
       rig.advance(at(motion, t), at(motion, t + kTickUs), [&](int, const Packet& packet) {
@@ -77,6 +78,7 @@ class MovingRig : public ::testing::Test {
 
   World world_;
   EventRigSetup setup_;
+  BodyState ball_;
 };
 
 KeySpec every_picture() {
@@ -132,6 +134,40 @@ TEST_F(MovingRig, ANewPictureOfTheRoomMakesNoBurstOfEvents) {
     ASSERT_GE(keys, 6);
     EXPECT_LT(with_key, 1.2 * expected);
   }
+}
+
+const Motion kStill = {Vector3d::Zero(), Vector3d::Zero()};
+
+// Sampled so densely that it does not matter which instants they are.
+TEST_F(MovingRig, AtRestSeesTheBallByItsRegionsAsByWholePictures) {
+  setup_.sampling.max_displacement_px /= 8;
+  setup_.sampling.fast_displacement_px /= 8;
+  setup_.sampling.fast_interval_us = 1;
+  setup_.sampling.min_interval_us = 50;
+  const Seen by_region = see(kStill, KeySpec(), 100000, 4000);
+  const Seen by_picture = see(kStill, KeySpec(), 100000);
+  EXPECT_GT(by_region.regions, 150);
+  EXPECT_EQ(by_region.keys, 1);
+  ASSERT_GT(by_picture.events.size(), 1000u);
+  const auto difference = compare(by_region.events, by_picture.events);
+  EXPECT_LT(std::abs(difference.count), 0.005);
+  EXPECT_LT(difference.median_us, 10);
+  EXPECT_GT(difference.matched, 0.85);
+}
+
+TEST_F(MovingRig, SeesABallInFrontOfAWallAndNoneBehindIt) {
+  const Eigen::Isometry3d X_WC = world_.snapshot().vehicle.pose() * world_.vehicle().X_BC[0];
+  const Vector3d along = X_WC.linear().col(2);
+  const auto wall = room_along(world_, X_WC.translation(), along);
+  ASSERT_TRUE(wall);
+  const auto events_at = [&](double distance_m) {
+    ball_.p_W = X_WC.translation() + distance_m * along;
+    ball_.v_W = {0, 2, 0};
+    world_.launch(0, ball_);
+    return see(kStill, KeySpec(), 40000, 4000).events.size();
+  };
+  EXPECT_GT(events_at(wall->distance - 0.3), 20u);
+  EXPECT_EQ(events_at(wall->distance + 0.3), 0u);
 }
 
 }  // namespace
