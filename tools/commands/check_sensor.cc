@@ -11,6 +11,7 @@
 #include "sim/check/report.h"
 #include "sim/check/sampling_study.h"
 #include "sim/check/self_tests.h"
+#include "sim/check/time_statistics.h"
 #include "sim/config/event_camera_file.h"
 #include "sim/files/output_file.h"
 #include "tools/commands/command.h"
@@ -27,6 +28,9 @@ of a hundred other seeds, some fail by chance.
 Examples:
   dodgesim check-sensor
   dodgesim check-sensor --camera ideal --out out/check     with out/check/report.html)";
+
+// Of scenarios/demo.yaml, for the time statistics: a ball of 30 cm at 6 m/s.
+constexpr int kThrow = 1;
 
 struct Arguments {
   std::string camera = "sees1";
@@ -66,7 +70,15 @@ int check_sensor(const Arguments& arguments, const std::string& command_line) {
   if (!arguments.out.empty()) report.emplace(prepared(arguments.out));
   std::vector<Check> checks;
   bool failed = false;
-  for (const auto& make_check : sensor_checks(camera, arguments.seed)) {
+  auto make_checks = sensor_checks(camera, arguments.seed);
+  if (report) {
+    make_checks.push_back([&] {
+      Scenario scenario = load_scenario(DODGESIM_SCENARIOS_DIR "/demo.yaml", arguments.models_dir);
+      scenario.sensors.events = camera;
+      return judge(measure_time_statistics(scenario, kThrow));
+    });
+  }
+  for (const auto& make_check : make_checks) {
     checks.push_back(make_check());
     failed = failed || checks.back().failed();
     for (const CheckLine& line : checks.back().lines) std::cout << line_text(line) << std::endl;
@@ -90,7 +102,11 @@ void add_check_sensor_command(CLI::App& program, const std::string& command_line
                    "sees1, ideal, noisy, low_light or a YAML file with the keys of sensors.events")
       ->capture_default_str()
       ->type_name("CAMERA");
-  command->add_option("--out", arguments->out, "Write a report with plots there; made when missing")
+  command
+      ->add_option(
+          "--out", arguments->out,
+          "Write a report with plots there, made when missing. Then also flies a throw of\n"
+          "scenarios/demo.yaml, for the time statistics of static and dynamic regions")
       ->type_name("DIR");
   command->add_option("--seed", arguments->seed, "Of the camera and of the scenes")
       ->check(CLI::NonNegativeNumber)
