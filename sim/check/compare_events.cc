@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/check/quantile.h"
+
 namespace dodgesim {
 
 namespace {
@@ -49,13 +51,6 @@ void pair_up(std::span<const Event> a, std::span<const Event> b, std::vector<dou
   }
 }
 
-double percentile(std::vector<double>& values, double share) {
-  if (values.empty()) return NAN;
-  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + place, values.end());
-  return values[static_cast<std::size_t>(place)];
-}
-
 }  // namespace
 
 EventDifference compare(std::span<const Event> events, std::span<const Event> reference) {
@@ -73,8 +68,8 @@ EventDifference compare(std::span<const Event> events, std::span<const Event> re
   difference.reference_events = static_cast<double>(reference.size());
   difference.count_ratio = difference.events / difference.reference_events;
   difference.matched = static_cast<double>(apart_us.size()) / difference.reference_events;
-  difference.median_us = percentile(apart_us, 0.5);
-  difference.percentile_90_us = percentile(apart_us, 0.9);
+  difference.median_us = quantile(apart_us, 0.5);
+  difference.percentile_90_us = quantile(apart_us, 0.9);
   return difference;
 }
 

@@ -49,10 +49,10 @@ std::vector<bool> answers(EventCamera& camera, const EventCameraSpec& spec,
   std::vector<TimeUs> times = regular_times(kAnswerPictureUs, kSteps * kAnswerUs - 1);
   for (TimeUs& t_us : times) t_us += begin_us;
   std::vector<bool> answered(static_cast<std::size_t>(kWidth) * kHeight);
-  const Recording recording = record_on(camera, steps, times);
-  for (std::size_t i = 0; i < recording.events.size(); ++i) {
-    const Event& event = recording.events[i];
-    if (recording.causes[i] != kCauseScene) continue;
+  const FilmedEvents filmed = record_on(camera, steps, times);
+  for (std::size_t i = 0; i < filmed.events.size(); ++i) {
+    const Event& event = filmed.events[i];
+    if (filmed.causes[i] != kCauseScene) continue;
     answered[static_cast<std::size_t>(event.y * kWidth + event.x)] = true;
   }
   return answered;

@@ -65,7 +65,7 @@ std::vector<TimeUs> regular_times(TimeUs step_us, TimeUs end_us) {
   return times;
 }
 
-Recording record(EventCamera& camera, const Scene& scene, std::span<const TimeUs> times) {
+FilmedEvents record(EventCamera& camera, const Scene& scene, std::span<const TimeUs> times) {
   const auto pixels =
       static_cast<std::size_t>(camera.width()) * static_cast<std::size_t>(camera.height());
   std::vector<float> luminance(pixels);
@@ -75,18 +75,18 @@ Recording record(EventCamera& camera, const Scene& scene, std::span<const TimeUs
   return record_on(camera, scene, times.subspan(1));
 }
 
-Recording record_on(EventCamera& camera, const Scene& scene, std::span<const TimeUs> times) {
+FilmedEvents record_on(EventCamera& camera, const Scene& scene, std::span<const TimeUs> times) {
   const auto pixels =
       static_cast<std::size_t>(camera.width()) * static_cast<std::size_t>(camera.height());
   std::vector<float> luminance(pixels);
   const std::vector<Cause> cause(pixels, kCauseScene);
-  Recording recording;
+  FilmedEvents filmed;
   for (const TimeUs t_us : times) {
     scene(t_us, luminance);
-    camera.update(t_us, {luminance.data(), cause.data()}, recording.events);
-    recording.causes.insert(recording.causes.end(), camera.causes().begin(), camera.causes().end());
+    camera.update(t_us, {luminance.data(), cause.data()}, filmed.events);
+    filmed.causes.insert(filmed.causes.end(), camera.causes().begin(), camera.causes().end());
   }
-  return recording;
+  return filmed;
 }
 
 EventCameraSpec without_noise(EventCameraSpec spec) {

@@ -35,17 +35,17 @@ class DriftingTexture {
 // Instants step_us apart from 0 to end_us, both included.
 std::vector<TimeUs> regular_times(TimeUs step_us, TimeUs end_us);
 
-struct Recording {
+struct FilmedEvents {
   std::vector<Event> events;
   std::vector<Cause> causes;  // one an event
 };
 
 // Shows the scene at the given instants, the first of which sets the references. The camera must
 // have been made with keep_causes.
-Recording record(EventCamera& camera, const Scene& scene, std::span<const TimeUs> times);
+FilmedEvents record(EventCamera& camera, const Scene& scene, std::span<const TimeUs> times);
 
 // The same from where the last film has ended.
-Recording record_on(EventCamera& camera, const Scene& scene, std::span<const TimeUs> times);
+FilmedEvents record_on(EventCamera& camera, const Scene& scene, std::span<const TimeUs> times);
 
 // The camera's pixels alone: without leak and noise, and without the readout's jitter, limit and
 // clock. What is left is a function of the light.

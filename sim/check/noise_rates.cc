@@ -56,11 +56,11 @@ NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, dou
   found.per_pixel.resize(static_cast<std::size_t>(kPixels));
   EventCamera camera(spec, kWidth, kHeight, seed, 0, "check", true);
   const double luminance = lux / spec.illuminance_lux;
-  const Recording recording = record(camera, even_scene([=](TimeUs) { return luminance; }),
+  const FilmedEvents filmed = record(camera, even_scene([=](TimeUs) { return luminance; }),
                                      regular_times(kPictureEveryUs, end_us + spec.latency_us));
-  for (std::size_t i = 0; i < recording.events.size(); ++i) {
-    const Event& event = recording.events[i];
-    if (recording.causes[i] != cause) {
+  for (std::size_t i = 0; i < filmed.events.size(); ++i) {
+    const Event& event = filmed.events[i];
+    if (filmed.causes[i] != cause) {
       ++found.other;
       continue;
     }

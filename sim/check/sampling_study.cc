@@ -7,13 +7,13 @@
 #include "sim/check/compare_events.h"
 #include "sim/check/film.h"
 #include "sim/check/prescribed_throw.h"
+#include "sim/check/quantile.h"
 #include "sim/flight.h"
 
 namespace dodgesim {
 
 namespace {
 
-constexpr TimeUs kFilmUs = 30000;
 constexpr double kFiner = 8;
 constexpr double kLeastEvents = 300;  // of a throw, to be judged by itself
 constexpr double kCountLimit = 0.01;
@@ -41,9 +41,9 @@ Film film(const World& world, const PrescribedThrow& toss, const SamplingVariant
   setup.whole_pictures = variant.whole_pictures;
   EventRig rig(world, setup);
   rig.start();
-  rig.require(kFilmUs);
+  rig.require(options.film_us);
   Film film;
-  for (TimeUs t_us = 0; t_us < kFilmUs; t_us += kTickUs) {
+  for (TimeUs t_us = 0; t_us < options.film_us; t_us += kTickUs) {
     rig.advance(toss.at(t_us), toss.at(t_us + kTickUs), [&](int, const Packet& packet) {
       for (std::size_t i = 0; i < packet.events.size(); ++i) {
         (packet.causes[i] == kCauseScene ? film.scene : film.object).push_back(packet.events[i]);
@@ -55,13 +55,6 @@ Film film(const World& world, const PrescribedThrow& toss, const SamplingVariant
   film.keys = static_cast<double>(rig.keys());
   film.wall_s = rig.render_s() + rig.emulate_s();
   return film;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return NAN;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Adds up the throws of one variant.
@@ -78,7 +71,7 @@ class Accuracy {
 
   SamplingAccuracy result() const {
     SamplingAccuracy accuracy = sum_;
-    accuracy.median_us = median(medians_us_);
+    accuracy.median_us = quantile(medians_us_, 0.5);
     for (const double median_us : medians_us_) {
       accuracy.worst_median_us = std::max(accuracy.worst_median_us, median_us);
     }
@@ -155,7 +148,6 @@ SamplingVariant sampling_reference() {
   reference.keys.max_misplacement_px = 0;
   reference.keys.supersampling = 4;
   reference.keys.margin_px = 8;  // the least: no picture is used twice
-  reference.whole_pictures = false;
   return reference;
 }
 
@@ -164,6 +156,7 @@ std::vector<SamplingResult> study_sampling(const SamplingOptions& options,
                                            const std::function<void(int)>& report) {
   std::vector<SamplingResult> results(variants.size());
   std::vector<Accuracy> object(variants.size()), scene(variants.size());
+  std::vector<double> wall_s(variants.size());
   for (int k = 0; k < options.throws; ++k) {
     // The camera's place is the vehicle's, whatever is thrown.
     const World bare({options.models_dir, kRoom, kVehicle, {}});
@@ -180,7 +173,7 @@ std::vector<SamplingResult> study_sampling(const SamplingOptions& options,
       result.pictures += found.pictures / options.throws;
       result.regions += found.regions / options.throws;
       result.keys += found.keys / options.throws;
-      result.simulated_per_s += found.wall_s;  // for now
+      wall_s[i] += found.wall_s;
     }
     report(k + 1);
   }
@@ -188,7 +181,7 @@ std::vector<SamplingResult> study_sampling(const SamplingOptions& options,
     results[i].variant = variants[i].name;
     results[i].object = object[i].result();
     results[i].scene = scene[i].result();
-    results[i].simulated_per_s = options.throws * seconds(kFilmUs) / results[i].simulated_per_s;
+    results[i].simulated_per_s = options.throws * seconds(options.film_us) / wall_s[i];
   }
   return results;
 }

@@ -24,20 +24,21 @@ struct SamplingVariant {
 // The defaults, the same with whole pictures, and the defaults with one parameter changed.
 std::vector<SamplingVariant> sampling_variants();
 
-// Eight times finer, every picture drawn anew.
+// Eight times finer, every picture drawn anew and as finely as can be.
 SamplingVariant sampling_reference();
 
 struct SamplingOptions {
   std::string models_dir;
   int throws = 50;
   std::uint64_t seed = 1;
-  EventCameraSpec camera;  // without noise
+  EventCameraSpec camera;  // its noise is left out
+  TimeUs film_us = 30000;  // of each throw; whole ticks
 };
 
 // Events of an object or of the static scene, over all throws.
 struct SamplingAccuracy {
   double events = 0, reference_events = 0;
-  double worst_count = 0;      // the largest |ratio - 1| of a throw with kLeastEvents and more
+  double worst_count = 0;      // the largest |ratio - 1| of a throw with 300 events and more
   double median_us = 0;        // median over such throws of the median stamp difference
   double worst_median_us = 0;  // the largest of them
   double count_ratio() const { return events / reference_events; }

@@ -6,6 +6,7 @@
 
 #include "sim/base/random.h"
 #include "sim/check/film.h"
+#include "sim/check/quantile.h"
 
 namespace dodgesim {
 
@@ -35,14 +36,6 @@ double response(const EventCameraSpec& spec, double luminance) {
 double step_of(const EventCameraSpec& spec, double lux) {
   const double before = lux / spec.illuminance_lux;
   return response(spec, kStep * before) - response(spec, before);
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return NAN;
-  const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(place),
-                   values.end());
-  return values[place];
 }
 
 double spread(const std::vector<double>& values) {
