@@ -136,8 +136,8 @@ TEST_F(DodgesimTest, FliesACampaignAndReplaysAThrowOfIt) {
 
 TEST_F(DodgesimTest, WritesTheTruthAboutEvents) {
   const std::string scenario = file(
-      "fly_oracle: false\nafter_s: 0.05\n"
-      "throw: {distance_m: 1.5, speed_mps: 6, size_m: 0.2, launch_s: 0.05}\n");
+      "fly_oracle: false\nafter_s: 0.1\n"
+      "throw: {distance_m: 1.5, speed_mps: 6, size_m: 0.2, launch_s: 0.1}\n");
   const std::string out = (root_ / "out").string();
   const Outcome run = dodgesim("run " + scenario + " --out " + out + " --throws 1 --truth");
   ASSERT_EQ(run.exit_code, 0) << run.output;
