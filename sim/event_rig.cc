@@ -90,7 +90,7 @@ EventRig::EventRig(const World& world, const EventRigSetup& setup)
 EventRig::~EventRig() = default;
 
 void EventRig::draw_key(Eye& eye, const Eigen::Isometry3d& X_WC) {
-  renderer_.render_static(eye.key.intrinsics(), X_WC, key_luminance_.data(),
+  renderer_.render_static(eye.key.intrinsics(), X_WC, eye.key.lod_bias(), key_luminance_.data(),
                           key_inverse_depth_.data());
   eye.key.set(X_WC, key_luminance_, key_inverse_depth_);
   ++keys_;

@@ -74,7 +74,7 @@ class View {
   }
 
   void draw_key(const Eigen::Isometry3d& X_WC) {
-    renderer_.render_static(key_.intrinsics(), X_WC, key_luminance_.data(),
+    renderer_.render_static(key_.intrinsics(), X_WC, key_.lod_bias(), key_luminance_.data(),
                             key_inverse_depth_.data());
     key_.set(X_WC, key_luminance_, key_inverse_depth_);
   }

@@ -80,7 +80,8 @@ void EventCameraSpec::visit(Visitor& v) {
   v("refractory_us", refractory_us, 0, 1000000,
     "Time a pixel is held in reset after an event (most simulators: 100 us, v2e: 500 us).");
   v("leak_hz", leak_hz, 0, 1000,
-    "Mean rate of ON events of a pixel at rest, due to the leak of its reference (v2e: 0.1).");
+    "Mean rate of ON events of a pixel at rest, due to the leak of its reference (v2e: 0.1). Any "
+    "other event of the pixel, of noise too, starts its leak anew, so with shot noise fewer come.");
   v("shot_noise_on_hz", shot_noise_on_hz, 0, 1000,
     "Rate of ON events of every pixel in the dark, due to shot noise (measured on a DVXplorer).");
   v("shot_noise_off_hz", shot_noise_off_hz, 0, 1000,

@@ -63,6 +63,7 @@ GlProgram locate(GLuint name) {
   const auto at = [name](const char* uniform) { return glGetUniformLocation(name, uniform); };
   GlProgram p;
   p.name = name;
+  p.lod_bias = at("u_lod_bias");
   p.camera = at("u_camera");
   p.clip_from_G = at("u_clip_from_G");
   p.X_WG = at("u_X_WG");

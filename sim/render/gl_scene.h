@@ -20,6 +20,7 @@ struct DepthRange {
 
 struct GlProgram {
   unsigned name = 0;
+  int lod_bias;
   int camera;                                // f, cx, cy [px]: primitives and sky
   int clip_from_G, X_WG, texture_shift, id;  // triangles (and primitives)
   int rectangle, R_GC, eye_G, size, texture_scale, texture_offset, albedo_emission, margin;

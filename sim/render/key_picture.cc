@@ -10,8 +10,12 @@ namespace dodgesim {
 
 namespace {
 
-// Rounding of poses; what has moved less has not moved.
-constexpr double kSamePlaceM = 1e-9;
+// Rounding of poses.
+constexpr double kSamePose = 1e-9;
+
+// Where the view's pixels fall between means decides how sharp they are. With this share of the
+// view's focal length they fall everywhere, at every pose: no view is sharper than the others.
+constexpr double kFocalShare = 0.99;
 
 // Nodes this near the border of the key count as outside [px].
 constexpr float kBorderPx = 0.01f;
@@ -21,6 +25,20 @@ int cells_of(int pixels) { return (pixels + kKeyCellPx - 1) / kKeyCellPx; }
 // The cells that hold a region's pixels.
 Rect cells_about(const Rect& region) {
   return {region.x0 / kKeyCellPx, region.y0 / kKeyCellPx, cells_of(region.x1), cells_of(region.y1)};
+}
+
+// Straight lines between means take from a wave, on the average over all places between them, what
+// this gives it first (the series of 1/sinc^2). Next to an edge it would go too far below the dark
+// side, of which the logarithm makes much; so it stops at this share of its neighbours.
+constexpr float kSharpening = 1.0f / 12;
+constexpr float kDarkest = 0.95f;
+
+inline float smaller(float a, float b) { return a < b ? a : b; }
+inline float larger(float a, float b) { return a > b ? a : b; }
+
+inline float sharpened(float before, float here, float after) {
+  const float sharp = here + kSharpening * (2 * here - before - after);
+  return larger(sharp, kDarkest * smaller(here, smaller(before, after)));
 }
 
 std::size_t area(const Intrinsics& picture) {
@@ -39,15 +57,18 @@ Eigen::Matrix3d directions(const Intrinsics& view, const Eigen::Matrix3d& R_KC) 
 KeyPicture::KeyPicture(const Intrinsics& view, const KeySpec& spec)
     : view_(view),
       supersampling_(static_cast<int>(spec.supersampling)),
+      every_picture_(spec.max_misplacement_px <= 0),
       max_misplacement_px_(spec.max_misplacement_px),
       max_zoom_(spec.max_zoom),
       columns_(cells_of(view.width) + 1) {
   const int margin = static_cast<int>(spec.margin_px);
-  wide_ = {view.width + 2 * margin, view.height + 2 * margin, view.f};
-  fine_ = {supersampling_ * wide_.width, supersampling_ * wide_.height, supersampling_ * view.f};
+  const double f = every_picture_ ? view.f : kFocalShare * view.f;
+  wide_ = {view.width + 2 * margin, view.height + 2 * margin, f};
+  fine_ = {supersampling_ * wide_.width, supersampling_ * wide_.height, supersampling_ * f};
   means_.resize(area(fine_) + 1);
   column_sums_.resize(static_cast<std::size_t>(fine_.width));
-  row_means_.resize(static_cast<std::size_t>(fine_.width));
+  sharp_row_.resize(column_sums_.size());
+  for (auto& row : mean_rows_) row.resize(column_sums_.size());
   inverse_depth_.resize(area(wide_));
   tile_columns_ = cells_of(wide_.width);
   tile_largest_.resize(static_cast<std::size_t>(tile_columns_) *
@@ -68,36 +89,71 @@ void KeyPicture::set(const Eigen::Isometry3d& X_WC, const std::vector<float>& lu
   is_set_ = true;
 }
 
-// means_ at (i, j) is of the pixels from (i, j) to (i + n - 1, j + n - 1), for supersampling n.
+// Means over n x n pixels for supersampling n, n - 1 fewer across and down. The mean that begins at
+// pixel (i, j) is number (i, j).
 void KeyPicture::set_aperture_means(const std::vector<float>& luminance) {
-  const int n = supersampling_;
-  const int width = fine_.width;
-  const float share = 1.0f / static_cast<float>(n * n);
-  for (int j = 0; j + n <= fine_.height; ++j) {
-    const float* const top = luminance.data() + std::ptrdiff_t{j} * width;
-    float* const __restrict sums = column_sums_.data();
-    std::copy_n(top, width, sums);
-    for (int k = 1; k < n; ++k) {
-      const float* const row = top + std::ptrdiff_t{k} * width;
-      for (int i = 0; i < width; ++i) sums[i] += row[i];
-    }
-    float* const __restrict means = row_means_.data();
-    for (int i = 0; i + n <= width; ++i) means[i] = sums[i];
-    for (int k = 1; k < n; ++k) {
-      for (int i = 0; i + n <= width; ++i) means[i] += sums[i + k];
-    }
-    for (int i = 0; i + n <= width; ++i) means[i] *= share;
-    key_kernels().halve(means, width - n + 1, means_.data() + std::ptrdiff_t{j} * width);
+  const int rows = fine_.height - supersampling_ + 1;
+  // Sharpening looks at the rows above and below.
+  for (int j = 0; j < rows; ++j) {
+    take_means(luminance, j, mean_rows_[static_cast<std::size_t>(j % kMeanRows)]);
+    if (j == 1) put_means(0, 0, 0, 1);
+    if (j > 1) put_means(j - 1, j - 2, j - 1, j);
   }
+  put_means(rows - 1, std::max(rows - 2, 0), rows - 1, rows - 1);
 }
 
+void KeyPicture::take_means(const std::vector<float>& luminance, int j, std::vector<float>& means) {
+  const int n = supersampling_;
+  const int width = fine_.width;
+  const float* const top = luminance.data() + std::ptrdiff_t{j} * width;
+  float* const __restrict sums = column_sums_.data();
+  std::copy_n(top, width, sums);
+  for (int k = 1; k < n; ++k) {
+    const float* const row = top + std::ptrdiff_t{k} * width;
+    for (int i = 0; i < width; ++i) sums[i] += row[i];
+  }
+  float* const __restrict out = means.data();
+  for (int i = 0; i + n <= width; ++i) out[i] = sums[i];
+  for (int k = 1; k < n; ++k) {
+    for (int i = 0; i + n <= width; ++i) out[i] += sums[i + k];
+  }
+  const float share = 1.0f / static_cast<float>(n * n);
+  for (int i = 0; i + n <= width; ++i) out[i] *= share;
+}
+
+// Row j of means_, from the rows above it, of it and below it.
+void KeyPicture::put_means(int j, int above, int at, int below) {
+  const auto row = [this](int k) {
+    return mean_rows_[static_cast<std::size_t>(k % kMeanRows)].data();
+  };
+  const int size = fine_.width - supersampling_ + 1;
+  float* const __restrict across = column_sums_.data();
+  const float* const a = row(above);
+  const float* const b = row(at);
+  const float* const c = row(below);
+  if (every_picture_) {  // read at the means themselves
+    key_kernels().halve(b, size, means_.data() + std::ptrdiff_t{j} * fine_.width);
+    return;
+  }
+  for (int i = 0; i < size; ++i) across[i] = sharpened(a[i], b[i], c[i]);
+  float* const __restrict out = sharp_row_.data();
+  for (int i = 1; i + 1 < size; ++i) out[i] = sharpened(across[i - 1], across[i], across[i + 1]);
+  out[0] = across[0];
+  out[size - 1] = across[size - 1];
+  key_kernels().halve(out, size, means_.data() + std::ptrdiff_t{j} * fine_.width);
+}
+
+// Of the pixels of a fine block the nearest counts, so that nothing thin is lost.
 void KeyPicture::set_depth(const std::vector<float>& inverse_depth) {
   const int n = supersampling_;
   for (int j = 0; j < wide_.height; ++j) {
-    const float* const in =
-        inverse_depth.data() + std::ptrdiff_t{j * n + n / 2} * fine_.width + n / 2;
     float* const __restrict out = inverse_depth_.data() + std::ptrdiff_t{j} * wide_.width;
-    for (int i = 0; i < wide_.width; ++i) out[i] = in[std::ptrdiff_t{i} * n];
+    std::fill_n(out, wide_.width, 0.0f);
+    for (int k = 0; k < n * n; ++k) {
+      const float* const in =
+          inverse_depth.data() + std::ptrdiff_t{j * n + k / n} * fine_.width + k % n;
+      for (int i = 0; i < wide_.width; ++i) out[i] = larger(out[i], in[std::ptrdiff_t{i} * n]);
+    }
   }
   nearest_inverse_m_ = 0;
   misplacement_px_per_m_ = 0;
@@ -107,7 +163,8 @@ void KeyPicture::set_depth(const std::vector<float>& inverse_depth) {
 }
 
 // Of the tile whose first pixel is (x0, y0): its largest inverse depth, and how far it is from what
-// its corners say.
+// its corners say. The view's cells lie anywhere between the tiles: a step in the middle of a tile
+// counts half there, and may count whole in a cell.
 void KeyPicture::set_tile(int x0, int y0) {
   const int x1 = std::min(x0 + kKeyCellPx, wide_.width - 1);
   const int y1 = std::min(y0 + kKeyCellPx, wide_.height - 1);
@@ -130,15 +187,18 @@ void KeyPicture::set_tile(int x0, int y0) {
   tile_largest_[static_cast<std::size_t>(y0 / kKeyCellPx * tile_columns_ + x0 / kKeyCellPx)] =
       largest;
   nearest_inverse_m_ = std::max(nearest_inverse_m_, static_cast<double>(largest));
-  const Eigen::Vector2d ray((x0 - wide_.cx()) / wide_.f, (y0 - wide_.cy()) / wide_.f);
+  // Of the corner that is farthest from the axis.
+  const Eigen::Vector2d ray(
+      std::max(std::abs(x0 - wide_.cx()), std::abs(x1 - wide_.cx())) / wide_.f,
+      std::max(std::abs(y0 - wide_.cy()), std::abs(y1 - wide_.cy())) / wide_.f);
   misplacement_px_per_m_ =
-      std::max(misplacement_px_per_m_, wide_.f * std::sqrt(1 + ray.squaredNorm()) * error);
+      std::max(misplacement_px_per_m_, 2 * wide_.f * std::sqrt(1 + ray.squaredNorm()) * error);
 }
 
 // Whether the camera is still so near that what it drew will do.
 bool KeyPicture::near_enough() const {
   const double moved_m = X_KC_.translation().norm();
-  if (moved_m < kSamePlaceM) return true;
+  if (every_picture_) return X_KC_.isApprox(Eigen::Isometry3d::Identity(), kSamePose);
   return moved_m * misplacement_px_per_m_ <= max_misplacement_px_ &&
          moved_m * nearest_inverse_m_ <= max_zoom_;
 }

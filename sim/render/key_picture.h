@@ -15,6 +15,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -26,7 +27,7 @@ namespace dodgesim {
 struct KeySpec {
   std::int64_t supersampling = 2;
   std::int64_t margin_px = 32;
-  double max_misplacement_px = 1;
+  double max_misplacement_px = 2;
   double max_zoom = 0.1;
 
   template <class Visitor>
@@ -52,6 +53,8 @@ class KeyPicture {
 
   // Of the picture to draw: finer and wider than the view, with the same optical axis.
   const Intrinsics& intrinsics() const { return fine_; }
+  // How sharply to read its textures: the mean over an aperture smooths them enough.
+  double lod_bias() const { return supersampling_ > 1 ? -1 : 0; }
 
   // The picture from X_WC, row-major from the top-left pixel of intrinsics(): linear luminance
   // (at most 65504) and inverse depth 1/z_C [1/m], 0 for the sky.
@@ -69,6 +72,8 @@ class KeyPicture {
 
  private:
   void set_aperture_means(const std::vector<float>& luminance);
+  void take_means(const std::vector<float>& luminance, int j, std::vector<float>& means);
+  void put_means(int j, int above, int at, int below);
   void set_depth(const std::vector<float>& inverse_depth);
   void set_tile(int x0, int y0);
   bool near_enough() const;
@@ -79,9 +84,13 @@ class KeyPicture {
 
   Intrinsics view_, fine_, wide_;  // wide_: the view with its margin, no finer
   int supersampling_;
+  bool every_picture_;  // is drawn
   double max_misplacement_px_, max_zoom_;
 
-  std::vector<float> column_sums_, row_means_;  // while means are taken
+  // While means are taken.
+  static constexpr int kMeanRows = 3;
+  std::array<std::vector<float>, kMeanRows> mean_rows_;
+  std::vector<float> column_sums_, sharp_row_;
 
   bool is_set_ = false;
   Eigen::Isometry3d X_KW_ = Eigen::Isometry3d::Identity();  // K: the camera when it was drawn

@@ -63,8 +63,8 @@ class LuminanceRenderer::Impl {
        const RenderSpec& spec);
   void render(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
               float* luminance, std::int32_t* object_id);
-  void render_static(const Intrinsics& intrinsics, const Eigen::Isometry3d& X_WC, float* luminance,
-                     float* inverse_depth);
+  void render_static(const Intrinsics& intrinsics, const Eigen::Isometry3d& X_WC, double lod_bias,
+                     float* luminance, float* inverse_depth);
   void draw_objects(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
                     bool behind_static, float* luminance, std::int32_t* object_id);
   const OsmesaContext& context() const { return context_; }
@@ -151,9 +151,9 @@ void LuminanceRenderer::Impl::render(const Snapshot& snapshot, const Eigen::Isom
 }
 
 void LuminanceRenderer::Impl::render_static(const Intrinsics& intrinsics,
-                                            const Eigen::Isometry3d& X_WC, float* luminance,
-                                            float* inverse_depth) {
-  const Shot shot{intrinsics, X_WC, {0, 0, intrinsics.width, intrinsics.height}};
+                                            const Eigen::Isometry3d& X_WC, double lod_bias,
+                                            float* luminance, float* inverse_depth) {
+  const Shot shot{intrinsics, X_WC, {0, 0, intrinsics.width, intrinsics.height}, lod_bias};
   context_.make_current();
   Canvas& whole = canvas(intrinsics);
   draw_static_triangles(whole, shot, false);
@@ -231,8 +231,8 @@ void LuminanceRenderer::render(const Snapshot& snapshot, const Eigen::Isometry3d
 }
 
 void LuminanceRenderer::render_static(const Intrinsics& intrinsics, const Eigen::Isometry3d& X_WC,
-                                      float* luminance, float* inverse_depth) {
-  impl_->render_static(intrinsics, X_WC, luminance, inverse_depth);
+                                      double lod_bias, float* luminance, float* inverse_depth) {
+  impl_->render_static(intrinsics, X_WC, lod_bias, luminance, inverse_depth);
 }
 
 void LuminanceRenderer::draw_objects(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,

@@ -71,9 +71,11 @@ class LuminanceRenderer {
               float* luminance, std::int32_t* object_id);
 
   // The static scene alone with any intrinsics, whole: both buffers are as large as that image.
-  // inverse_depth: 1/z_C [1/m] of what is at the pixel's centre, 0 for the sky.
-  void render_static(const Intrinsics& intrinsics, const Eigen::Isometry3d& X_WC, float* luminance,
-                     float* inverse_depth);
+  // inverse_depth: 1/z_C [1/m] of what is at the pixel's centre, 0 for the sky. `lod_bias` is added
+  // to the level at which textures are read: 0, or -1 for a picture whose pixels are averaged
+  // after.
+  void render_static(const Intrinsics& intrinsics, const Eigen::Isometry3d& X_WC, double lod_bias,
+                     float* luminance, float* inverse_depth);
 
   // Draws the objects that are launched over a picture of the static scene. In `region` (clipped to
   // the image) of the buffers, which are as large as the image, `luminance` is read and written,

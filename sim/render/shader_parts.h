@@ -59,12 +59,13 @@ float lamp_light(vec3 p_W, vec3 n_W) { return 0.0; }
 )";
 
 inline constexpr const char* kTexel = R"(
+uniform float u_lod_bias;
 #if TEXTURE == 1
 uniform sampler2D u_texture;
-float texel(vec3 t) { return texture(u_texture, t.xy).r; }
+float texel(vec3 t) { return texture(u_texture, t.xy, u_lod_bias).r; }
 #elif TEXTURE == 2
 uniform samplerCube u_texture;
-float texel(vec3 t) { return texture(u_texture, t).r; }
+float texel(vec3 t) { return texture(u_texture, t, u_lod_bias).r; }
 #else
 float texel(vec3 t) { return 1.0; }
 #endif

@@ -10,7 +10,8 @@ namespace dodgesim {
 struct Shot {
   Intrinsics intrinsics;
   Eigen::Isometry3d X_WC;
-  Rect region;  // within the image
+  Rect region;          // within the image
+  double lod_bias = 0;  // added to the level of the mip-maps: -1 reads textures twice as sharply
 };
 
 }  // namespace dodgesim

@@ -85,6 +85,7 @@ void TrianglePainter::draw(const Shot& shot, const VertexBuffer& buffer, int tex
   set_matrix(program.X_WG, X_WG.matrix());
   set_vector(program.texture_shift, texture_shift);
   glUniform1i(program.id, id);
+  glUniform1f(program.lod_bias, static_cast<float>(shot.lod_bias));
   textures_.bind(texture);
   glBindVertexArray(buffer.array);
   glDrawArrays(GL_TRIANGLES, 0, buffer.count);
@@ -127,6 +128,7 @@ void TrianglePainter::draw_sky(const Shot& shot) {
   glUseProgram(sky_program_.name);
   set_camera(sky_program_, shot.intrinsics);
   set_matrix(sky_program_.R_WC, Eigen::Matrix3d(shot.X_WC.linear()));
+  glUniform1f(sky_program_.lod_bias, static_cast<float>(shot.lod_bias));
   textures_.bind(scene_.sky_texture);
   glBindVertexArray(no_vertices_);
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);

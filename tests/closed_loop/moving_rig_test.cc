@@ -99,10 +99,10 @@ TEST_F(MovingRig, SeesNearlyTheEventsOfARigThatDrawsTheRoomForEveryPicture) {
     EXPECT_LT(seen.keys, anew.keys / 10);
     ASSERT_GT(anew.events.size(), 50000u);
     const auto difference = compare(seen.events, anew.events);
-    // What is read between the pixels of the key is softer, which costs the finest texture events.
-    EXPECT_LT(std::abs(difference.count), 0.06);
+    // Which of two neighbours fires differs where the finest texture is read between the means.
+    EXPECT_LT(std::abs(difference.count), 0.02);
     EXPECT_LT(difference.median_us, 50);
-    EXPECT_GT(difference.matched, 0.55);
+    EXPECT_GT(difference.matched, 0.45);
   }
 }
 
@@ -114,7 +114,7 @@ TEST_F(MovingRig, SeesThemTheBetterTheFinerTheRoomIsDrawn) {
       compare(see(motion, fine, 20000).events, see(motion, fine_every, 20000).events);
   EXPECT_LT(std::abs(difference.count), 0.02);
   EXPECT_LT(difference.median_us, 15);
-  EXPECT_GT(difference.matched, 0.75);
+  EXPECT_GT(difference.matched, 0.7);
 }
 
 // Events in the ticks with a new key, against a rig that draws them all. The margin is small, so
@@ -123,6 +123,7 @@ TEST_F(MovingRig, ANewPictureOfTheRoomMakesNoBurstOfEvents) {
   for (const Motion& motion : kMotions) {
     KeySpec narrow;
     narrow.margin_px = 16;
+    narrow.max_misplacement_px = 1;
     const Seen anew = see(motion, every_picture()), seen = see(motion, narrow);
     int with_key = 0, expected = 0, keys = 0;
     for (std::size_t i = 0; i < seen.drew.size(); ++i) {
@@ -131,7 +132,7 @@ TEST_F(MovingRig, ANewPictureOfTheRoomMakesNoBurstOfEvents) {
       expected += anew.count[i];
       ++keys;
     }
-    ASSERT_GE(keys, 6);
+    ASSERT_GE(keys, 4);
     EXPECT_LT(with_key, 1.2 * expected);
   }
 }

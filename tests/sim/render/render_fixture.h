@@ -69,7 +69,7 @@ class Scene {
                       std::vector<float>& inverse_depth) {
     Image image(camera, -1.0f);
     inverse_depth.assign(image.luminance.size(), -1.0f);
-    renderer_->render_static(camera, X_WC, image.luminance.data(), inverse_depth.data());
+    renderer_->render_static(camera, X_WC, 0, image.luminance.data(), inverse_depth.data());
     return image;
   }
   // The objects over the picture of the static scene.

@@ -73,7 +73,7 @@ TEST(StaticPicture, HasTheDepthThatRaysFindInTheRoom) {
   for (const double yaw : {0.3, 2.0, 4.0}) {
     Isometry3d X_WC = forward_camera({-1, 0.5, 1.5});
     X_WC.linear() = Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix() * X_WC.linear();
-    renderer.render_static(camera, X_WC, image.luminance.data(), inverse_depth.data());
+    renderer.render_static(camera, X_WC, 0, image.luminance.data(), inverse_depth.data());
     for (int y = 3; y < camera.height; y += 7) {
       for (int x = 3; x < camera.width; x += 7) {
         const Vector3d ray_C((x - camera.cx()) / camera.f, (y - camera.cy()) / camera.f, 1);
