@@ -147,7 +147,7 @@ SamplingVariant sampling_reference() {
   sampling.min_rate_hz *= kFiner;
   reference.keys.max_misplacement_px = 0;
   reference.keys.supersampling = 4;
-  reference.keys.margin_px = 8;  // the least: no picture is used twice
+  reference.keys.margin_px = 16;  // the least: no picture is used twice
   return reference;
 }
 
