@@ -109,8 +109,11 @@ class FilteredSignal : public PixelSignal {
   }
 
   void set_bounds(std::size_t index, double low, double high) override {
-    low_[index] = static_cast<float>(low + kBoundMargin * (1 + std::abs(low)));
-    high_[index] = static_cast<float>(high - kBoundMargin * (1 + std::abs(high)));
+    // A dead pixel's bounds are infinite.
+    low_[index] =
+        static_cast<float>(std::isinf(low) ? low : low + kBoundMargin * (1 + std::abs(low)));
+    high_[index] =
+        static_cast<float>(std::isinf(high) ? high : high - kBoundMargin * (1 + std::abs(high)));
   }
 
   void set_held(std::size_t index) override {

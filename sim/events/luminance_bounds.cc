@@ -16,7 +16,8 @@ constexpr int kShift = 12;
 constexpr std::int32_t kMost = 65535;
 
 [[gnu::always_inline]] inline std::int32_t packed(float x) {
-  const std::int32_t octaves = (std::bit_cast<std::int32_t>(x) - kOrigin) >> kShift;
+  const float positive = x > 0 ? x : 0;  // what is not is refused later
+  const std::int32_t octaves = (std::bit_cast<std::int32_t>(positive) - kOrigin) >> kShift;
   const std::int32_t least = octaves < 0 ? 0 : octaves;
   return least > kMost ? kMost : least;
 }

@@ -63,6 +63,19 @@ template <class Number>
   return equal ? x2 * k2 : (k1 - k2) * x2 / (equal ? Number{1} : difference);
 }
 
+// What a unit of u's rise over the interval takes from z because y lags behind u:
+// (1 - k2 - passed_on)/x1, written so that small x1 and x2 cancel nothing.
+template <class Number>
+[[gnu::always_inline]] inline Number lagged(Number x1, Number m1, Number x2, Number m2, Number k2) {
+  constexpr auto kSmall = static_cast<Number>(0.05);  // below, a series
+  const Number difference = x2 - x1;
+  const Number apart = difference < 0 ? -difference : difference;
+  const bool equal = apart < static_cast<Number>(kEqualShare) * x2;
+  const Number series = x2 * (Number{1} / 2 - x2 * (Number{1} / 3 - x2 * (Number{1} / 8)));
+  const Number same = x2 < kSmall ? series : m2 - k2;
+  return equal ? same : x2 * (m1 - m2) / (equal ? Number{1} : difference);
+}
+
 struct Constants {
   float epsilon, linear_below, slope, knee;
   float rad_s, dark_rad_s, follower_rad_s;
@@ -102,7 +115,7 @@ template <int kOrder, bool kOwnTime>
         const Decay<float> second = decay(x2);
         const float g = passed_on(x1, first.k, x2, second.k);
         row.z1[i] = u1 + second.k * (z0 - u0) + g * (y0 - u0) -
-                    (second.m + (1 - second.k - g) / x1) * (u1 - u0);
+                    (second.m + lagged(x1, first.m, x2, second.m, second.k)) * (u1 - u0);
         least = z0 < least ? z0 : least;
         most = z0 > most ? z0 : most;
       }
@@ -166,7 +179,7 @@ Charge Photoreceptor::at(const Charge& before, double luminance, double u1, doub
       const Decay<double> second = decay(x2);
       const double g = passed_on(x1, first.k, x2, second.k);
       out.z = out.u + second.k * (before.z - before.u) + g * (before.y - before.u) -
-              (second.m + (1 - second.k - g) / x1) * change;
+              (second.m + lagged(x1, first.m, x2, second.m, second.k)) * change;
     }
   } else {
     out.z = out.y;

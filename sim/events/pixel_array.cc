@@ -295,7 +295,7 @@ double PixelArray::Line::at(double t_us) const {
 }
 
 double PixelArray::Line::time_of(double s) const {
-  return t0_us + (s - s0) * (t1_us - t0_us) / (s1 - s0);
+  return s1 != s0 ? t0_us + (s - s0) * (t1_us - t0_us) / (s1 - s0) : t0_us;
 }
 
 PixelState PixelArray::state(std::size_t index) const {

@@ -22,7 +22,7 @@ EventCameraSpec ideal() {
   return spec;
 }
 
-// Five times the noise of a good camera, and a tenth of its speed.
+// About ten times the shot noise of a good camera, and a tenth of its speed.
 EventCameraSpec noisy() {
   EventCameraSpec spec;
   spec.mismatch_sigma = 0.05;       // assumed

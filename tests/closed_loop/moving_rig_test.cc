@@ -123,7 +123,7 @@ TEST_F(MovingRig, ANewPictureOfTheRoomMakesNoBurstOfEvents) {
   for (const Motion& motion : kMotions) {
     KeySpec narrow;
     narrow.margin_px = 16;
-    narrow.max_misplacement_px = 1;
+    narrow.max_misplacement_px = 0.5;
     const Seen anew = see(motion, every_picture()), seen = see(motion, narrow);
     int with_key = 0, expected = 0, keys = 0;
     for (std::size_t i = 0; i < seen.drew.size(); ++i) {

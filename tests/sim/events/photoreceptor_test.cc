@@ -269,5 +269,36 @@ TEST(Photoreceptor, PiecesFollowTheCurveToWithinTheTolerance) {
   }
 }
 
+// In so short a time a slow pixel's output cannot move; differences of nearly equal numbers could.
+TEST(Photoreceptor, AnswersToNothingWithinAMicrosecondHoweverDarkItIs) {
+  for (const double dark_hz : {0.01, 0.1, 1.0, 999.0, 1000.0}) {
+    EventCameraSpec spec;
+    spec.follower_hz = 1000;
+    spec.photoreceptor_dark_hz = dark_hz;
+    const Photoreceptor photoreceptor(spec);
+    const auto before = static_cast<float>(photoreceptor.response().at(0.4));
+    const float black = 0;
+    float u1 = 0, y1 = 0, z1 = 0;
+    unsigned char may_fire = 0;
+    const float low = -100, high = 100;
+    photoreceptor.advance({.size = 1,
+                           .luminance = &black,
+                           .dt_s = nullptr,
+                           .same_dt_s = 1e-6f,
+                           .u = &before,
+                           .y = &before,
+                           .z = &before,
+                           .u1 = &u1,
+                           .y1 = &y1,
+                           .z1 = &z1,
+                           .low = &low,
+                           .high = &high,
+                           .leaked_before = 0,
+                           .leaked = 0,
+                           .may_fire = &may_fire});
+    EXPECT_NEAR(z1, before, 1e-3) << dark_hz;
+  }
+}
+
 }  // namespace
 }  // namespace dodgesim
