@@ -137,8 +137,11 @@ void Dodger::capture_images(Eye& eye) const {
   StageImages& images = eye.images;
   images.events.create(eye.time_image.count().size());
   images.events = 0;
+  images.window.clear();
   for (const std::span<const Event> piece : eye.events.until(end_us_)) {
     for (const Event& event : piece) {
+      images.window.push_back({event, compensated_pixel(eye.ego_motion, event, images.events.cols,
+                                                        images.events.rows)});
       if (event.x >= images.events.cols || event.y >= images.events.rows) continue;
       images.events(event.y, event.x) = event.polarity > 0 ? 2 : 1;
     }

@@ -30,6 +30,11 @@ struct StageTimes {
   double rest_us = 0;        // depth, tracking, avoidance
 };
 
+struct CompensatedEvent {
+  Event event;
+  int pixel = -1;  // where it is after compensation, y * width + x; -1: outside of the image
+};
+
 // What one camera's stages saw in the last update: panels B to F of the paper's Fig. 4.
 struct StageImages {
   cv::Mat1b events;          // B: not compensated; 0 none, 1 darker last, 2 brighter last
@@ -38,6 +43,7 @@ struct StageImages {
   cv::Mat1f averaged;        //    the same after averaging
   cv::Mat1b threshold_mask;  // E: 0 or 255
   cv::Mat1b obstacle_mask;   // F: after morphology, 0 or 255
+  std::vector<CompensatedEvent> window;  // the events of B and C, oldest first
 };
 
 class Dodger : public Pilot {

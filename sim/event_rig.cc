@@ -49,7 +49,7 @@ struct EventRig::Eye {
         X_BC(world.vehicle().X_BC.at(static_cast<std::size_t>(camera))),
         sampler(sampling_of(setup), setup.intrinsics, X_BC, object_radii(world)),
         pixels(setup.events, setup.intrinsics.width, setup.intrinsics.height, setup.seed,
-               setup.throw_index, camera_name(camera)),
+               setup.throw_index, camera_name(camera), setup.keep_causes),
         packets(setup.packet_us),
         view(setup.intrinsics),
         key(setup.intrinsics, setup.keys),
@@ -78,6 +78,10 @@ EventRig::EventRig(const World& world, const EventRigSetup& setup)
     eyes_.push_back(std::make_unique<Eye>(world, setup, i));
   }
   region_luminance_.resize(eyes_.front()->luminance.size());
+  if (setup.keep_causes) {
+    object_ids_.resize(region_luminance_.size());
+    cause_.resize(region_luminance_.size());
+  }
   const Intrinsics& key = eyes_.front()->key.intrinsics();
   key_luminance_.resize(static_cast<std::size_t>(key.width) * static_cast<std::size_t>(key.height));
   key_inverse_depth_.resize(key_luminance_.size());
@@ -103,6 +107,7 @@ void EventRig::show(Eye& eye, const Snapshot& snapshot, const Rect& region,
       throw std::logic_error("A picture must serve the pose from which it was drawn.");
     }
   }
+  if (setup_.keep_causes) clear_causes(region);
   draw_objects(eye, snapshot, X_WC, region, luminance);
   flicker(snapshot.t_us, region, luminance);
   render_s_ += seconds_since(start);
@@ -134,14 +139,44 @@ void EventRig::draw_objects(Eye& eye, const Snapshot& snapshot, const Eigen::Iso
   }
   if (part.empty()) return;
   const bool behind_static = farthest_m > eye.key.nearest_m(part);
-  renderer_.draw_objects(snapshot, X_WC, part, behind_static, luminance.data(), nullptr);
+  renderer_.draw_objects(snapshot, X_WC, part, behind_static, luminance.data(),
+                         setup_.keep_causes ? object_ids_.data() : nullptr);
+  if (setup_.keep_causes) mark_objects(part);
+}
+
+void EventRig::clear_causes(const Rect& region) {
+  for (std::ptrdiff_t y = region.y0; y < region.y1; ++y) {
+    const auto row = cause_.begin() + y * setup_.intrinsics.width;
+    std::fill(row + region.x0, row + region.x1, kCauseScene);
+  }
+}
+
+// What an object lights in part shows it, too: the pixels beside those whose centres it covers.
+void EventRig::mark_objects(const Rect& part) {
+  const std::ptrdiff_t width = setup_.intrinsics.width;
+  for (int y = part.y0; y < part.y1; ++y) {
+    for (int x = part.x0; x < part.x1; ++x) {
+      std::int32_t id = 0;
+      for (int v = std::max(y - 1, part.y0); v < std::min(y + 2, part.y1); ++v) {
+        const auto row = object_ids_.begin() + v * width;
+        id = std::max(
+            id, *std::max_element(row + std::max(x - 1, part.x0), row + std::min(x + 2, part.x1)));
+      }
+      cause_[static_cast<std::size_t>(y * width + x)] =
+          id < 1 ? kCauseScene : static_cast<Cause>(std::min<int>(id, kCauseLastObject));
+    }
+  }
+}
+
+Picture EventRig::picture(const std::vector<float>& luminance) const {
+  return {luminance.data(), setup_.keep_causes ? cause_.data() : nullptr};
 }
 
 void EventRig::start() {
   const Snapshot& now = world_.snapshot();
   for (auto& eye : eyes_) {
     show(*eye, now, whole(), eye->luminance);
-    eye->pixels.reset(now.t_us, eye->luminance.data());
+    eye->pixels.reset(now.t_us, picture(eye->luminance));
     eye->sampler.reset(now.t_us);
     eye->packets.reset();
   }
@@ -150,7 +185,7 @@ void EventRig::start() {
 void EventRig::rebase() {
   for (auto& eye : eyes_) {
     show(*eye, world_.snapshot(), whole(), eye->luminance);
-    eye->pixels.rebase(eye->luminance.data());
+    eye->pixels.rebase(picture(eye->luminance));
   }
 }
 
@@ -165,7 +200,7 @@ void EventRig::advance(const Snapshot& a, const Snapshot& b, const Sink& sink) {
     for (const Sample& sample : samples_) {
       const Snapshot now = interpolate(a, b, sample.t_us);
       const Rect region = eye->sampler.region(sample, now);
-      if (sample.object != Sample::kWholeImage) {
+      if (sample.object != Sample::kWholeImage && !setup_.whole_pictures) {
         if (!region.empty()) take_region(*eye, now, region);
         continue;
       }
@@ -179,7 +214,7 @@ void EventRig::take_region(Eye& eye, const Snapshot& snapshot, const Rect& regio
   show(eye, snapshot, region, region_luminance_);
   ++regions_;
   const auto start = WallClock::now();
-  eye.pixels.add_region(snapshot.t_us, region, region_luminance_.data());
+  eye.pixels.add_region(snapshot.t_us, region, picture(region_luminance_));
   emulate_s_ += seconds_since(start);
 }
 
@@ -188,10 +223,10 @@ void EventRig::take_picture(Eye& eye, const Snapshot& snapshot) {
   ++pictures_;
   const auto start = WallClock::now();
   events_.clear();
-  eye.pixels.update(snapshot.t_us, eye.luminance.data(), events_);
+  eye.pixels.update(snapshot.t_us, picture(eye.luminance), events_);
   eye.hash.add(events_);
   eye.count += static_cast<std::int64_t>(events_.size());
-  eye.packets.push(events_, snapshot.t_us);
+  eye.packets.push(events_, snapshot.t_us, eye.pixels.causes());
   emulate_s_ += seconds_since(start);
 }
 

@@ -23,7 +23,9 @@ struct EventRigSetup {
   EventCameraSpec events;
   SamplingSpec sampling;
   TimeUs packet_us = 1000;
-  int cameras = 2;  // the first of the vehicle's
+  bool keep_causes = false;     // packets say why each event happened; the events are the same
+  bool whole_pictures = false;  // for comparison: objects' regions are taken as whole pictures
+  int cameras = 2;              // the first of the vehicle's
   std::uint64_t seed = 1;
   std::uint64_t throw_index = 0;
 };
@@ -69,6 +71,9 @@ class EventRig {
   void draw_objects(Eye& eye, const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
                     const Rect& region, std::vector<float>& luminance);
   void flicker(TimeUs t_us, const Rect& region, std::vector<float>& luminance) const;
+  void clear_causes(const Rect& region);
+  void mark_objects(const Rect& part);
+  Picture picture(const std::vector<float>& luminance) const;
   void take_picture(Eye& eye, const Snapshot& snapshot);
   void take_region(Eye& eye, const Snapshot& snapshot, const Rect& region);
   Rect whole() const { return {0, 0, setup_.intrinsics.width, setup_.intrinsics.height}; }
@@ -80,6 +85,8 @@ class EventRig {
   std::vector<Sample> samples_;
   std::vector<float> key_luminance_, key_inverse_depth_;  // as the renderer draws a key
   std::vector<float> region_luminance_;                   // width x height
+  std::vector<std::int32_t> object_ids_;                  // of the last picture, width x height
+  std::vector<Cause> cause_;                              // of the last picture, width x height
   std::vector<Event> events_;
   double flicker_phase_rad_;
   std::int64_t keys_ = 0;

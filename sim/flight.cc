@@ -120,6 +120,7 @@ std::unique_ptr<EventRig> Flight::make_rig() const {
   setup.events = scenario_.sensors.events;
   setup.sampling = scenario_.sensors.sampling;
   setup.packet_us = scenario_.delays.packet_us;
+  setup.keep_causes = observer_ != nullptr && observer_->wants_causes();
   setup.cameras = scenario_.dodger.position.depth == "stereo" ? 2 : 1;
   setup.seed = scenario_.seed;
   setup.throw_index = index();

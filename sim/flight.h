@@ -41,6 +41,8 @@ struct FlightPlan {
 class FlightObserver {
  public:
   virtual ~FlightObserver() = default;
+  // Whether the packets of on_events() must say why each event happened; asked once.
+  virtual bool wants_causes() const { return false; }
   virtual void on_start(dodge::Pilot& /*pilot*/) {}
   virtual void on_tick(const World& /*world*/) {}
   virtual void on_imu(const ImuReading& /*reading*/) {}

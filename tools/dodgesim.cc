@@ -53,6 +53,7 @@ int run_program(int argc, char** argv) {
   add_explain_command(program, exit_code);
   add_emulate_command(program, exit_code);
   add_bench_command(program, joined(argc, argv), exit_code);
+  add_check_sensor_command(program, joined(argc, argv), exit_code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -59,14 +59,8 @@ void TimeImage::accumulate(std::span<const std::span<const Event>> pieces,
   const float per_us = 1.0F / static_cast<float>(end_us - begin_us);
   for (const std::span<const Event> piece : pieces) {
     for (const Event& event : piece) {
-      if (event.x >= width || event.y >= height) continue;
-      const Eigen::Vector2f warped = ego_motion.warp(event);
-      // Rounds to the nearest pixel; the test on the shifted value also catches NaN.
-      const float u = warped.x() + 0.5F, v = warped.y() + 0.5F;
-      if (!(u >= 0 && v >= 0 && u < static_cast<float>(width) && v < static_cast<float>(height))) {
-        continue;
-      }
-      const int pixel = static_cast<int>(v) * width + static_cast<int>(u);
+      const int pixel = compensated_pixel(ego_motion, event, width, height);
+      if (pixel < 0) continue;
       // Without a branch: whether a pixel is new cannot be predicted.
       active_[active_count_] = pixel;
       active_count_ += count[pixel] == 0 ? 1 : 0;

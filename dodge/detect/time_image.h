@@ -44,6 +44,20 @@ struct TimeImageConfig {
   }
 };
 
+// The compensated pixel of an event in an image of width x height, as y * width + x; -1 if that is
+// outside of the image, or the event's own pixel is.
+inline int compensated_pixel(const EgoMotion& ego_motion, const Event& event, int width,
+                             int height) {
+  if (event.x >= width || event.y >= height) return -1;
+  const Eigen::Vector2f warped = ego_motion.warp(event);
+  // Rounds to the nearest pixel; the test on the shifted value also catches NaN.
+  const float u = warped.x() + 0.5F, v = warped.y() + 0.5F;
+  if (!(u >= 0 && v >= 0 && u < static_cast<float>(width) && v < static_cast<float>(height))) {
+    return -1;
+  }
+  return static_cast<int>(v) * width + static_cast<int>(u);
+}
+
 class TimeImage {
  public:
   TimeImage(const TimeImageConfig& config, int width, int height);

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kScenarioFile = "scenario.resolved.yaml";
 constexpr const char* kResultFiles[] = {"manifest.json", "throws.csv", "detections.csv",
-                                        "timing.csv",    "table.md",   "table.csv"};
+                                        "timing.csv",    "table.md",   "table.csv",
+                                        "truth.csv"};
 
 std::string read_file(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -63,13 +64,16 @@ void prepare(const fs::path& out, const std::string& resolved, bool force) {
 // The files that grow throw by throw.
 class ResultFiles {
  public:
-  explicit ResultFiles(const fs::path& out)
+  ResultFiles(const fs::path& out, bool truth)
       : throws_(out / "throws.csv"),
         detections_(out / "detections.csv"),
         timing_(out / "timing.csv") {
     throws_.write(csv_header<ThrowResult>());
     detections_.write(csv_header<DetectionRow>());
     timing_.write("throw,simulated_s,wall_s,real_time_factor\n");
+    if (!truth) return;
+    truth_.emplace(out / "truth.csv");
+    truth_->write(csv_header<EventTruthRow>());
   }
 
   void add(const ThrowResult& result) {
@@ -79,16 +83,20 @@ class ResultFiles {
     timing_.write(to_text(result.index) + "," + to_text(simulated_s) + "," +
                   to_text(result.wall_s) + "," +
                   (result.wall_s > 0 ? to_text(simulated_s / result.wall_s) : "") + "\n");
+    if (!truth_) return;
+    for (const EventTruthRow& row : result.truth_rows) truth_->write(csv_row(row));
   }
 
   void commit() {
     throws_.commit();
     detections_.commit();
     timing_.commit();
+    if (truth_) truth_->commit();
   }
 
  private:
   OutputFile throws_, detections_, timing_;
+  std::optional<OutputFile> truth_;
 };
 
 bool any_error(const ThrowResult& result) {
@@ -120,7 +128,7 @@ CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& op
   const std::string started = utc_now();
   prepare(options.out, to_yaml(scenario), options.force);
 
-  ResultFiles files(options.out);
+  ResultFiles files(options.out, options.truth);
   CampaignSummary summary;
   Progress progress(scenario.repeats, options.show_progress);
   double simulated_s = 0, computing_s = 0;
@@ -135,6 +143,9 @@ CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& op
     simulated_s += seconds(result.duration_us);
     computing_s += result.wall_s;
     if (any_error(result)) ++summary.errors;
+    summary.truth.add(result.truth_rows);
+    result.truth_rows.clear();
+    result.truth_rows.shrink_to_fit();
     result.detection_rows.clear();
     result.detection_rows.shrink_to_fit();
     summary.results.push_back(std::move(result));

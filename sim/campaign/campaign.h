@@ -3,8 +3,9 @@
 //   throws.csv              one row a throw, in throw order       } byte-identical for any number
 //   detections.csv          one row a detection, in throw order   } of workers
 //   table.md, table.csv     success tables                        }
-//   timing.csv              computing time of each throw
-//   manifest.json           commit, versions, machine, command line, throughput; written last, so a
+//   truth.csv               on request: what the events' causes say about the detection, a row a
+//   cycle timing.csv              computing time of each throw manifest.json           commit,
+//   versions, machine, command line, throughput; written last, so a
 //                           directory that has it is complete
 #pragma once
 
@@ -28,12 +29,14 @@ struct CampaignOptions {
   // no GL context may exist when they are forked; may be empty.
   std::function<std::string()> gl_renderer;
   bool show_progress = false;
+  bool truth = false;  // write truth.csv, from the results' truth_rows
 };
 
 struct CampaignSummary {
   std::vector<ThrowResult> results;  // in throw order, without their detections
   std::string table;                 // Markdown
   int errors = 0;                    // throws of which a flight failed
+  EventTruthSums truth;  // of all throws, when their results have it
   double wall_s = 0;
   double real_time_factor = 0;  // simulated time of the flown pilots per computing time, one core
 };

@@ -70,6 +70,70 @@ struct DetectionRow {
   }
 };
 
+// Events of the pilot's windows in one cycle or several, both cameras together; see
+// sim/event_truth.h.
+struct EventTruthCounts {
+  std::int64_t events = 0;
+  std::int64_t object_events = 0;        // that an object made
+  std::int64_t found_events = 0;         // that the pilot took for an obstacle's
+  std::int64_t found_object_events = 0;  // both
+
+  void add(const EventTruthCounts& other) {
+    events += other.events;
+    object_events += other.object_events;
+    found_events += other.found_events;
+    found_object_events += other.found_object_events;
+  }
+
+  // Of what was found, the share that an object made; of what an object made, the share that was
+  // found.
+  std::optional<double> precision() const { return share(found_events); }
+  std::optional<double> recall() const { return share(object_events); }
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("events", events);
+    v("object_events", object_events);
+    v("found_events", found_events);
+    v("found_object_events", found_object_events);
+  }
+
+ private:
+  std::optional<double> share(std::int64_t of) const {
+    if (of == 0) return std::nullopt;
+    return static_cast<double>(found_object_events) / static_cast<double>(of);
+  }
+};
+
+// One cycle of the pilot while an object is in flight: a row of truth.csv.
+struct EventTruthRow {
+  int throw_index = 0;
+  TimeUs cycle_us = 0;   // its start
+  bool evading = false;  // an evasive command has reached the flight controller by then
+  EventTruthCounts counts;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("throw", throw_index);
+    v("cycle_us", cycle_us);
+    v("evading", evading);
+    counts.visit(v);
+    std::optional<double> precision = counts.precision(), recall = counts.recall();
+    v("event_precision", precision);
+    v("event_recall", recall);
+  }
+};
+
+// Sums over many rows.
+struct EventTruthSums {
+  EventTruthCounts before;  // until the vehicle evades
+  EventTruthCounts after;
+
+  void add(const std::vector<EventTruthRow>& rows) {
+    for (const EventTruthRow& row : rows) (row.evading ? after : before).add(row.counts);
+  }
+};
+
 struct ThrowResult {
   int index = 0;
 
@@ -99,6 +163,7 @@ struct ThrowResult {
   TimeUs duration_us = 0;                // simulated
 
   std::vector<DetectionRow> detection_rows;
+  std::vector<EventTruthRow> truth_rows;  // on request
   double wall_s = 0;  // computing time of the flown pilot: in timing.csv, never in throws.csv
 
   bool thrown() const { return !object.empty(); }

@@ -98,6 +98,20 @@ class ByteReader {
   std::string_view bytes_;
 };
 
+template <class Row>
+void write_rows(ByteWriter& writer, std::vector<Row>& rows) {
+  auto count = static_cast<std::uint64_t>(rows.size());
+  writer("", count);
+  for (Row& row : rows) writer("", row);
+}
+
+template <class Row>
+void read_rows(ByteReader& reader, std::vector<Row>& rows) {
+  std::uint64_t count = 0;
+  reader("", count);
+  for (std::uint64_t i = 0; i < count; ++i) reader("", rows.emplace_back());
+}
+
 }  // namespace
 
 std::string to_bytes(const ThrowResult& result) {
@@ -105,9 +119,8 @@ std::string to_bytes(const ThrowResult& result) {
   ByteWriter writer;
   copy.visit(writer);
   writer("", copy.wall_s);
-  auto rows = static_cast<std::uint64_t>(copy.detection_rows.size());
-  writer("", rows);
-  for (DetectionRow& row : copy.detection_rows) writer("", row);
+  write_rows(writer, copy.detection_rows);
+  write_rows(writer, copy.truth_rows);
   return writer.take();
 }
 
@@ -116,9 +129,8 @@ ThrowResult result_from_bytes(std::string_view bytes) {
   ByteReader reader(bytes);
   result.visit(reader);
   reader("", result.wall_s);
-  std::uint64_t rows = 0;
-  reader("", rows);
-  for (std::uint64_t i = 0; i < rows; ++i) reader("", result.detection_rows.emplace_back());
+  read_rows(reader, result.detection_rows);
+  read_rows(reader, result.truth_rows);
   if (!reader.at_end()) throw SimulationError("A worker sent more than one result.");
   return result;
 }

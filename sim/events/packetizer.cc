@@ -10,14 +10,19 @@ Packetizer::Packetizer(TimeUs period_us) : period_us_(period_us) {
 
 void Packetizer::reset() {
   events_.clear();
+  causes_.clear();
   taken_ = 0;
   complete_us_ = 0;
 }
 
-void Packetizer::push(std::span<const Event> events, TimeUs complete_us) {
-  events_.erase(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(taken_));
+void Packetizer::push(std::span<const Event> events, TimeUs complete_us,
+                      std::span<const Cause> causes) {
+  const auto taken = static_cast<std::ptrdiff_t>(taken_);
+  events_.erase(events_.begin(), events_.begin() + taken);
+  if (!causes_.empty()) causes_.erase(causes_.begin(), causes_.begin() + taken);
   taken_ = 0;
   events_.insert(events_.end(), events.begin(), events.end());
+  causes_.insert(causes_.end(), causes.begin(), causes.end());
   complete_us_ = complete_us;
 }
 
@@ -27,7 +32,8 @@ std::optional<Packet> Packetizer::take() {
   if (end_us > complete_us_) return std::nullopt;
   std::size_t last = taken_;
   while (last < events_.size() && events_[last].t_us <= end_us) ++last;
-  const Packet packet = {end_us, std::span(events_).subspan(taken_, last - taken_)};
+  Packet packet = {end_us, std::span(events_).subspan(taken_, last - taken_), {}};
+  if (!causes_.empty()) packet.causes = std::span(causes_).subspan(taken_, last - taken_);
   taken_ = last;
   return packet;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/base/time.h"
+#include "sim/events/cause.h"
 #include "sim/events/event.h"
 
 namespace dodgesim {
@@ -18,6 +19,7 @@ namespace dodgesim {
 struct Packet {
   TimeUs end_us = 0;
   std::span<const Event> events;  // valid until the next push() or reset()
+  std::span<const Cause> causes = {};  // one an event, or none
 };
 
 class Packetizer {
@@ -29,7 +31,8 @@ class Packetizer {
   void reset();
 
   // Adds events in order of time; all events up to and including complete_us are now known.
-  void push(std::span<const Event> events, TimeUs complete_us);
+  // `causes` has one an event, always or never.
+  void push(std::span<const Event> events, TimeUs complete_us, std::span<const Cause> causes = {});
 
   // The oldest complete packet that has not been taken.
   std::optional<Packet> take();
@@ -40,7 +43,8 @@ class Packetizer {
   TimeUs period_us_;
   TimeUs complete_us_ = 0;
   std::vector<Event> events_;
-  std::size_t taken_ = 0;  // events already handed out, at the front
+  std::vector<Cause> causes_;  // of events_, or empty
+  std::size_t taken_ = 0;      // events already handed out, at the front
 };
 
 }  // namespace dodgesim

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "tests/cli/program.h"
@@ -131,6 +132,35 @@ TEST_F(DodgesimTest, FliesACampaignAndReplaysAThrowOfIt) {
   const Outcome replay = dodgesim("replay " + one + " --throw 2");
   EXPECT_EQ(replay.exit_code, 0) << replay.output;
   EXPECT_EQ(dodgesim("replay " + one + " --throw 3").exit_code, 2) << "there are three throws";
+}
+
+TEST_F(DodgesimTest, WritesTheTruthAboutEvents) {
+  const std::string scenario = file(
+      "fly_oracle: false\nafter_s: 0.1\n"
+      "throw: {distance_m: 1.5, speed_mps: 6, size_m: 0.2, launch_s: 0.1}\n");
+  const std::string out = (root_ / "out").string();
+  const Outcome run = dodgesim("run " + scenario + " --out " + out + " --throws 1 --truth");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("Events before the vehicle evades: precision "));
+  EXPECT_THAT(contents(out + "/truth.csv"), HasSubstr("event_precision,event_recall\n0,"));
+
+  const std::string events = (root_ / "events.txt").string();
+  const Outcome replay =
+      dodgesim("replay " + out + " --throw 0 --camera bottom --events " + events);
+  ASSERT_EQ(replay.exit_code, 0) << replay.output;
+  EXPECT_THAT(replay.output, HasSubstr("events of the bottom camera: " + events));
+  EXPECT_THAT(replay.output, HasSubstr("Events before the vehicle evades: precision "));
+  EXPECT_THAT(replay.output, HasSubstr("flew as recorded, bit for bit"));
+  std::istringstream lines(contents(events));
+  std::map<int, int> causes;
+  long long t_us = 0, last_us = 0;
+  for (int x = 0, y = 0, p = 0, cause = 0; lines >> t_us >> x >> y >> p >> cause; ++causes[cause]) {
+    ASSERT_GE(t_us, last_us);
+    last_us = t_us;
+  }
+  EXPECT_GT(causes[1], 100);    // the ball
+  EXPECT_GT(causes[254], 100);  // shot noise
+  EXPECT_EQ(dodgesim("replay " + out + " --throw 0 --events e.h5").exit_code, 2);
 }
 
 TEST_F(DodgesimTest, ReportsOutputThatCannotBeWritten) {

@@ -1,6 +1,18 @@
 #include "tools/commands/command.h"
 
+#include <cstdio>
+
 namespace dodgesim {
+
+namespace {
+
+std::string number_text(double share) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.3f", share);
+  return text;
+}
+
+}  // namespace
 
 void add_models_option(CLI::App& command, std::string& models_dir) {
   models_dir = DODGESIM_MODELS_DIR;
@@ -11,5 +23,18 @@ void add_models_option(CLI::App& command, std::string& models_dir) {
 }
 
 std::string count_of_throws(int n) { return std::to_string(n) + (n == 1 ? " throw" : " throws"); }
+
+std::string truth_text(const EventTruthSums& sums) {
+  const auto share = [](std::optional<double> value) {
+    return value ? number_text(*value) : std::string("undefined");
+  };
+  const auto line = [&](const EventTruthCounts& counts) {
+    return "precision " + share(counts.precision()) + " of " + std::to_string(counts.found_events) +
+           " taken for an obstacle's, recall " + share(counts.recall()) + " of " +
+           std::to_string(counts.object_events) + " that an object made";
+  };
+  return "Events before the vehicle evades: " + line(sums.before) +
+         "\nEvents while it evades: " + line(sums.after);
+}
 
 }  // namespace dodgesim

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "sim/campaign/result.h"
 #include "sim/config/scenario.h"
 
 namespace dodgesim {
@@ -22,9 +23,13 @@ void add_validate_command(CLI::App& program, int& exit_code);
 void add_explain_command(CLI::App& program, int& exit_code);
 void add_emulate_command(CLI::App& program, int& exit_code);
 void add_bench_command(CLI::App& program, const std::string& command_line, int& exit_code);
+void add_check_sensor_command(CLI::App& program, const std::string& command_line, int& exit_code);
 
 // Adds --models: where rooms, vehicles and objects are.
 void add_models_option(CLI::App& command, std::string& models_dir);
+
+// Two lines about precision and recall, without the last line's end.
+std::string truth_text(const EventTruthSums& sums);
 
 // The text "n throws" with the right plural.
 std::string count_of_throws(int n);

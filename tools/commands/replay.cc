@@ -1,4 +1,5 @@
 // dodgesim replay: flies one throw of a campaign again, bit-identically.
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <memory>
@@ -6,6 +7,8 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/csv.h"
+#include "sim/event_truth.h"
+#include "sim/files/labelled_event_file.h"
 #include "sim/film.h"
 #include "sim/loop.h"
 #include "sim/poster.h"
@@ -22,12 +25,18 @@ struct Arguments {
   std::string video;    // empty: none
   std::string stages;   // empty: none
   std::string picture;  // empty: none
+  std::string events;   // empty: none
+  std::string camera = "top";
 };
 
 // Hands everything on to several observers.
 class Observers : public FlightObserver {
  public:
   void add(FlightObserver* observer) { observers_.push_back(observer); }
+  bool wants_causes() const override {
+    return std::any_of(observers_.begin(), observers_.end(),
+                       [](const FlightObserver* o) { return o->wants_causes(); });
+  }
   void on_start(dodge::Pilot& pilot) override {
     for (FlightObserver* o : observers_) o->on_start(pilot);
   }
@@ -52,6 +61,22 @@ class Observers : public FlightObserver {
 
  private:
   std::vector<FlightObserver*> observers_;
+};
+
+// Writes a camera's events with their causes.
+class EventRecorder : public FlightObserver {
+ public:
+  EventRecorder(const std::string& path, int camera) : file_(path), camera_(camera) {}
+  bool wants_causes() const override { return true; }
+  void on_events(int camera, const Packet& packet) override {
+    if (camera == camera_) file_.add(packet.events, packet.causes);
+  }
+  void finish() { file_.finish(); }
+  std::uint64_t count() const { return file_.count(); }
+
+ private:
+  LabelledEventFile file_;
+  int camera_;
 };
 
 // Line of throws.csv for this throw, with its line end.
@@ -86,8 +111,23 @@ int replay(const Arguments& arguments) {
   }
   Poster poster(intrinsics(scenario.sensors.camera));
   if (!arguments.picture.empty()) observers.add(&poster);
+  EventTruth truth;
+  std::unique_ptr<EventRecorder> recorder;
+  if (!arguments.events.empty()) {
+    recorder = std::make_unique<EventRecorder>(arguments.events, arguments.camera == "top" ? 0 : 1);
+    observers.add(recorder.get());
+    observers.add(&truth);
+  }
   const ThrowResult result = fly_throw(scenario, arguments.throw_index, &observers);
   if (!arguments.picture.empty()) poster.save(arguments.picture);
+  if (recorder) {
+    recorder->finish();
+    EventTruthSums sums;
+    sums.add(truth.rows());
+    std::cout << recorder->count() << " events of the " << arguments.camera
+              << " camera: " << arguments.events << "\n"
+              << truth_text(sums) << "\n";
+  }
   if (film) {
     film->close();
     std::cout << "Video: " << arguments.video << "\n";
@@ -130,6 +170,15 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->add_option("--picture", arguments->picture,
                    "Write one picture: both flight paths and what the pilot first noticed")
       ->type_name("FILE.png");
+  command
+      ->add_option("--events", arguments->events,
+                   "Write a camera's events with their causes (t, x, y, p, cause), and print how\n"
+                   "well the pilot finds an object's events. Causes: 0 the static scene, moved by\n"
+                   "ego-motion; 1 + i object i; 253 leak; 254 shot noise; 255 a hot pixel")
+      ->type_name("FILE.npy|.txt");
+  command->add_option("--camera", arguments->camera, "Whose events: top or bottom")
+      ->check(CLI::IsMember({"top", "bottom"}))
+      ->capture_default_str();
   add_models_option(*command, arguments->models_dir);
   command->callback([arguments, &exit_code] { exit_code = replay(*arguments); });
 }

@@ -9,6 +9,7 @@
 
 #include "sim/campaign/campaign.h"
 #include "sim/campaign/progress.h"
+#include "sim/event_truth.h"
 #include "sim/loop.h"
 #include "sim/render/osmesa_context.h"
 #include "tools/commands/command.h"
@@ -25,6 +26,14 @@ struct Arguments {
   std::optional<std::uint64_t> seed;
 };
 
+ThrowResult fly_with_truth(const Scenario& scenario, int index) {
+  EventTruth truth;
+  ThrowResult result = fly_throw(scenario, index, &truth);
+  result.truth_rows = truth.rows();
+  for (EventTruthRow& row : result.truth_rows) row.throw_index = index;
+  return result;
+}
+
 int run(const Arguments& arguments) {
   Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir);
   if (arguments.throws) scenario.repeats = *arguments.throws;
@@ -33,13 +42,15 @@ int run(const Arguments& arguments) {
   CampaignOptions options = arguments.options;
   options.show_progress = ::isatty(STDERR_FILENO) == 1;
   options.gl_renderer = [] { return OsmesaContext(GlProfile::kCore33, 1, 1).renderer(); };
-  const CampaignSummary summary =
-      run_campaign(scenario, options, [&](int index) { return fly_throw(scenario, index); });
+  const CampaignSummary summary = run_campaign(scenario, options, [&](int index) {
+    return options.truth ? fly_with_truth(scenario, index) : fly_throw(scenario, index);
+  });
 
   std::cout << summary.table;
   std::printf("%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n",
               count_of_throws(scenario.repeats).c_str(), duration_text(summary.wall_s).c_str(),
               summary.real_time_factor, options.out.c_str());
+  if (options.truth) std::cout << truth_text(summary.truth) << "\n";
   if (summary.errors == 0) return kOk;
   std::cerr << count_of_throws(summary.errors)
             << " could not be flown; see \"Errors\" in the table.\n";
@@ -69,6 +80,9 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
       ->check(CLI::Range(1, 1000000));
   command->add_option("--seed", arguments->seed, "Seed, in place of the scenario's");
   command->add_flag("--force", options.force, "Overwrite results of another scenario in DIR");
+  command->add_flag("--truth", options.truth,
+                    "Also write truth.csv: of the events that the pilot takes for an obstacle's,\n"
+                    "how many an object made, and of those that it made, how many are found");
   add_models_option(*command, arguments->models_dir);
   command->footer(
       "Writes to DIR: table.md and table.csv (dodged / would have hit, with 95 % intervals),\n"

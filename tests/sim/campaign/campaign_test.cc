@@ -66,6 +66,35 @@ class CampaignTest : public testing::Test {
   Scenario scenario_;
 };
 
+TEST_F(CampaignTest, WritesTheTruthOnRequestOnly) {
+  scenario_.repeats = 3;
+  const auto fly_one = [&](int index) {
+    ThrowResult result = fly(index);
+    result.truth_rows = {{index, 500000, index == 2, {100, 40, 20, 10}}};
+    return result;
+  };
+  CampaignOptions with = options("with");
+  with.truth = true;
+  const CampaignSummary summary = run_campaign(scenario_, with, fly_one);
+  EXPECT_EQ(read(root_ / "with/truth.csv"),
+            "throw,cycle_us,evading,events,object_events,found_events,found_object_events,"
+            "event_precision,event_recall\n"
+            "0,500000,0,100,40,20,10,0.5,0.25\n"
+            "1,500000,0,100,40,20,10,0.5,0.25\n"
+            "2,500000,1,100,40,20,10,0.5,0.25\n");
+  EXPECT_EQ(summary.truth.before.object_events, 80);
+  EXPECT_EQ(summary.truth.after.object_events, 40);
+  run_campaign(scenario_, options("without"), fly_one);
+  EXPECT_FALSE(fs::exists(root_ / "without/truth.csv"));
+  for (const char* name : {"throws.csv", "detections.csv", "table.md"}) {
+    EXPECT_EQ(read(root_ / "with" / name), read(root_ / "without" / name));
+  }
+  // What an earlier run left is not taken for this one's.
+  CampaignOptions again = options("with");
+  run_campaign(scenario_, again, fly_one);
+  EXPECT_FALSE(fs::exists(root_ / "with/truth.csv"));
+}
+
 TEST_F(CampaignTest, ResultsAreByteIdenticalForAnyNumberOfWorkers) {
   const auto fly_one = [&](int index) { return fly(index); };
   run_campaign(scenario_, options("one", 1), fly_one);

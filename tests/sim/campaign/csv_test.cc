@@ -68,6 +68,7 @@ ThrowResult full_result() {
   row.object = 0;
   row.true_p_W = {1.5, 2.5, 3.5};
   result.detection_rows = {row, DetectionRow{}};
+  result.truth_rows = {{7, 500000, true, {100, 40, 20, 10}}, {7, 504000, false, {9, 0, 0, 0}}};
   return result;
 }
 
@@ -79,6 +80,9 @@ TEST(Wire, AResultArrivesAsItWasSent) {
   ASSERT_EQ(received.detection_rows.size(), 2u);
   EXPECT_EQ(csv_row(received.detection_rows[0]), csv_row(sent.detection_rows[0]));
   EXPECT_FALSE(received.detection_rows[1].true_p_W.has_value());
+  ASSERT_EQ(received.truth_rows.size(), 2u);
+  EXPECT_EQ(csv_row(received.truth_rows[0]), "7,500000,1,100,40,20,10,0.5,0.25\n");
+  EXPECT_EQ(csv_row(received.truth_rows[1]), "7,504000,0,9,0,0,0,,\n");
 }
 
 TEST(Wire, AnIncompleteResultIsNoticedAtEveryLength) {

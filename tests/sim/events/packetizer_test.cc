@@ -38,6 +38,24 @@ TEST(Packetizer, APacketCannotBeTakenBeforeAllItsEventsAreKnown) {
   EXPECT_EQ(packet->events.size(), 2u);
 }
 
+TEST(Packetizer, CausesStayWithTheirEvents) {
+  Packetizer packets(1000);
+  packets.push(std::vector<Event>{at(1), at(999), at(1001)}, 1500, std::vector<Cause>{3, 4, 5});
+  auto packet = packets.take();
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(std::vector<Cause>(packet->causes.begin(), packet->causes.end()),
+            (std::vector<Cause>{3, 4}));
+  packets.push(std::vector<Event>{at(2000)}, 2000, std::vector<Cause>{6});
+  packet = packets.take();
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(packet->events.size(), 2u);
+  EXPECT_EQ(std::vector<Cause>(packet->causes.begin(), packet->causes.end()),
+            (std::vector<Cause>{5, 6}));
+  Packetizer without(1000);
+  without.push(std::vector<Event>{at(1)}, 1000);
+  EXPECT_TRUE(without.take()->causes.empty());
+}
+
 TEST(Packetizer, EmptyPeriodsMakeNoPacket) {
   Packetizer packets(1000);
   packets.push({}, 5000);

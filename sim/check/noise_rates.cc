@@ -1,0 +1,192 @@
+#include "sim/check/noise_rates.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/check/film.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240;
+constexpr double kPixels = kWidth * kHeight;
+constexpr double kBrightLux = 1000;  // where the shot noise's bright share holds
+constexpr double kDarkLux = 0;
+constexpr double kSigmas = 3;
+constexpr TimeUs kPictureEveryUs = 100000;
+constexpr double kDurationS = 5;  // at most, and as long as the leak takes for kLeakEvents
+constexpr double kLongestS = 100;
+constexpr double kLeakEvents = 1.5;  // of a pixel
+constexpr double kPlotFromHz = -0.1, kPlotToHz = 3.9;
+constexpr int kPlotBins = 20;
+constexpr double kMostEvents = 5e6;  // of a film
+
+EventCameraSpec only_leak(const EventCameraSpec& camera) {
+  EventCameraSpec spec = without_noise(camera);
+  spec.leak_hz = camera.leak_hz;
+  return spec;
+}
+
+EventCameraSpec only_shot_noise(const EventCameraSpec& camera) {
+  EventCameraSpec spec = without_noise(camera);
+  spec.shot_noise_on_hz = camera.shot_noise_on_hz;
+  spec.shot_noise_off_hz = camera.shot_noise_off_hz;
+  return spec;
+}
+
+EventCameraSpec only_hot_pixels(const EventCameraSpec& camera) {
+  EventCameraSpec spec = without_noise(camera);
+  spec.hot_pixel_fraction = camera.hot_pixel_fraction;
+  return spec;
+}
+
+// What a rate becomes when every event is followed by a dead time.
+double with_dead_time(double rate_hz, const EventCameraSpec& spec) {
+  return rate_hz / (1 + rate_hz * seconds(spec.refractory_us));
+}
+
+NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, double events_hz,
+                 Cause cause, std::uint64_t seed) {
+  NoiseCount found;
+  found.filmed = true;
+  const double bounded_s = std::min(duration_s, kMostEvents / std::max(1.0, events_hz));
+  const auto end_us = std::max<TimeUs>(1, static_cast<TimeUs>(1e6 * bounded_s));
+  found.duration_s = seconds(end_us);
+  found.per_pixel.resize(static_cast<std::size_t>(kPixels));
+  EventCamera camera(spec, kWidth, kHeight, seed, 0, "check", true);
+  const double luminance = lux / spec.illuminance_lux;
+  const FilmedEvents filmed = record(camera, even_scene([=](TimeUs) { return luminance; }),
+                                     regular_times(kPictureEveryUs, end_us + spec.latency_us));
+  for (std::size_t i = 0; i < filmed.events.size(); ++i) {
+    const Event& event = filmed.events[i];
+    if (filmed.causes[i] != cause) {
+      ++found.other;
+      continue;
+    }
+    ++(event.polarity > 0 ? found.on : found.off);
+    ++found.per_pixel[static_cast<std::size_t>(event.y * kWidth + event.x)];
+  }
+  return found;
+}
+
+void judge_leak(const NoiseCount& leak, const EventCameraSpec& spec, Check& check) {
+  if (!leak.filmed) {
+    check.off("noise.leak", "leak_hz is 0");
+    return;
+  }
+  // Each pixel leaks regularly from a random start: its count is off by less than one.
+  const double seconds_pixels = leak.duration_s * kPixels;
+  const double alive = 1 - spec.dead_pixel_fraction;
+  const double rate_hz = alive * with_dead_time(spec.leak_hz, spec);
+  const double per_pixel = rate_hz * leak.duration_s;
+  const double start_sd = std::sqrt(per_pixel < 0.5 ? per_pixel * (1 - per_pixel) : 0.25);
+  const double dead_sd = std::sqrt(spec.dead_pixel_fraction * alive) * per_pixel;
+  const double sigma_hz = std::hypot(start_sd, dead_sd) * std::sqrt(kPixels) / seconds_pixels;
+  check.within("noise.leak.on", leak.on / seconds_pixels, rate_hz, kSigmas * sigma_hz, "Hz", 5);
+  check.within("noise.leak.off", leak.off / seconds_pixels, 0, 0, "Hz", 5);
+  check.within("noise.leak.other_causes", leak.other, 0, 0, "events", 0);
+}
+
+void judge_shot(const std::string& name, const NoiseCount& shot, double share,
+                const EventCameraSpec& spec, Check& check) {
+  if (!shot.filmed) {
+    check.off(name, "shot_noise_on_hz and shot_noise_off_hz are 0");
+    return;
+  }
+  const double both_hz = share * (spec.shot_noise_on_hz + spec.shot_noise_off_hz);
+  const double seen = with_dead_time(both_hz, spec) / std::max(1e-12, both_hz);
+  const double alive = 1 - spec.dead_pixel_fraction;
+  const double seconds_pixels = shot.duration_s * kPixels;
+  const auto judge_polarity = [&](const std::string& polarity, double events, double set_hz) {
+    const double rate_hz = alive * seen * share * set_hz;
+    const double dead_sd =
+        rate_hz * std::sqrt(spec.dead_pixel_fraction / std::max(1e-12, alive) / kPixels);
+    const double sigma_hz = std::hypot(std::sqrt(rate_hz / seconds_pixels), dead_sd);
+    check.within(name + "." + polarity, events / seconds_pixels, rate_hz, kSigmas * sigma_hz, "Hz",
+                 5);
+  };
+  judge_polarity("on", shot.on, spec.shot_noise_on_hz);
+  judge_polarity("off", shot.off, spec.shot_noise_off_hz);
+  check.within(name + ".other_causes", shot.other, 0, 0, "events", 0);
+}
+
+void judge_hot(const NoiseCount& hot, const EventCameraSpec& spec, Check& check) {
+  if (!hot.filmed) {
+    check.off("noise.hot", "hot_pixel_fraction or hot_pixel_hz is 0");
+    return;
+  }
+  double pixels = 0;
+  for (const double events : hot.per_pixel) pixels += events > 0 ? 1 : 0;
+  const double rate_hz = with_dead_time(spec.hot_pixel_hz, spec);
+  const double fires = 1 - std::exp(-rate_hz * hot.duration_s);  // a hot pixel may stay silent
+  const double p = spec.hot_pixel_fraction * (1 - spec.dead_pixel_fraction) * fires;
+  check.within("noise.hot.pixels", pixels, p * kPixels,
+               kSigmas * std::sqrt(p * (1 - p) * kPixels) + (p < 1 ? 1 : 0), "pixels", 1);
+  if (pixels == 0) {
+    check.off("noise.hot.rate", "no pixel is hot");
+  } else {
+    const double measured_hz = (hot.on + hot.off) / (pixels * hot.duration_s);
+    check.within("noise.hot.rate", measured_hz, rate_hz / fires,
+                 kSigmas * std::sqrt(rate_hz / (pixels * hot.duration_s)), "Hz", 2);
+  }
+  check.within("noise.hot.other_causes", hot.other, 0, 0, "events", 0);
+}
+
+// Share of the pixels by rate, for the plot.
+Series rates(const std::string& name, int colour, const NoiseCount& noise) {
+  std::vector<double> hz;
+  for (const double events : noise.per_pixel) hz.push_back(events / noise.duration_s);
+  return histogram(name, colour, hz, kPlotFromHz, kPlotToHz, kPlotBins);
+}
+
+}  // namespace
+
+NoiseCounts measure_noise(const EventCameraSpec& camera, std::uint64_t seed) {
+  NoiseCounts counts;
+  if (camera.leak_hz > 0) {
+    const double duration_s = std::min(kLongestS, kLeakEvents / camera.leak_hz);
+    counts.leak = count(only_leak(camera), kBrightLux, duration_s, camera.leak_hz * kPixels,
+                        kCauseLeak, seed);
+  }
+  const double shot_hz = camera.shot_noise_on_hz + camera.shot_noise_off_hz;
+  if (shot_hz > 0) {
+    const EventCameraSpec spec = only_shot_noise(camera);
+    counts.shot_dark = count(spec, kDarkLux, kDurationS, shot_hz * kPixels, kCauseShotNoise, seed);
+    counts.shot_bright =
+        count(spec, kBrightLux, kDurationS, shot_hz * kPixels, kCauseShotNoise, seed);
+  }
+  if (camera.hot_pixel_fraction > 0 && camera.hot_pixel_hz > 0) {
+    const double hot_hz = camera.hot_pixel_hz * camera.hot_pixel_fraction * kPixels;
+    counts.hot =
+        count(only_hot_pixels(camera), kBrightLux, kDurationS, hot_hz, kCauseHotPixel, seed);
+  }
+  return counts;
+}
+
+Check judge(const NoiseCounts& counts, const EventCameraSpec& expected) {
+  Check check{"Noise",
+              "A constant scene for some seconds, each kind of noise by itself. Rates are means "
+              "over all pixels, dead ones included, and hold within three standard deviations of "
+              "the counts, of the random start of the leak and of the number of dead pixels. A "
+              "pixel in its refractory period is silent, which is part of what is expected.",
+              {},
+              {}};
+  judge_leak(counts.leak, expected, check);
+  judge_shot("noise.shot.dark", counts.shot_dark, 1, expected, check);
+  judge_shot("noise.shot.bright", counts.shot_bright, expected.shot_noise_bright_share, expected,
+             check);
+  judge_hot(counts.hot, expected, check);
+  Plot plot{"Noise of a pixel on a constant scene",
+            {"events of the pixel [Hz]", kPlotFromHz, kPlotToHz, false},
+            {"share of the pixels", 1e-6, 1.5, true},
+            {}};
+  if (counts.leak.filmed) plot.series.push_back(rates("leak", 2, counts.leak));
+  if (counts.shot_dark.filmed) plot.series.push_back(rates("shot, dark", 0, counts.shot_dark));
+  if (counts.shot_bright.filmed)
+    plot.series.push_back(rates("shot, 1000 lux", 4, counts.shot_bright));
+  if (!plot.series.empty()) check.plots.push_back(plot);
+  return check;
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,30 @@
+// Rates of the noise, each kind by itself with the others switched off: a noise event resets its
+// pixel, so together they hinder each other.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/check/check.h"
+#include "sim/events/spec.h"
+
+namespace dodgesim {
+
+// Events of one kind of noise on a constant scene.
+struct NoiseCount {
+  bool filmed = false;  // false: that kind is switched off
+  double duration_s = 0;
+  double on = 0, off = 0;         // events
+  double other = 0;               // events that are said to have another cause
+  std::vector<double> per_pixel;  // events of each pixel of the camera
+};
+
+struct NoiseCounts {
+  NoiseCount leak, shot_dark, shot_bright, hot;
+};
+
+NoiseCounts measure_noise(const EventCameraSpec& camera, std::uint64_t seed);
+
+Check judge(const NoiseCounts& counts, const EventCameraSpec& expected);
+
+}  // namespace dodgesim

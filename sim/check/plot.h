@@ -1,0 +1,40 @@
+// Plots for the report: points, lines and histograms over one pair of axes.
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace dodgesim {
+
+struct Series {
+  enum class Kind { kLine, kPoints, kBars };
+  std::string name;  // in the legend; empty: not there
+  Kind kind = Kind::kLine;
+  int colour = 0;  // 0 to 5
+  std::vector<double> x, y;
+  std::vector<double> spread;  // half-length of a bar about each point; empty: none
+};
+
+struct Axis {
+  std::string label;
+  double from = 0, to = 0;  // from == to: as the data ask for
+  bool logarithmic = false;
+};
+
+struct Plot {
+  std::string title;
+  Axis x, y;
+  std::vector<Series> series;
+  bool legend_left = false;
+};
+
+// A histogram of `values` with bars over [from, to); what lies outside is left out. The heights are
+// shares of all values.
+Series histogram(const std::string& name, int colour, const std::vector<double>& values,
+                 double from, double to, int bins);
+
+// About 640 x 400 px [BGR].
+cv::Mat3b draw(const Plot& plot);
+
+}  // namespace dodgesim

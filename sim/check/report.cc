@@ -1,0 +1,91 @@
+#include "sim/check/report.h"
+
+#include <opencv2/imgcodecs.hpp>
+
+namespace dodgesim {
+
+namespace {
+
+constexpr const char* kHead = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<title>dodgesim check-sensor</title>
+<style>
+body { font: 14px/1.4 sans-serif; max-width: 1320px; margin: 2em auto; padding: 0 1em; color: #222; }
+table { border-collapse: collapse; margin: 0.6em 0; }
+th, td { border-bottom: 1px solid #ddd; padding: 2px 14px 2px 0; text-align: left; }
+td { font-family: monospace; }
+.FAIL { color: #b00; font-weight: bold; }
+.off { color: #888; }
+img { border: 1px solid #ddd; margin: 4px; max-width: 640px; }
+p { max-width: 60em; }
+</style>
+</head>
+<body>
+)";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+std::string table(const Check& check) {
+  std::string html =
+      "<table>\n<tr><th>check</th><th>measured</th><th>expected</th><th></th></tr>\n";
+  for (const CheckLine& line : check.lines) {
+    const std::string outcome = outcome_text(line.outcome);
+    html += "<tr class=\"" + outcome + "\"><td>" + escaped(line.name) + "</td><td>" +
+            escaped(line.measured) + "</td><td>" + escaped(line.expected) + "</td><td>" + outcome +
+            "</td></tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+std::string picture(const Plot& plot) {
+  std::vector<unsigned char> png;
+  cv::imencode(".png", draw(plot), png);
+  return "<img alt=\"" + escaped(plot.title) + "\" src=\"data:image/png;base64," + base64(png) +
+         "\">\n";
+}
+
+}  // namespace
+
+std::string base64(const std::vector<unsigned char>& bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned three = 0;
+    for (std::size_t j = i; j < i + 3; ++j) three = three << 8 | (j < bytes.size() ? bytes[j] : 0U);
+    for (std::size_t j = 0; j < 4; ++j) {
+      text += i + j <= bytes.size() ? kDigits[three >> (18 - 6 * j) & 63U] : '=';
+    }
+  }
+  return text;
+}
+
+std::string html_report(const std::string& subject, const std::vector<Check>& checks) {
+  std::string html = kHead;
+  html += "<h1>Self-tests of the event camera</h1>\n<p>" + escaped(subject) + "</p>\n";
+  for (const Check& check : checks) {
+    html += "<h2>" + escaped(check.title) + "</h2>\n<p>" + escaped(check.method) + "</p>\n";
+    html += table(check);
+    for (const Plot& plot : check.plots) html += picture(plot);
+  }
+  return html + "</body>\n</html>\n";
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,227 @@
+#include "sim/check/sampling_study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "sim/check/compare_events.h"
+#include "sim/check/film.h"
+#include "sim/check/prescribed_throw.h"
+#include "sim/check/quantile.h"
+#include "sim/flight.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr double kFiner = 8;
+constexpr double kLeastEvents = 300;  // of a throw, to be judged by itself
+constexpr double kCountLimit = 0.01;
+constexpr double kStampLimitUs = 50;
+constexpr const char* kRoom = "room";
+constexpr const char* kVehicle = "qav_rxl";
+constexpr const char* kBall = "ball";
+
+// The events of one throw, and what they took.
+struct Film {
+  std::vector<Event> object, scene;
+  double pictures = 0, regions = 0, keys = 0, wall_s = 0;
+};
+
+Film film(const World& world, const PrescribedThrow& toss, const SamplingVariant& variant,
+          const SamplingOptions& options) {
+  EventRigSetup setup;
+  setup.intrinsics = intrinsics(CameraSpec{});
+  setup.keys = variant.keys;
+  setup.sampling = variant.sampling;
+  setup.events = without_noise(options.camera);
+  setup.cameras = 1;
+  setup.seed = options.seed;
+  setup.keep_causes = true;
+  setup.whole_pictures = variant.whole_pictures;
+  EventRig rig(world, setup);
+  rig.start();
+  rig.require(options.film_us);
+  Film film;
+  for (TimeUs t_us = 0; t_us < options.film_us; t_us += kTickUs) {
+    rig.advance(toss.at(t_us), toss.at(t_us + kTickUs), [&](int, const Packet& packet) {
+      for (std::size_t i = 0; i < packet.events.size(); ++i) {
+        (packet.causes[i] == kCauseScene ? film.scene : film.object).push_back(packet.events[i]);
+      }
+    });
+  }
+  film.pictures = static_cast<double>(rig.pictures());
+  film.regions = static_cast<double>(rig.regions());
+  film.keys = static_cast<double>(rig.keys());
+  film.wall_s = rig.render_s() + rig.emulate_s();
+  return film;
+}
+
+// Adds up the throws of one variant.
+class Accuracy {
+ public:
+  void add(const std::vector<Event>& events, const std::vector<Event>& reference) {
+    const EventDifference difference = compare(events, reference);
+    sum_.events += difference.events;
+    sum_.reference_events += difference.reference_events;
+    if (difference.reference_events < kLeastEvents) return;
+    sum_.worst_count = std::max(sum_.worst_count, std::abs(difference.count_ratio - 1));
+    medians_us_.push_back(difference.median_us);
+  }
+
+  SamplingAccuracy result() const {
+    SamplingAccuracy accuracy = sum_;
+    accuracy.median_us = quantile(medians_us_, 0.5);
+    for (const double median_us : medians_us_) {
+      accuracy.worst_median_us = std::max(accuracy.worst_median_us, median_us);
+    }
+    return accuracy;
+  }
+
+ private:
+  SamplingAccuracy sum_;
+  std::vector<double> medians_us_;
+};
+
+SamplingVariant changed(const std::string& name, const std::function<void(SamplingVariant&)>& f) {
+  SamplingVariant variant{name, {}, {}};
+  f(variant);
+  return variant;
+}
+
+std::string number(const char* format, double value) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+}  // namespace
+
+std::vector<SamplingVariant> sampling_variants() {
+  const auto displacement = [](double px) {
+    return changed("max_displacement_px " + number("%g", px), [px](SamplingVariant& v) {
+      v.sampling.max_displacement_px = px;
+      v.sampling.fast_displacement_px = std::max(px, v.sampling.fast_displacement_px);
+    });
+  };
+  const auto fast = [](std::int64_t us) {
+    return changed("fast_interval_us " + std::to_string(us),
+                   [us](SamplingVariant& v) { v.sampling.fast_interval_us = us; });
+  };
+  const auto supersampling = [](std::int64_t n) {
+    return changed("supersampling " + std::to_string(n),
+                   [n](SamplingVariant& v) { v.keys.supersampling = n; });
+  };
+  const auto misplacement = [](double px) {
+    return changed("max_misplacement_px " + number("%g", px),
+                   [px](SamplingVariant& v) { v.keys.max_misplacement_px = px; });
+  };
+  return {changed("defaults", [](SamplingVariant&) {}),
+          changed("whole pictures", [](SamplingVariant& v) { v.whole_pictures = true; }),
+          supersampling(3),
+          supersampling(4),
+          changed("fine: 0.25 px, also when fast, supersampling 4",
+                  [](SamplingVariant& v) {
+                    v.sampling.max_displacement_px = v.sampling.fast_displacement_px = 0.25;
+                    v.sampling.min_interval_us = 60;
+                    v.keys.supersampling = 4;
+                  }),
+          changed("fast_displacement_px 0.5",
+                  [](SamplingVariant& v) { v.sampling.fast_displacement_px = 0.5; }),
+          displacement(0.25),
+          displacement(1),
+          fast(250),
+          fast(1000),
+          misplacement(0),
+          misplacement(0.5),
+          misplacement(2)};
+}
+
+SamplingVariant sampling_reference() {
+  SamplingVariant reference{"reference", {}, {}};
+  SamplingSpec& sampling = reference.sampling;
+  sampling.max_displacement_px /= kFiner;
+  sampling.fast_displacement_px = sampling.max_displacement_px;
+  sampling.min_interval_us =
+      static_cast<std::int64_t>(static_cast<double>(sampling.min_interval_us) / kFiner);
+  sampling.min_rate_hz *= kFiner;
+  reference.keys.max_misplacement_px = 0;
+  reference.keys.supersampling = 4;
+  reference.keys.margin_px = 16;  // the least: no picture is used twice
+  return reference;
+}
+
+std::vector<SamplingResult> study_sampling(const SamplingOptions& options,
+                                           const std::vector<SamplingVariant>& variants,
+                                           const std::function<void(int)>& report) {
+  std::vector<SamplingResult> results(variants.size());
+  std::vector<Accuracy> object(variants.size()), scene(variants.size());
+  std::vector<double> wall_s(variants.size());
+  for (int k = 0; k < options.throws; ++k) {
+    // The camera's place is the vehicle's, whatever is thrown.
+    const World bare({options.models_dir, kRoom, kVehicle, {}});
+    const auto toss = PrescribedThrow::random(options.seed, k, bare.vehicle().X_BC.front());
+    World world({options.models_dir, kRoom, kVehicle, {{kBall, toss.size_m}}});
+    world.reset(toss.vehicle.p_W, toss.yaw_rad, toss.vehicle.v_W);
+    world.launch(0, toss.ball);
+    const Film reference = film(world, toss, sampling_reference(), options);
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      const Film found = film(world, toss, variants[i], options);
+      object[i].add(found.object, reference.object);
+      scene[i].add(found.scene, reference.scene);
+      SamplingResult& result = results[i];
+      result.pictures += found.pictures / options.throws;
+      result.regions += found.regions / options.throws;
+      result.keys += found.keys / options.throws;
+      wall_s[i] += found.wall_s;
+    }
+    report(k + 1);
+  }
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    results[i].variant = variants[i].name;
+    results[i].object = object[i].result();
+    results[i].scene = scene[i].result();
+    results[i].simulated_per_s = options.throws * seconds(options.film_us) / wall_s[i];
+  }
+  return results;
+}
+
+std::string sampling_table(const std::vector<SamplingResult>& results) {
+  std::string table =
+      "| sampling | object: events | worst throw | stamps, us | worst | scene: events | worst "
+      "throw "
+      "| stamps, us | worst | pictures | regions | keys | real time |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const SamplingResult& result : results) {
+    table += "| " + result.variant;
+    for (const SamplingAccuracy* a : {&result.object, &result.scene}) {
+      table += " | " + number("%+.2f %%", 100 * (a->count_ratio() - 1)) + " | " +
+               number("%.1f %%", 100 * a->worst_count) + " | " + number("%.0f", a->median_us) +
+               " | " + number("%.0f", a->worst_median_us);
+    }
+    table += " | " + number("%.0f", result.pictures) + " | " + number("%.0f", result.regions) +
+             " | " + number("%.1f", result.keys) + " | " + number("%.2f", result.simulated_per_s) +
+             " |\n";
+  }
+  return table;
+}
+
+Check judge(const std::vector<SamplingResult>& results) {
+  Check check{
+      "Sampling of the rendered scene",
+      "Random throws in the room with a vehicle that moves and turns as it is told, half of "
+      "them at 5 rad/s, half of the balls entering the view from the side. Events against "
+      "those of a camera that is sampled eight times finer and for which every picture is "
+      "drawn anew. Noise and jitter are off.",
+      {},
+      {}};
+  for (const auto& [name, a] :
+       {std::pair{"object", results.front().object}, std::pair{"scene", results.front().scene}}) {
+    const std::string prefix = std::string("sampling.") + name;
+    check.within(prefix + ".count", a.count_ratio(), 1, kCountLimit, "of reference", 4);
+    check.between(prefix + ".stamps", a.median_us, 0, kStampLimitUs, "us", 1);
+  }
+  return check;
+}
+
+}  // namespace dodgesim

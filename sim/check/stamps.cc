@@ -1,0 +1,67 @@
+#include "sim/check/stamps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/check/film.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr int kWidth = 160, kHeight = 120;
+constexpr double kSpeedPxps = 500;
+constexpr TimeUs kSampleUs = 1000;  // half a pixel of motion
+constexpr TimeUs kDurationUs = 100000;
+constexpr TimeUs kSettlingUs = 20000;  // events of the first pictures are left out
+
+constexpr double kNear = 0.05;        // of a sample, as a share of the interval
+constexpr double kShareSlack = 0.02;  // about the even share of 2 kNear
+constexpr int kBins = 20;
+constexpr double kMostOfEven = 1.25;  // of a bin
+
+}  // namespace
+
+StampPhases measure_stamps(const EventCameraSpec& camera_spec, std::uint64_t seed) {
+  const EventCameraSpec spec = without_noise(camera_spec);
+  EventCamera camera(spec, kWidth, kHeight, seed, 0, "check", true);
+  const DriftingTexture texture(kWidth, kHeight, kSpeedPxps, seed);
+  const auto events = record(camera, texture, regular_times(kSampleUs, kDurationUs)).events;
+  StampPhases measured;
+  for (const Event& event : events) {
+    const TimeUs changed_us = event.t_us - spec.latency_us;
+    if (changed_us < kSettlingUs) continue;
+    // Stamps are rounded: the microsecond's middle is where its events are on average.
+    measured.phases.push_back((static_cast<double>(changed_us % kSampleUs) + 0.5) / kSampleUs);
+  }
+  return measured;
+}
+
+Check judge(const StampPhases& measured) {
+  Check check{"Time stamps",
+              "A texture drifts by half a pixel from sample to sample, 1 ms apart. Stamps, less "
+              "the latency, must be spread evenly between the samples: of all events as many "
+              "within 5 % of the interval about a sample as elsewhere, and none of twenty bins "
+              "more than a quarter above the even share. Noise and jitter are off.",
+              {},
+              {}};
+  const auto& phases = measured.phases;
+  const auto n = static_cast<double>(phases.size());
+  const auto near = std::count_if(phases.begin(), phases.end(),
+                                  [](double phase) { return phase < kNear || phase >= 1 - kNear; });
+  check.within("stamps.at_samples", 100 * static_cast<double>(near) / n, 200 * kNear,
+               100 * kShareSlack, "%", 2);
+  const Series bars = histogram("", 0, phases, 0, 1, kBins);
+  const double highest = *std::max_element(bars.y.begin(), bars.y.end()) * kBins;
+  const double lowest = *std::min_element(bars.y.begin(), bars.y.end()) * kBins;
+  check.between("stamps.fullest_bin", phases.empty() ? NAN : highest, 1, kMostOfEven, "of even", 3);
+  check.between("stamps.emptiest_bin", phases.empty() ? NAN : lowest, 2 - kMostOfEven, 1, "of even",
+                3);
+  check.plots.push_back({"Time stamps between two samples of the light",
+                         {"time since the last sample / interval", 0, 1, false},
+                         {"share of the events", 0, 3.0 / kBins, false},
+                         {bars}});
+  return check;
+}
+
+}  // namespace dodgesim

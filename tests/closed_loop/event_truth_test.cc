@@ -1,0 +1,147 @@
+// Why events happen, as the cameras on the vehicle say, and what follows about the detection.
+#include "sim/event_truth.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/closed_loop/flights.h"
+
+namespace dodgesim {
+namespace {
+
+using Eigen::Vector3d;
+
+// A vehicle that moves as it is told in front of the room, and a ball.
+class CausesTest : public testing::Test {
+ protected:
+  CausesTest() : world_({scenario("{}").models_dir, "room", "qav_rxl", {{"ball", 0.2}}}) {
+    setup_.intrinsics = intrinsics(CameraSpec{});
+    setup_.events = ideal_event_camera();
+    setup_.cameras = 1;
+    setup_.keep_causes = true;
+  }
+
+  // Counts the events of 20 ms by cause.
+  std::map<Cause, int> film(const Vector3d& ball_v_W, double yaw_rate_rps) {
+    world_.reset({-2, 0, 2}, 0, Vector3d::Zero());
+    BodyState ball;
+    ball.p_W = {-0.2, 0.1, 2.1};
+    world_.launch(0, ball);
+    EventRig rig(world_, setup_);
+    rig.start();
+    std::map<Cause, int> counts;
+    Snapshot now = world_.snapshot();
+    for (int tick = 1; tick <= 80; ++tick) {
+      Snapshot next = world_.snapshot();
+      next.t_us = tick * kTickUs;
+      next.objects[0].v_W = ball_v_W;
+      next.objects[0].p_W = ball.p_W + seconds(next.t_us) * ball_v_W;
+      next.vehicle.w_W = {0, 0, yaw_rate_rps};
+      next.vehicle.q_W = Eigen::AngleAxisd(seconds(next.t_us) * yaw_rate_rps, Vector3d::UnitZ());
+      rig.advance(now, next, [&](int, const Packet& packet) {
+        EXPECT_EQ(packet.causes.size(), setup_.keep_causes ? packet.events.size() : 0);
+        for (const Cause cause : packet.causes) ++counts[cause];
+      });
+      now = next;
+    }
+    hash_ = rig.events_hash();
+    return counts;
+  }
+
+  World world_;
+  EventRigSetup setup_;
+  std::uint64_t hash_ = 0;
+};
+
+TEST_F(CausesTest, OfACameraAtRestAreAllTheMovingObject) {
+  for (const double speed_mps : {0.5, 2.0, 6.0}) {
+    auto counts = film({0, speed_mps, 0.3 * speed_mps}, 0);
+    EXPECT_GT(counts[kCauseFirstObject], 40);
+    EXPECT_EQ(counts.size(), 1u) << speed_mps;
+  }
+}
+
+TEST_F(CausesTest, OfATurningCameraAreTheSceneAndTheObjectInIt) {
+  auto counts = film(Vector3d::Zero(), 2);
+  EXPECT_GT(counts[kCauseScene], 5000);
+  EXPECT_GT(counts[kCauseFirstObject], 50);
+  EXPECT_LT(counts[kCauseFirstObject], 0.1 * counts[kCauseScene]);
+}
+
+TEST_F(CausesTest, AreNoiseOfEachKindWhereNothingMoves) {
+  setup_.events = event_camera_preset("sees1");
+  setup_.events.hot_pixel_fraction = 0.01;
+  auto counts = film(Vector3d::Zero(), 0);
+  EXPECT_EQ(counts[kCauseScene] + counts[kCauseFirstObject], 0);
+  EXPECT_GT(counts[kCauseLeak], 50);
+  EXPECT_GT(counts[kCauseShotNoise], 50);
+  EXPECT_GT(counts[kCauseHotPixel], 500);
+}
+
+TEST_F(CausesTest, DoNotChangeTheEvents) {
+  setup_.events = event_camera_preset("sees1");
+  film({-4, 2, 0}, 1);
+  const std::uint64_t with = hash_;
+  setup_.keep_causes = false;
+  EXPECT_TRUE(film({-4, 2, 0}, 1).empty());
+  EXPECT_EQ(hash_, with);
+}
+
+// Checks each cycle against the pilot's own counts.
+class CheckedTruth : public EventTruth {
+ public:
+  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override {
+    EventTruth::on_cycle(now_us, pilot);
+    const auto& dodger = dynamic_cast<const dodge::Dodger&>(pilot);
+    for (int camera = 0; camera < 2; ++camera) {
+      std::map<int, int> count;  // by compensated pixel
+      int found = 0, clustered = 0;
+      for (const WindowEvent& event : window(camera)) {
+        if (event.pixel >= 0) ++count[event.pixel];
+        found += event.found ? 1 : 0;
+        labelled_ += event.cause != kCauseScene ? 1 : 0;
+      }
+      const dodge::StageImages& stages = dodger.stage_images(camera);
+      for (const auto& [pixel, n] : count) {
+        EXPECT_EQ(stages.count(pixel / stages.count.cols, pixel % stages.count.cols), n);
+      }
+      EXPECT_EQ(cv::countNonZero(stages.count), static_cast<int>(count.size()));
+      for (const dodge::Cluster& cluster : dodger.clusters(camera)) clustered += cluster.events;
+      // Groups too small for a cluster may lie in the rectangle of one.
+      EXPECT_GE(found, clustered);
+      EXPECT_LE(found, 1.2 * clustered);
+      clustered_ += clustered;
+    }
+  }
+  int labelled_ = 0, clustered_ = 0;
+};
+
+TEST(EventTruth, AgreesWithThePilotsWindowsAndFindsTheBall) {
+  const Scenario s = scenario(
+      "mission: {start_m: [-2, 0, 2]}\n"
+      "throw: {distance_m: 3, speed_mps: 5, size_m: 0.2, launch_height_m: 1.7, launch_s: 0.2}\n"
+      "dodger: {position: {max_range_m: 3}}\n");
+  FlightPlan plan = plan_throw(s, 0);
+  plan.end_us = plan.launches.at(0).toss.launch_us + 350000;
+  CheckedTruth truth;
+  const FlightRecord watched = fly(s, plan, &truth);
+  EXPECT_GT(truth.labelled_, 1000);
+  EXPECT_GT(truth.clustered_, 300);
+  ASSERT_FALSE(truth.rows().empty());
+  EXPECT_GE(truth.rows().front().cycle_us, plan.launches.at(0).toss.launch_us);
+  EXPECT_FALSE(truth.rows().front().evading);
+
+  EventTruthSums sums;
+  sums.add(truth.rows());
+  const EventTruthCounts& before = sums.before;
+  EXPECT_GT(before.precision().value_or(0), 0.5);  // a hovering vehicle sees little else
+  EXPECT_GT(before.recall().value_or(0), 0.02);
+  EXPECT_LE(before.found_object_events, std::min(before.found_events, before.object_events));
+  EXPECT_LE(std::max(before.found_events, before.object_events), before.events);
+
+  EXPECT_EQ(fly(s, plan).events_hash, watched.events_hash);  // who watches changes nothing
+}
+
+}  // namespace
+}  // namespace dodgesim

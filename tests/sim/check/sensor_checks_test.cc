@@ -1,0 +1,254 @@
+// The self-tests pass for cameras that are what they are said to be, and fail for others.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/random.h"
+#include "sim/check/conservation.h"
+#include "sim/check/convergence.h"
+#include "sim/check/noise_rates.h"
+#include "sim/check/readout_burst.h"
+#include "sim/check/self_tests.h"
+#include "sim/check/stamps.h"
+#include "sim/check/step_response.h"
+#include "sim/check/thresholds.h"
+
+namespace dodgesim {
+namespace {
+
+// Names of the lines with this outcome.
+std::vector<std::string> lines(const Check& check, Outcome outcome) {
+  std::vector<std::string> names;
+  for (const CheckLine& line : check.lines) {
+    if (line.outcome == outcome) names.push_back(line.name);
+  }
+  return names;
+}
+
+std::vector<std::string> failures(const Check& check) { return lines(check, Outcome::kFail); }
+
+using Names = std::vector<std::string>;
+
+class Preset : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Cameras, Preset, testing::Values("sees1", "ideal", "noisy", "low_light"),
+                         [](const auto& info) { return info.param; });
+
+TEST_P(Preset, PassesEveryCheck) {
+  for (const auto& make_check : sensor_checks(event_camera_preset(GetParam()), 1)) {
+    const Check check = make_check();
+    EXPECT_EQ(failures(check), Names()) << check.title;
+    EXPECT_FALSE(check.lines.empty()) << check.title;
+  }
+}
+
+TEST(SensorChecks, OfACameraUnlikeThePresetsPass) {
+  EventCameraSpec spec;
+  spec.contrast_threshold_on = 0.35;
+  spec.contrast_threshold_off = 0.15;
+  spec.mismatch_sigma = 0.1;
+  spec.follower_hz = 800;
+  spec.refractory_us = 1000;
+  spec.readout_max_hz = 5e5;
+  spec.dead_pixel_fraction = 0.01;
+  spec.linear_below = 0.01;
+  for (const auto& make_check : sensor_checks(spec, 1)) {
+    const Check check = make_check();
+    EXPECT_EQ(failures(check), Names()) << check.title;
+  }
+}
+
+TEST(SensorChecks, SayThatWhatIsSwitchedOffIsOff) {
+  Names off;
+  for (const auto& make_check : sensor_checks(ideal_event_camera(), 1)) {
+    const Names names = lines(make_check(), Outcome::kOff);
+    off.insert(off.end(), names.begin(), names.end());
+  }
+  EXPECT_EQ(off, (Names{"noise.leak", "noise.shot.dark", "noise.shot.bright", "noise.hot",
+                        "readout.rate"}));
+}
+
+TEST(ConservationCheck, FailsForAPixelBeyondItsThresholdUnlessItIsHeld) {
+  const EventCameraSpec spec;
+  PixelsAfterFilm after = measure_conservation(spec, 1);
+  PixelState& pixel = after.pixels.at(777);
+  ASSERT_FALSE(pixel.held);
+  pixel.signal = pixel.reference + 1.01 * pixel.threshold_on;
+  EXPECT_EQ(failures(judge(after, spec)), Names{"conservation.beyond"});
+  pixel.held = true;
+  EXPECT_EQ(failures(judge(after, spec)), Names());
+  pixel.held = false;
+  pixel.signal = pixel.reference - 1.01 * pixel.threshold_off;
+  EXPECT_EQ(failures(judge(after, spec)), Names{"conservation.beyond"});
+}
+
+TEST(ConservationCheck, FailsForAPixelThatHasFallenSilent) {
+  const EventCameraSpec spec;
+  PixelsAfterFilm after = measure_conservation(spec, 1);
+  after.answered.at(777) = false;
+  EXPECT_EQ(failures(judge(after, spec)), Names{"conservation.stuck"});
+}
+
+TEST(ConservationCheck, FailsForTooManyDeadPixels) {
+  EventCameraSpec broken;
+  broken.dead_pixel_fraction = 0.002;
+  EXPECT_EQ(failures(judge(measure_conservation(broken, 1), EventCameraSpec())),
+            Names{"conservation.dead"});
+}
+
+TEST(ThresholdCheck, FailsForOtherThresholds) {
+  EventCameraSpec broken;
+  broken.contrast_threshold_on = 0.202;
+  EXPECT_EQ(failures(judge(measure_thresholds(broken, 1), EventCameraSpec())),
+            Names{"threshold.on.mean"});
+  broken = EventCameraSpec();
+  broken.contrast_threshold_off = 0.198;
+  EXPECT_EQ(failures(judge(measure_thresholds(broken, 1), EventCameraSpec())),
+            Names{"threshold.off.mean"});
+}
+
+TEST(ThresholdCheck, FailsForAnotherMismatch) {
+  EventCameraSpec broken;
+  broken.mismatch_sigma = 0.032;
+  EXPECT_EQ(failures(judge(measure_thresholds(broken, 1), EventCameraSpec())),
+            (Names{"threshold.on.sd", "threshold.off.sd"}));
+}
+
+TEST(ThresholdCheck, KnowsThatThresholdsAreCut) {
+  // Against sums over quantiles.
+  for (const double lowest : {-5.0, 0.0, 0.1, 0.25, 2.0}) {
+    double mean = 0, square = 0;
+    constexpr int kCount = 200000;
+    for (int i = 0; i < kCount; ++i) {
+      const double x = std::max(lowest, 0.2 + 0.1 * normal_quantile((i + 0.5) / kCount));
+      mean += x / kCount;
+      square += x * x / kCount;
+    }
+    const Moments moments = clipped_normal(0.2, 0.1, lowest);
+    EXPECT_NEAR(moments.mean, mean, 1e-6);
+    EXPECT_NEAR(moments.sd, std::sqrt(std::max(0.0, square - mean * mean)), 1e-4);
+  }
+  EXPECT_EQ(clipped_normal(0.2, 0, 0.3).mean, 0.3);
+  EXPECT_EQ(clipped_normal(0.2, 0, 0.3).sd, 0);
+}
+
+TEST(StampCheck, FailsForStampsThatClump) {
+  StampPhases phases = measure_stamps(EventCameraSpec(), 1);
+  ASSERT_EQ(failures(judge(phases)), Names());
+  ASSERT_GT(phases.phases.size(), 10000u);
+  StampPhases clumped = phases;
+  for (std::size_t i = 0; i < clumped.phases.size(); i += 10) clumped.phases[i] = 0.999;
+  const Names failed = failures(judge(clumped));
+  EXPECT_EQ(failed, (Names{"stamps.at_samples", "stamps.fullest_bin"}));
+  // Equal slots, as of a simulator that spreads each picture's events over four instants.
+  for (double& phase : phases.phases) phase = (std::floor(4 * phase) + 0.5) / 4;
+  EXPECT_EQ(failures(judge(phases)).size(), 3u);
+}
+
+TEST(StampCheck, FailsWithoutEvents) { EXPECT_EQ(failures(judge(StampPhases())).size(), 3u); }
+
+TEST(ConvergenceCheck, FailsForEventsThatDependOnTheSampling) {
+  const std::vector<Sampled> good = measure_convergence(EventCameraSpec(), 1);
+  ASSERT_EQ(good.at(2).displacement_px, 0.5);
+  std::vector<Sampled> broken = good;
+  broken[2].difference.count_ratio = 0.985;
+  EXPECT_EQ(failures(judge(broken)), Names{"convergence.0.500px.count"});
+  broken = good;
+  broken[2].difference.median_us = 60;
+  EXPECT_EQ(failures(judge(broken)), Names{"convergence.0.500px.stamps"});
+  broken = good;
+  broken[2].difference.matched = 0.8;
+  EXPECT_EQ(failures(judge(broken)), Names{"convergence.0.500px.matched"});
+}
+
+TEST(ConvergenceCheck, SeesTheErrorGrowWithTheDisplacement) {
+  const std::vector<Sampled> rates = measure_convergence(ideal_event_camera(), 1);
+  for (std::size_t i = 1; i < rates.size(); ++i) {
+    EXPECT_LT(rates[i].difference.count_ratio, rates[i - 1].difference.count_ratio);
+    EXPECT_GE(rates[i].difference.median_us, rates[i - 1].difference.median_us);
+  }
+}
+
+TEST(StepResponseCheck, FailsForAnotherBandwidth) {
+  EventCameraSpec broken;
+  broken.photoreceptor_hz *= 0.9;
+  const Names failed = failures(judge(measure_step_response(broken, 1), EventCameraSpec()));
+  EXPECT_TRUE(std::count(failed.begin(), failed.end(), "step.10_lux.median"));
+  EXPECT_TRUE(std::count(failed.begin(), failed.end(), "step.100_lux.median"));
+  broken = EventCameraSpec();
+  broken.follower_hz = 20000;
+  EXPECT_FALSE(failures(judge(measure_step_response(broken, 1), EventCameraSpec())).empty());
+}
+
+TEST(StepResponseCheck, FailsForAnotherJitterAndLatency) {
+  EventCameraSpec broken;
+  broken.jitter_us = 13;
+  const Names failed = failures(judge(measure_step_response(broken, 1), EventCameraSpec()));
+  EXPECT_TRUE(std::count(failed.begin(), failed.end(), "step.10000_lux.spread"));
+  broken = EventCameraSpec();
+  broken.latency_us = 105;
+  EXPECT_FALSE(failures(judge(measure_step_response(broken, 1), EventCameraSpec())).empty());
+}
+
+TEST(StepResponseCheck, HasTheClosedFormOfOneAndTwoLowPasses) {
+  EXPECT_DOUBLE_EQ(step_time_s(0.5, 100, 0), std::log(2) / 100);
+  EXPECT_DOUBLE_EQ(step_time_s(0.5, 0, 100), std::log(2) / 100);
+  EXPECT_EQ(step_time_s(0.5, 0, 0), 0);
+  EXPECT_TRUE(std::isinf(step_time_s(1, 100, 50)));
+  for (const auto& [a, b] : {std::pair{100.0, 70.0}, {100.0, 100.0}, {100.0, 9000.0}}) {
+    const double t_s = step_time_s(0.3, a, b);
+    // dz/dt = b (y - z), y = 1 - exp(-a t), in small steps.
+    double z = 0;
+    constexpr int kSteps = 100000;
+    const double h = t_s / kSteps;
+    for (int i = 0; i < kSteps; ++i) z += h * b * (1 - std::exp(-a * (i + 0.5) * h) - z);
+    EXPECT_NEAR(z, 0.3, 1e-3);
+  }
+}
+
+TEST(NoiseCheck, FailsForOtherRates) {
+  const auto failed = [](auto change) {
+    EventCameraSpec broken;
+    change(broken);
+    return failures(judge(measure_noise(broken, 1), EventCameraSpec()));
+  };
+  EXPECT_EQ(failed([](auto& spec) { spec.leak_hz *= 1.01; }), Names{"noise.leak.on"});
+  EXPECT_EQ(failed([](auto& spec) { spec.shot_noise_on_hz *= 1.1; }),
+            (Names{"noise.shot.dark.on", "noise.shot.bright.on"}));
+  EXPECT_EQ(failed([](auto& spec) { spec.shot_noise_bright_share = 0.3; }),
+            (Names{"noise.shot.bright.on", "noise.shot.bright.off"}));
+  EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_hz *= 1.05; }), Names{"noise.hot.rate"});
+  EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_fraction *= 2; }), Names{"noise.hot.pixels"});
+}
+
+TEST(NoiseCheck, FailsForEventsOfAnotherCause) {
+  const EventCameraSpec spec;
+  NoiseCounts counts = measure_noise(spec, 1);
+  counts.leak.other = 1;
+  EXPECT_EQ(failures(judge(counts, spec)), Names{"noise.leak.other_causes"});
+}
+
+TEST(ReadoutCheck, FailsForAnotherRate) {
+  EventCameraSpec broken;
+  broken.readout_max_hz *= 1.02;
+  EXPECT_EQ(failures(judge(measure_burst(broken, 1), EventCameraSpec())), Names{"readout.burst"});
+  broken.readout_max_hz = 3e5;
+  EventCameraSpec slow = broken;
+  slow.readout_max_hz = 2.9e5;
+  EXPECT_EQ(failures(judge(measure_burst(broken, 1), broken)), Names());
+  EXPECT_EQ(failures(judge(measure_burst(broken, 1), slow)), Names{"readout.burst"});
+}
+
+TEST(ReadoutCheck, FailsForLossesThatAreNotCounted) {
+  const EventCameraSpec spec;
+  Burst burst = measure_burst(spec, 1);
+  burst.second_delivered -= 1;
+  EXPECT_EQ(failures(judge(burst, spec)), Names{"readout.second.not_counted"});
+  burst = measure_burst(spec, 1);
+  burst.lost = 1;
+  EXPECT_EQ(failures(judge(burst, spec)), Names{"readout.lost"});
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,128 @@
+// dodgesim check-sensor: self-tests of the event camera.
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "sim/base/error.h"
+#include "sim/campaign/progress.h"
+#include "sim/check/report.h"
+#include "sim/check/sampling_study.h"
+#include "sim/check/self_tests.h"
+#include "sim/check/time_statistics.h"
+#include "sim/config/event_camera_file.h"
+#include "sim/files/output_file.h"
+#include "tools/commands/command.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr const char* kFooter =
+    R"(One line a check: name, measured, expected, and ok, FAIL or off (that part of the camera is
+switched off). Exit code 1 if one fails. Limits on random numbers are three standard deviations:
+of a hundred other seeds, some fail by chance.
+
+Examples:
+  dodgesim check-sensor
+  dodgesim check-sensor --camera ideal --out out/check     with out/check/report.html)";
+
+// Of scenarios/demo.yaml, for the time statistics: a ball of 30 cm at 6 m/s.
+constexpr int kThrow = 1;
+
+struct Arguments {
+  std::string camera = "sees1";
+  std::string out;  // empty: no report
+  std::uint64_t seed = 1;
+  int sampling = 0;  // throws of the study; 0: none
+  std::string models_dir;
+};
+
+// The study of the sampling instead of the checks.
+int study(const Arguments& arguments) {
+  const SamplingOptions options{arguments.models_dir, arguments.sampling, arguments.seed,
+                                named_event_camera(arguments.camera)};
+  Progress progress(arguments.sampling, ::isatty(STDERR_FILENO) == 1, "throws");
+  const auto results =
+      study_sampling(options, sampling_variants(), [&](int finished) { progress.show(finished); });
+  progress.finish();
+  std::cout << sampling_table(results) << "\n";
+  const Check check = judge(results);
+  for (const CheckLine& line : check.lines) std::cout << line_text(line) << std::endl;
+  return check.failed() ? kBelowBar : kOk;
+}
+
+std::filesystem::path prepared(const std::string& out) {
+  std::error_code error;
+  std::filesystem::create_directories(out, error);
+  if (error || !std::filesystem::is_directory(out)) {
+    throw IoError("The directory " + out + " could not be made" +
+                  (error ? ": " + error.message() : "") + ".");
+  }
+  return std::filesystem::path(out) / "report.html";
+}
+
+int check_sensor(const Arguments& arguments, const std::string& command_line) {
+  const EventCameraSpec camera = named_event_camera(arguments.camera);
+  std::optional<OutputFile> report;
+  if (!arguments.out.empty()) report.emplace(prepared(arguments.out));
+  std::vector<Check> checks;
+  bool failed = false;
+  auto make_checks = sensor_checks(camera, arguments.seed);
+  if (report) {
+    make_checks.push_back([&] {
+      Scenario scenario = load_scenario(DODGESIM_SCENARIOS_DIR "/demo.yaml", arguments.models_dir);
+      scenario.sensors.events = camera;
+      return judge(measure_time_statistics(scenario, kThrow));
+    });
+  }
+  for (const auto& make_check : make_checks) {
+    checks.push_back(make_check());
+    failed = failed || checks.back().failed();
+    for (const CheckLine& line : checks.back().lines) std::cout << line_text(line) << std::endl;
+  }
+  if (report) {
+    report->write(html_report(command_line + " (dodgesim " DODGESIM_VERSION ")", checks));
+    report->commit();
+    std::cout << "Report: " << arguments.out << "/report.html\n";
+  }
+  return failed ? kBelowBar : kOk;
+}
+
+}  // namespace
+
+void add_check_sensor_command(CLI::App& program, const std::string& command_line, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand(
+      "check-sensor", "Test whether the event camera does what its parameters say");
+  command
+      ->add_option("--camera", arguments->camera,
+                   "sees1, ideal, noisy, low_light or a YAML file with the keys of sensors.events")
+      ->capture_default_str()
+      ->type_name("CAMERA");
+  command
+      ->add_option(
+          "--out", arguments->out,
+          "Write a report with plots there, made when missing. Then also flies a throw of\n"
+          "scenarios/demo.yaml, for the time statistics of static and dynamic regions")
+      ->type_name("DIR");
+  command->add_option("--seed", arguments->seed, "Of the camera and of the scenes")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command
+      ->add_option("--sampling", arguments->sampling,
+                   "Instead: what the sampling of the rendered scene costs in accuracy, over this\n"
+                   "many random throws, for several settings; some 10 s a throw")
+      ->check(CLI::Range(1, 10000))
+      ->type_name("THROWS");
+  add_models_option(*command, arguments->models_dir);
+  command->footer(kFooter);
+  command->callback([arguments, command_line, &exit_code] {
+    exit_code =
+        arguments->sampling > 0 ? study(*arguments) : check_sensor(*arguments, command_line);
+  });
+}
+
+}  // namespace dodgesim
