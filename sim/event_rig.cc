@@ -235,6 +235,11 @@ std::int64_t EventRig::event_count(int camera) const {
   return i < eyes_.size() ? eyes_[i]->count : 0;
 }
 
+std::int64_t EventRig::lost_count(int camera) const {
+  const auto i = static_cast<std::size_t>(camera);
+  return i < eyes_.size() ? eyes_[i]->pixels.lost() : 0;
+}
+
 std::uint64_t EventRig::events_hash() const {
   std::uint64_t hash = 0;
   for (const auto& eye : eyes_) hash = hash * 1099511628211u + eye->hash.value();

@@ -53,6 +53,7 @@ class EventRig {
   void advance(const Snapshot& a, const Snapshot& b, const Sink& sink);
 
   std::int64_t event_count(int camera) const;
+  std::int64_t lost_count(int camera) const;           // events that the saturated readout lost
   std::uint64_t events_hash() const;                   // of all events of all cameras
   std::int64_t keys() const { return keys_; }          // pictures of the room that were drawn
   std::int64_t pictures() const { return pictures_; }  // whole pictures that were shown

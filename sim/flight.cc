@@ -275,6 +275,7 @@ FlightRecord Flight::record() const {
   record.last = world_.snapshot();
   if (rig_) {
     record.events = {rig_->event_count(0), rig_->event_count(1)};
+    record.events_lost = {rig_->lost_count(0), rig_->lost_count(1)};
     record.events_hash = rig_->events_hash();
   }
   return record;

@@ -66,6 +66,7 @@ struct FlightRecord {
   int detections = 0;
   std::vector<DetectionRow> rows;
   std::array<std::int64_t, 2> events{};
+  std::array<std::int64_t, 2> events_lost{};  // by the saturated readout
   std::uint64_t events_hash = 0;
 };
 

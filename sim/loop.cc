@@ -102,6 +102,7 @@ void copy_record(FlightRecord&& record, ThrowResult& result) {
   result.evaded = record.first_command_us.has_value();
   result.detections = record.detections;
   result.events = record.events;
+  result.events_lost = record.events_lost;
   result.events_hash = record.events_hash;
   result.duration_us = record.last.t_us;
   result.detection_rows = std::move(record.rows);

@@ -158,9 +158,10 @@ struct ThrowResult {
   std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
   bool evaded = false;                     // any evasive command
   int detections = 0;
-  std::array<std::int64_t, 2> events{};  // of the top and bottom camera
-  std::uint64_t events_hash = 0;         // of all events in order
-  TimeUs duration_us = 0;                // simulated
+  std::array<std::int64_t, 2> events{};       // of the top and bottom camera
+  std::array<std::int64_t, 2> events_lost{};  // by a readout that could not serve them
+  std::uint64_t events_hash = 0;              // of all events in order
+  TimeUs duration_us = 0;                     // simulated
 
   std::vector<DetectionRow> detection_rows;
   std::vector<EventTruthRow> truth_rows;  // on request
@@ -189,6 +190,7 @@ struct ThrowResult {
     v("evaded", evaded);
     v("detections", detections);
     v("events", events);
+    v("events_lost", events_lost);
     v("events_hash", events_hash);
     v("duration_us", duration_us);
   }

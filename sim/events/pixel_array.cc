@@ -23,7 +23,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 // Of an OFF and an ON event.
 constexpr std::array<double, 2> kSign = {-1, 1};
 
-// A bandwidth bends S between samples; it is followed to within this share of the thresholds.
+// A bandwidth bends S between samples; it is followed to within this share of the thresholds that
+// are set, before mismatch.
 constexpr double kCurveShare = 0.02;
 
 // Flags are looked at eight at a time.

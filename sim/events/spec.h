@@ -59,7 +59,7 @@ void EventCameraSpec::visit(Visitor& v) {
     "Change of log luminance that makes an OFF event (v2e and vid2e: 0.2).");
   v("mismatch_sigma", mismatch_sigma, 0, 1,
     "Standard deviation of the thresholds over the pixels, each polarity by itself (v2e: 0.03).");
-  v("threshold_min", threshold_min, 1e-3, 10,
+  v("threshold_min", threshold_min, 1e-3, 0.01,
     "Lowest threshold that mismatch may leave to a pixel (v2e: 0.01).");
   v("log_epsilon", log_epsilon, 1e-9, 1e3,
     "Luminance added before the logarithm; keeps black finite (ESIM: 0.001).");

@@ -9,7 +9,12 @@ namespace dodgesim {
 namespace {
 
 // Straight lines between so many samples of a period stay within 1.3 % of the swing.
-constexpr double kSamplesPerPeriod = 20;
+constexpr double kFewestPerPeriod = 20;
+
+// Where the light goes nearly out, its logarithm dips sharply. Straight lines between samples stay
+// within this of it, while it has this share of its mean left.
+constexpr double kLogError = 0.003;
+constexpr double kLeastLight = 0.02;
 
 }  // namespace
 
@@ -22,7 +27,11 @@ double flicker_factor(const FlickerSpec& spec, double phase_rad, TimeUs t_us) {
 }
 
 double flicker_sampling_hz(const FlickerSpec& spec) {
-  return spec.flicker_depth > 0 ? kSamplesPerPeriod * spec.flicker_hz : 0;
+  if (spec.flicker_depth <= 0) return 0;
+  // At the minimum the logarithm's second derivative in the phase is d / (1 - d).
+  const double bend = spec.flicker_depth / std::max(1 - spec.flicker_depth, kLeastLight);
+  const double per_period = 2 * std::numbers::pi * std::sqrt(bend / (8 * kLogError));
+  return std::max(kFewestPerPeriod, per_period) * spec.flicker_hz;
 }
 
 }  // namespace dodgesim

@@ -20,6 +20,10 @@ constexpr double kFocalShare = 0.99;
 // Nodes this near the border of the key count as outside [px].
 constexpr float kBorderPx = 0.01f;
 
+// How far the straight lines between nodes may be from the picture of a turned camera, which bends
+// them [px of the view].
+constexpr double kMaxBendPx = 0.1;
+
 int cells_of(int pixels) { return (pixels + kKeyCellPx - 1) / kKeyCellPx; }
 
 // The cells that hold a region's pixels.
@@ -199,17 +203,40 @@ void KeyPicture::set_tile(int x0, int y0) {
 bool KeyPicture::near_enough() const {
   const double moved_m = X_KC_.translation().norm();
   if (every_picture_) return X_KC_.isApprox(Eigen::Isometry3d::Identity(), kSamePose);
-  return moved_m * misplacement_px_per_m_ <= max_misplacement_px_ &&
-         moved_m * nearest_inverse_m_ <= max_zoom_;
+  const double zoom = moved_m * nearest_inverse_m_;
+  return zoom <= max_zoom_ &&
+         moved_m * misplacement_px_per_m_ <= max_misplacement_px_ * (1 - zoom) &&
+         bend_px() <= kMaxBendPx;
 }
 
+// How far the middle of a cell is from where straight lines between its nodes put it, because the
+// camera has turned: most in one of the view's corners.
+double KeyPicture::bend_px() const {
+  const Eigen::Matrix3d direction = directions(view_, X_KC_.linear());
+  const auto place = [&](double x, double y) -> Eigen::Vector2d {
+    const Eigen::Vector3d ray = direction * Eigen::Vector3d(x, y, 1);
+    return view_.f * ray.head<2>() / ray.z();
+  };
+  constexpr double kCell = kKeyCellPx;
+  double bend = 0;
+  for (const double x : {0.0, std::max(0.0, view_.width - kCell)}) {
+    for (const double y : {0.0, std::max(0.0, view_.height - kCell)}) {
+      const Eigen::Vector2d mean = 0.25 * (place(x, y) + place(x + kCell, y) + place(x, y + kCell) +
+                                           place(x + kCell, y + kCell));
+      bend = std::max(bend, (place(x + 0.5 * kCell, y + 0.5 * kCell) - mean).norm());
+    }
+  }
+  return bend;
+}
+
+// Whether the key serves is asked of the whole view: a region shows what a whole picture would.
 bool KeyPicture::show(const Eigen::Isometry3d& X_WC, const Rect& region, float* luminance) {
-  if (!is_set_ || region.empty()) return is_set_;
+  if (!is_set_) return false;
   X_KC_ = X_KW_ * X_WC;
-  const Rect cells = cells_about(region);
   if (!near_enough()) return false;
-  place_nodes(cells);
-  if (!covers(cells)) return false;
+  place_nodes();
+  if (!covers_view()) return false;
+  const Rect cells = cells_about(region);
   for (int y = region.y0; y < region.y1; ++y) {
     place_pixels(y, cells);
     const int skipped = region.x0 - cells.x0 * kKeyCellPx;
@@ -225,7 +252,7 @@ std::size_t KeyPicture::node(int column, int row) const {
          static_cast<std::size_t>(column);
 }
 
-void KeyPicture::place_nodes(const Rect& cells) {
+void KeyPicture::place_nodes() {
   KeyMap map{};
   const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> direction =
       directions(view_, X_KC_.linear()).cast<float>();
@@ -239,28 +266,24 @@ void KeyPicture::place_nodes(const Rect& cells) {
   map.last_row = static_cast<float>(wide_.height - 1);
   map.inverse_depth = inverse_depth_.data();
   map.stride = wide_.width;
-  for (int j = cells.y0; j <= cells.y1; ++j) {
-    const std::size_t first = node(cells.x0, j);
-    key_kernels().place(map, static_cast<float>(cells.x0 * kKeyCellPx), kKeyCellPx,
-                        static_cast<float>(j * kKeyCellPx), cells.x1 - cells.x0 + 1,
+  const int rows = static_cast<int>(node_u_.size()) / columns_;
+  for (int j = 0; j < rows; ++j) {
+    const std::size_t first = node(0, j);
+    key_kernels().place(map, 0, kKeyCellPx, static_cast<float>(j * kKeyCellPx), columns_,
                         node_u_.data() + first, node_v_.data() + first);
   }
   // Pixels of the key to places among its means.
   const auto n = static_cast<float>(supersampling_);
-  for (std::size_t i = node(cells.x0, cells.y0); i <= node(cells.x1, cells.y1); ++i) {
-    node_u_[i] *= n;
-    node_v_[i] *= n;
-  }
+  for (float& u : node_u_) u *= n;
+  for (float& v : node_v_) v *= n;
 }
 
-bool KeyPicture::covers(const Rect& cells) const {
+bool KeyPicture::covers_view() const {
   const auto last_u = static_cast<float>(fine_.width - supersampling_) - kBorderPx;
   const auto last_v = static_cast<float>(fine_.height - supersampling_) - kBorderPx;
-  for (int j = cells.y0; j <= cells.y1; ++j) {
-    for (int i = cells.x0; i <= cells.x1; ++i) {
-      const float u = node_u_[node(i, j)], v = node_v_[node(i, j)];
-      if (!(u >= kBorderPx && u <= last_u && v >= kBorderPx && v <= last_v)) return false;
-    }
+  for (std::size_t i = 0; i < node_u_.size(); ++i) {
+    const float u = node_u_[i], v = node_v_[i];
+    if (!(u >= kBorderPx && u <= last_u && v >= kBorderPx && v <= last_v)) return false;
   }
   return true;
 }

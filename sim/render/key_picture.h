@@ -11,7 +11,9 @@
 // Where the pixels of the view lie in the key is computed on a grid of nodes and runs linearly
 // between them. A pixel's luminance is the mean over its square aperture, as a pixel of a sensor
 // collects it, and is read from a picture of all such means, half a pixel apart (with the default
-// supersampling of 2), linearly in between.
+// supersampling of 2), linearly in between; the means are sharpened by what the linear reading
+// smooths away on the average. Against pictures that are supersampled 8 times and all drawn, a
+// turning camera's background makes 0.2 to 1.4 % fewer events, edges in depth up to 3 % fewer.
 #pragma once
 
 #include <Eigen/Dense>
@@ -62,12 +64,12 @@ class KeyPicture {
            const std::vector<float>& inverse_depth);
 
   // Writes the pixels of `region` of the view from X_WC into `luminance` (width x height of the
-  // view). False, and nothing is written, if a new picture must be drawn. Equal on every processor,
-  // bit for bit.
+  // view). False, and nothing is written, if a new picture must be drawn, which depends on the pose
+  // alone and not on the region. Equal on every processor, bit for bit.
   bool show(const Eigen::Isometry3d& X_WC, const Rect& region, float* luminance);
 
   // A lower bound on the distance from the camera [m] of everything static that the last show()
-  // showed in `region`, which it must have covered; infinite for the sky.
+  // showed in `region`; infinite for the sky.
   double nearest_m(const Rect& region) const;
 
  private:
@@ -77,8 +79,9 @@ class KeyPicture {
   void set_depth(const std::vector<float>& inverse_depth);
   void set_tile(int x0, int y0);
   bool near_enough() const;
-  void place_nodes(const Rect& cells);
-  bool covers(const Rect& cells) const;
+  double bend_px() const;
+  void place_nodes();
+  bool covers_view() const;
   void place_pixels(int row, const Rect& cells);
   std::size_t node(int column, int row) const;
 

@@ -264,6 +264,21 @@ TEST_F(RigTest, TheSameMotionGivesTheSameEvents) {
   EXPECT_EQ(first, hash(3));
 }
 
+TEST_F(RigTest, CountsTheEventsThatASlowReadoutLoses) {
+  const auto count = [&](double readout_max_hz) {
+    setup_.events.readout_max_hz = readout_max_hz;
+    world_.reset(kVehicle_p_W, 0, Vector3d::Zero());
+    show(place(1.5), {0, 3, 0}, 40);
+    return std::pair(rig_->event_count(0), rig_->lost_count(0));
+  };
+  const auto [all, none_lost] = count(0);
+  EXPECT_EQ(none_lost, 0);
+  const auto [served, lost] = count(2e4);
+  EXPECT_LE(static_cast<double>(served), 2e4 * seconds(40 * 500) + 1);
+  EXPECT_GT(lost, 0);
+  EXPECT_LT(served + lost, all);  // others still wait
+}
+
 TEST_F(RigTest, AFlickeringLightMakesEveryPixelFireWithIt) {
   setup_.render.flicker = {100, 0.5};  // log luminance from -0.69 to 0.41: 5 events up, 5 down
   const auto events = show(place(1.5), Vector3d::Zero(), 160)[0];  // four periods

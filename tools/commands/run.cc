@@ -34,6 +34,20 @@ ThrowResult fly_with_truth(const Scenario& scenario, int index) {
   return result;
 }
 
+void warn_of_lost_events(const std::vector<ThrowResult>& results) {
+  std::int64_t lost = 0;
+  int throws = 0;
+  for (const ThrowResult& result : results) {
+    const std::int64_t of_throw = result.events_lost[0] + result.events_lost[1];
+    lost += of_throw;
+    throws += of_throw > 0 ? 1 : 0;
+  }
+  if (lost == 0) return;
+  std::printf(
+      "The event cameras' readout (sensors.events.readout_max_hz) lost %lld events in %s.\n",
+      static_cast<long long>(lost), count_of_throws(throws).c_str());
+}
+
 int run(const Arguments& arguments) {
   Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir);
   if (arguments.throws) scenario.repeats = *arguments.throws;
@@ -50,6 +64,7 @@ int run(const Arguments& arguments) {
   std::printf("%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n",
               count_of_throws(scenario.repeats).c_str(), duration_text(summary.wall_s).c_str(),
               summary.real_time_factor, options.out.c_str());
+  warn_of_lost_events(summary.results);
   if (options.truth) std::cout << truth_text(summary.truth) << "\n";
   if (summary.errors == 0) return kOk;
   std::cerr << count_of_throws(summary.errors)

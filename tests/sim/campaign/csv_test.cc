@@ -60,6 +60,7 @@ ThrowResult full_result() {
   result.first_detection_us = 1234567;
   result.first_detection_distance_m = 1.4142135623730951;
   result.events = {123456789012, 5};
+  result.events_lost = {3, 4};
   result.events_hash = 0xfedcba9876543210;
   result.wall_s = 1.25;
   DetectionRow row;

@@ -41,18 +41,24 @@ TEST(Flicker, IsOffAtZero) {
 }
 
 TEST(Flicker, IsFollowedByStraightLinesBetweenTheSamplesItAsksFor) {
-  const FlickerSpec spec = {100, 0.5};
-  const auto step_us = static_cast<TimeUs>(1e6 / flicker_sampling_hz(spec));
-  ASSERT_EQ(step_us, 500);
-  double farthest = 0;
-  for (TimeUs t = 0; t < 20000; ++t) {
-    const TimeUs before = t / step_us * step_us;
-    const double share = static_cast<double>(t - before) / static_cast<double>(step_us);
-    const double line = (1 - share) * flicker_factor(spec, 0, before) +
-                        share * flicker_factor(spec, 0, before + step_us);
-    farthest = std::max(farthest, std::abs(line - flicker_factor(spec, 0, t)));
+  EXPECT_NEAR(flicker_sampling_hz({100, 0.2}), 20 * 100, 0.02 * 2000);
+  for (const double depth : {0.05, 0.2, 0.5, 0.9, 0.98}) {
+    const FlickerSpec spec = {100, depth};
+    const auto logarithm = [&spec](double t_us) {
+      return std::log(1 + spec.flicker_depth * std::sin(2e-6 * M_PI * spec.flicker_hz * t_us));
+    };
+    const double step_us = 1e6 / flicker_sampling_hz(spec);
+    double farthest = 0;
+    for (double t_us = 0; t_us < 20000; ++t_us) {
+      const double before_us = std::floor(t_us / step_us) * step_us;
+      const double share = (t_us - before_us) / step_us;
+      const double line =
+          (1 - share) * logarithm(before_us) + share * logarithm(before_us + step_us);
+      farthest = std::max(farthest, std::abs(line - logarithm(t_us)));
+    }
+    EXPECT_LT(farthest, 0.0032) << depth;                    // of a threshold of 0.2
+    EXPECT_GT(farthest, depth < 0.2 ? 0 : 0.0015) << depth;  // not drawn for nothing
   }
-  EXPECT_LT(farthest, 0.013 * 0.5);
 }
 
 }  // namespace
