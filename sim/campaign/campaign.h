@@ -36,7 +36,7 @@ struct CampaignSummary {
   std::vector<ThrowResult> results;  // in throw order, without their detections
   std::string table;                 // Markdown
   int errors = 0;                    // throws of which a flight failed
-  EventTruthSums truth;  // of all throws, when their results have it
+  EventTruthSums truth;              // of all throws, when their results have it
   double wall_s = 0;
   double real_time_factor = 0;  // simulated time of the flown pilots per computing time, one core
 };

@@ -18,7 +18,7 @@ namespace dodgesim {
 
 struct Packet {
   TimeUs end_us = 0;
-  std::span<const Event> events;  // valid until the next push() or reset()
+  std::span<const Event> events;       // valid until the next push() or reset()
   std::span<const Cause> causes = {};  // one an event, or none
 };
 
