@@ -48,7 +48,7 @@ class ExactSignal : public PixelSignal {
     float* const last = luminance_.data() + part.first;
     for (const std::uint32_t i : places) {
       candidates.push_back(
-          {static_cast<std::uint32_t>(part.first) + i, 0, part.last_sample_us(i), 0, 0});
+          {static_cast<std::uint32_t>(part.first) + i, 0, part.last_sample_us(i), 0, 0, 0, 0});
       values_.push_back(last[i]);
       values_.push_back(part.luminance[i]);
     }

@@ -36,7 +36,7 @@ class FilteredSignal : public PixelSignal {
     if (order_ > 1) z_ = u_;
   }
 
-  void begin() override { bent_.clear(); }
+  void begin() override { curves_.clear(); }
 
   void scan(const RowPart& part, unsigned char* may_fire) override {
     new_u_.resize(part.size);
@@ -76,17 +76,17 @@ class FilteredSignal : public PixelSignal {
       const std::size_t index = part.first + i;
       const double dt_s = kSecondsPerUs * (part.t_us - part.last_sample_us(i));
       const Charge before = charge(index);
-      Candidate candidate = {static_cast<std::uint32_t>(index), 0, part.last_sample_us(i), 0, 0};
+      Candidate candidate{};
+      candidate.index = static_cast<std::uint32_t>(index);
+      candidate.curve = static_cast<std::uint32_t>(curves_.size());
+      candidate.t0_us = part.last_sample_us(i);
       candidate.s0 = before.z + leak_per_us_ * candidate.t0_us;
       candidate.s1 = static_cast<double>(now[i]) + leak_per_us_ * part.t_us;
       const double slope_1s = (static_cast<double>(new_u_[i]) - before.u) / dt_s;
-      const double straight_s =
-          photoreceptor_.straight_s(before, part.luminance[i], slope_1s, tolerance_);
-      if (straight_s < dt_s) {
-        bent_.push_back({before, part.luminance[i], new_u_[i], dt_s, slope_1s, straight_s});
-        candidate.bend = static_cast<std::uint32_t>(bent_.size());
-      }
+      candidate.rise_per_us = kSecondsPerUs * slope_1s + leak_per_us_;
+      candidate.decay_per_us = decay_per_us(part.luminance[i]);
       candidates.push_back(candidate);
+      curves_.push_back({before, part.luminance[i], new_u_[i], dt_s, slope_1s});
     }
     const auto first = static_cast<std::ptrdiff_t>(part.first);
     std::copy_n(new_u_.begin(), part.size, u_.begin() + first);
@@ -97,13 +97,14 @@ class FilteredSignal : public PixelSignal {
   void finish(std::span<Candidate>) override {}
 
   void knots(const Candidate& candidate, double t1_us, std::vector<Knot>& knots) const override {
-    const Bent& bent = bent_[candidate.bend - 1];
-    double t_s = bent.straight_s;
-    while (t_s < bent.dt_s) {
-      const Charge then = photoreceptor_.at(bent.before, bent.luminance, bent.u1, bent.dt_s, t_s);
+    const Curve& c = curves_[candidate.curve];
+    Charge now = c.before;
+    double t_s = photoreceptor_.straight_s(now, c.luminance, c.slope_1s, tolerance_);
+    while (t_s < c.dt_s) {
+      now = photoreceptor_.at(c.before, c.luminance, c.u1, c.dt_s, t_s);
       const double t_us = std::min(candidate.t0_us + t_s / kSecondsPerUs, t1_us);
-      knots.push_back({t_us, then.z + leak_per_us_ * t_us});
-      t_s += photoreceptor_.straight_s(then, bent.luminance, bent.slope_1s, tolerance_);
+      knots.push_back({t_us, now.z + leak_per_us_ * t_us});
+      t_s += photoreceptor_.straight_s(now, c.luminance, c.slope_1s, tolerance_);
     }
     knots.push_back({t1_us, candidate.s1});
   }
@@ -136,12 +137,17 @@ class FilteredSignal : public PixelSignal {
   }
 
  private:
-  struct Bent {
+  // Of a candidate.
+  struct Curve {
     Charge before;
     double luminance, u1, dt_s;
-    double slope_1s;    // of u
-    double straight_s;  // the first piece
+    double slope_1s;  // of u
   };
+
+  double decay_per_us(double luminance) const {
+    if (order_ == 0) return 0;
+    return order_ == 1 ? kSecondsPerUs * photoreceptor_.cutoff_rad_s(luminance) : -1;
+  }
 
   Charge charge(std::size_t index) const {
     Charge out;
@@ -163,7 +169,7 @@ class FilteredSignal : public PixelSignal {
   std::vector<float> low_, high_;
   std::vector<float> dt_s_;
   std::vector<float> new_u_, new_y_, new_z_;  // of the part that was scanned last
-  std::vector<Bent> bent_;
+  std::vector<Curve> curves_;
 };
 
 }  // namespace

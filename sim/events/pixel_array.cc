@@ -126,9 +126,8 @@ void PixelArray::sample(TimeUs t_us, const Rect& region, const Picture& picture,
       sample_row(y, now_us, region, picture, unlisted);
     }
     signal_->finish(candidates_);
-    for (const Candidate& candidate : candidates_) {
-      run(candidate, now_us, cause_at(candidate.index, picture), state);
-    }
+    solve_crossings(now_us);
+    run_all(now_us, picture, state);
   }
   show(region, picture);
   const auto height = static_cast<int>(row_keeps_times_.size());
@@ -183,23 +182,58 @@ void PixelArray::keep_times(std::size_t y, const Rect& region, double t_us) {
   std::fill(times + region.x0, times + region.x1, t_us);
 }
 
-void PixelArray::run(const Candidate& candidate, double t1_us, Cause cause, Run& run) {
-  run.first_us = static_cast<TimeUs>(candidate.t0_us) + 1;
-  Line line = {candidate.t0_us, t1_us, candidate.s0, candidate.s1};
-  if (candidate.bend == 0) {
-    run_line(candidate.index, line, cause, run);
-  } else {
-    knots_.clear();
-    signal_->knots(candidate, t1_us, knots_);
-    for (const Knot& knot : knots_) {
-      line.t1_us = knot.t_us;
-      line.s1 = knot.s;
-      run_line(candidate.index, line, cause, run);
-      line.t0_us = knot.t_us;
-      line.s0 = knot.s;
-    }
+void PixelArray::solve_crossings(double t1_us) {
+  crossings_.clear();
+  for (const Candidate& c : candidates_) {
+    const Pixel& pixel = pixels_[c.index];
+    const double decay_per_us = pixel.held_until_us == kArmed ? c.decay_per_us : -1;
+    crossings_.add({c.s0, c.s1, t1_us - c.t0_us, c.rise_per_us, decay_per_us, pixel.reference,
+                    pixel.change[0], pixel.change[1]});
   }
-  set_bounds(candidate.index);
+  crossings_.solve(refractory_us_);
+}
+
+// Most pixels make one event or none, at a crossing that is known; the others are followed piece by
+// piece.
+void PixelArray::run_all(double t1_us, const Picture& picture, Run& run_state) {
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const Candidate& candidate = candidates_[i];
+    run_state.first_us = static_cast<TimeUs>(candidate.t0_us) + 1;
+    const bool noisy = !run_state.noise.empty() && run_state.noise.front().pixel == candidate.index;
+    const Crossings::Answer answer = noisy ? Crossings::kUnknown : crossings_.answer(i);
+    if (answer == Crossings::kNothing) continue;
+    const Cause cause = cause_at(candidate.index, picture);
+    if (answer == Crossings::kUnknown) {
+      run(candidate, t1_us, cause, run_state);
+    } else {
+      fire_once(i, t1_us, cause, run_state);
+    }
+    set_bounds(candidate.index);
+  }
+}
+
+void PixelArray::fire_once(std::size_t candidate, double t1_us, Cause cause, Run& run) {
+  const std::size_t index = candidates_[candidate].index;
+  const double crossing_us = candidates_[candidate].t0_us + crossings_.crossing_us(candidate);
+  fire(index, crossing_us, t1_us, crossings_.on(candidate), cause, run);
+  Pixel& pixel = pixels_[index];
+  pixel.reference = crossings_.reference_after(candidate);
+  if (crossings_.answer(candidate) == Crossings::kHeld) {
+    pixel.held_until_us = crossing_us + refractory_us_;
+  }
+}
+
+void PixelArray::run(const Candidate& candidate, double t1_us, Cause cause, Run& run) {
+  knots_.clear();
+  signal_->knots(candidate, t1_us, knots_);
+  Line line = {candidate.t0_us, t1_us, candidate.s0, candidate.s1};
+  for (const Knot& knot : knots_) {
+    line.t1_us = knot.t_us;
+    line.s1 = knot.s;
+    run_line(candidate.index, line, cause, run);
+    line.t0_us = knot.t_us;
+    line.s0 = knot.s;
+  }
 }
 
 void PixelArray::run_line(std::size_t index, const Line& line, Cause cause, Run& run) {
@@ -236,17 +270,22 @@ void PixelArray::fire_crossings(std::size_t index, const Line& line, double unti
     if (sign * (s_until - level) < 0) return;
     pixel.reference = level;
     const double crossing_us = line.time_of(level);
-    Cause why = cause;
-    if (!leaking_us_.empty() && on &&
-        leak_per_us_ * (crossing_us - leaking_us_[index]) > 0.5 * change) {
-      why = kCauseLeak;
-    }
-    // Rounded to the clock, but no later than what comes next and after the last sample.
-    const TimeUs rounded_us =
-        std::min(static_cast<TimeUs>(crossing_us + 0.5), static_cast<TimeUs>(until_us));
-    emit(index, std::max(rounded_us, run.first_us), on, why, run);
+    fire(index, crossing_us, until_us, on, cause, run);
     if (refractory_us_ > 0) pixel.held_until_us = crossing_us + refractory_us_;
   }
+}
+
+// The event of a crossing, of which the leak is the cause if it made most of the change.
+void PixelArray::fire(std::size_t index, double crossing_us, double until_us, bool on, Cause cause,
+                      Run& run) {
+  if (!leaking_us_.empty() && on &&
+      leak_per_us_ * (crossing_us - leaking_us_[index]) > 0.5 * pixels_[index].threshold_on()) {
+    cause = kCauseLeak;
+  }
+  // Rounded to the clock, but no later than what comes next and after the last sample.
+  const TimeUs rounded_us =
+      std::min(static_cast<TimeUs>(crossing_us + 0.5), static_cast<TimeUs>(until_us));
+  emit(index, std::max(rounded_us, run.first_us), on, cause, run);
 }
 
 void PixelArray::emit(std::size_t index, TimeUs t_us, bool on, Cause cause, Run& run) {

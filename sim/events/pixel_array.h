@@ -30,6 +30,7 @@
 
 #include "sim/base/random.h"
 #include "sim/base/time.h"
+#include "sim/events/crossings.h"
 #include "sim/events/event_words.h"
 #include "sim/events/noise.h"
 #include "sim/events/pixel_signal.h"
@@ -106,9 +107,13 @@ class PixelArray {
   void sample_row(int y, double t_us, const Rect& region, const Picture& picture,
                   std::span<const NoiseEvent>& noise);
   void keep_times(std::size_t y, const Rect& region, double t_us);
+  void solve_crossings(double t1_us);
+  void run_all(double t1_us, const Picture& picture, Run& run);
+  void fire_once(std::size_t candidate, double t1_us, Cause cause, Run& run);
   void run(const Candidate& candidate, double t1_us, Cause cause, Run& run);
   void run_line(std::size_t index, const Line& line, Cause cause, Run& run);
   void fire_crossings(std::size_t index, const Line& line, double until_us, Cause cause, Run& run);
+  void fire(std::size_t index, double crossing_us, double until_us, bool on, Cause cause, Run& run);
   void emit(std::size_t index, TimeUs t_us, bool on, Cause cause, Run& run);
   void set_bounds(std::size_t index);
   void show(const Rect& region, const Picture& picture);
@@ -135,6 +140,7 @@ class PixelArray {
   std::vector<unsigned char> may_fire_;  // of a row
   std::vector<std::uint32_t> places_;    // of the row's candidates
   std::vector<Candidate> candidates_;
+  Crossings crossings_;  // of candidates_
   std::vector<Knot> knots_;
 };
 

@@ -16,9 +16,11 @@ namespace dodgesim {
 // the reset.
 struct Candidate {
   std::uint32_t index;
-  std::uint32_t bend;  // 0: S runs straight in between; else PixelSignal::knots() says how
+  std::uint32_t curve;  // for PixelSignal::knots()
   double t0_us;
   double s0, s1;
+  // How S runs in between, see crossings.h. A decay below 0: as knots() says.
+  double rise_per_us, decay_per_us;
 };
 
 struct Knot {
@@ -54,7 +56,7 @@ class PixelSignal {
                     std::vector<Candidate>& candidates) = 0;
   virtual void finish(std::span<Candidate> candidates) = 0;
 
-  // Where the signal of a bent candidate goes until t1_us, the last point included.
+  // Straight pieces that follow a candidate's signal until t1_us: their ends, the last included.
   virtual void knots(const Candidate& candidate, double t1_us, std::vector<Knot>& knots) const = 0;
 
   // The pixel makes no event while low < S < high.

@@ -141,24 +141,77 @@ DODGESIM_TARGET_AVX512 inline __m512 between(__m512 a, __m512 b, __m512 share) {
   return _mm512_add_ps(a, _mm512_mul_ps(share, _mm512_sub_ps(b, a)));
 }
 
+// Where sixteen pixels lie among the means.
+struct Places {
+  __m512i column, row;
+  __m512 fu, fv;
+};
+
+// The means at the places and their right neighbours, one pair in 32 bits.
+struct Corners {
+  __m512i top, bottom;
+};
+
+DODGESIM_TARGET_AVX512 inline Places places_at(const float* u, const float* v) {
+  const __m512 at_u = _mm512_loadu_ps(u), at_v = _mm512_loadu_ps(v);
+  const __m512i column = _mm512_cvttps_epi32(at_u), row = _mm512_cvttps_epi32(at_v);
+  return {column, row, _mm512_sub_ps(at_u, _mm512_cvtepi32_ps(column)),
+          _mm512_sub_ps(at_v, _mm512_cvtepi32_ps(row))};
+}
+
+DODGESIM_TARGET_AVX512 inline Corners gathered(const std::uint16_t* means, int stride,
+                                               const Places& p) {
+  const __m512i at =
+      _mm512_add_epi32(_mm512_mullo_epi32(p.row, _mm512_set1_epi32(stride)), p.column);
+  return {_mm512_i32gather_epi32(at, means, 2), _mm512_i32gather_epi32(at, means + stride, 2)};
+}
+
+// The pairs that begin at `pairs` among the kKeyReach means from `first` on. Index i picks the
+// halves i and i + 1.
+DODGESIM_TARGET_AVX512 inline __m512i picked(const std::uint16_t* first, __m512i pairs) {
+  return _mm512_permutex2var_epi16(_mm512_loadu_si512(first), pairs,
+                                   _mm512_loadu_si512(first + kKeyReach / 2));
+}
+
+// The same as gathered() in a fraction of its time, if the pixels lie near each other in few rows,
+// as those of a camera do that rolls little; false if they do not.
+DODGESIM_TARGET_AVX512 inline bool pick(const std::uint16_t* means, int stride, const Places& p,
+                                        Corners& corners) {
+  constexpr int kMostRows = 4;
+  const int first_column = _mm512_cvtsi512_si32(p.column);
+  const __m512i right = _mm512_sub_epi32(p.column, _mm512_set1_epi32(first_column));
+  const __mmask16 near = _mm512_cmplt_epu32_mask(right, _mm512_set1_epi32(kKeyReach - 1));
+  if (near != 0xffff) return false;
+  const __m512i pairs = _mm512_add_epi32(_mm512_or_si512(right, _mm512_slli_epi32(right, 16)),
+                                         _mm512_set1_epi32(1 << 16));
+  corners = {_mm512_setzero_si512(), _mm512_setzero_si512()};
+  unsigned left = 0xffff;
+  for (int n = 0; n < kMostRows && left != 0; ++n) {
+    const auto some = static_cast<__mmask16>(left);
+    const int row = _mm512_cvtsi512_si32(_mm512_maskz_compress_epi32(some, p.row));
+    const __mmask16 here = _mm512_cmpeq_epi32_mask(p.row, _mm512_set1_epi32(row));
+    const std::uint16_t* const first = means + row * stride + first_column;
+    corners.top = _mm512_mask_mov_epi32(corners.top, here, picked(first, pairs));
+    corners.bottom = _mm512_mask_mov_epi32(corners.bottom, here, picked(first + stride, pairs));
+    left &= ~static_cast<unsigned>(here);
+  }
+  return left == 0;
+}
+
 DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, const float* u,
                                         const float* v, int size, float* luminance) {
   constexpr int kLanes = 16;
   const __m512i low = _mm512_set1_epi32(0xffff);
   int i = 0;
   for (; i + kLanes <= size; i += kLanes) {
-    const __m512 at_u = _mm512_loadu_ps(u + i), at_v = _mm512_loadu_ps(v + i);
-    const __m512i column = _mm512_cvttps_epi32(at_u), row = _mm512_cvttps_epi32(at_v);
-    const __m512 fu = _mm512_sub_ps(at_u, _mm512_cvtepi32_ps(column));
-    const __m512 fv = _mm512_sub_ps(at_v, _mm512_cvtepi32_ps(row));
-    const __m512i at = _mm512_add_epi32(_mm512_mullo_epi32(row, _mm512_set1_epi32(stride)), column);
-    const __m512i top = _mm512_i32gather_epi32(at, means, 2);
-    const __m512i bottom = _mm512_i32gather_epi32(at, means + stride, 2);
+    const Places p = places_at(u + i, v + i);
+    Corners c = {_mm512_setzero_si512(), _mm512_setzero_si512()};
+    if (!pick(means, stride, p, c)) c = gathered(means, stride, p);
     const __m512 upper =
-        between(numbers(_mm512_and_si512(top, low)), numbers(_mm512_srli_epi32(top, 16)), fu);
-    const __m512 lower =
-        between(numbers(_mm512_and_si512(bottom, low)), numbers(_mm512_srli_epi32(bottom, 16)), fu);
-    _mm512_storeu_ps(luminance + i, between(upper, lower, fv));
+        between(numbers(_mm512_and_si512(c.top, low)), numbers(_mm512_srli_epi32(c.top, 16)), p.fu);
+    const __m512 lower = between(numbers(_mm512_and_si512(c.bottom, low)),
+                                 numbers(_mm512_srli_epi32(c.bottom, 16)), p.fu);
+    _mm512_storeu_ps(luminance + i, between(upper, lower, p.fv));
   }
   read_portable(means, stride, u + i, v + i, size - i, luminance + i);
 }

@@ -69,7 +69,7 @@ KeyPicture::KeyPicture(const Intrinsics& view, const KeySpec& spec)
   const double f = every_picture_ ? view.f : kFocalShare * view.f;
   wide_ = {view.width + 2 * margin, view.height + 2 * margin, f};
   fine_ = {supersampling_ * wide_.width, supersampling_ * wide_.height, supersampling_ * f};
-  means_.resize(area(fine_) + 1);
+  means_.resize(area(fine_) + kKeyReach);
   column_sums_.resize(static_cast<std::size_t>(fine_.width));
   sharp_row_.resize(column_sums_.size());
   for (auto& row : mean_rows_) row.resize(column_sums_.size());

@@ -97,7 +97,7 @@ class KeyPicture {
 
   bool is_set_ = false;
   Eigen::Isometry3d X_KW_ = Eigen::Isometry3d::Identity();  // K: the camera when it was drawn
-  std::vector<std::uint16_t> means_;  // over apertures, half precision; of fine_ and one more
+  std::vector<std::uint16_t> means_;  // over apertures, half precision; of fine_ and kKeyReach more
   std::vector<float> inverse_depth_;  // of wide_ [1/m]
   std::vector<float> tile_largest_;   // of inverse_depth_, over tiles of a cell's size [1/m]
   int tile_columns_ = 0;

@@ -108,15 +108,21 @@ Results results(int level, int size) {
     kernels.spread(above.data(), below.data(), 0.375f, size, spread.data());
     out.spread.insert(out.spread.end(), spread.begin(), spread.end());
 
-    std::vector<std::uint16_t> picture(static_cast<std::size_t>(kStride * kRows + 1));
+    constexpr int kWide = 300, kHigh = 90;
+    std::vector<std::uint16_t> picture(static_cast<std::size_t>(kWide * kHigh + kKeyReach));
     std::vector<float> u, v, read(static_cast<std::size_t>(size));
-    const auto bright = luminances(kStride * kRows, random);
-    kernels.halve(bright.data(), kStride * kRows, picture.data());
+    const auto bright = luminances(kWide * kHigh, random);
+    kernels.halve(bright.data(), kWide * kHigh, picture.data());
+    // Scattered, or along lines as a camera reads them: level, rolled a little, a lot, backwards.
+    const float right = static_cast<float>(random.uniform(1, 2.9)) * (trial % 8 == 1 ? -1 : 1);
+    const float down = trial % 4 == 2 ? 0 : static_cast<float>(random.uniform(-0.4, 0.4));
+    const float u0 = right > 0 ? 0 : kWide - 1.01f, v0 = down > 0 ? 0 : kHigh - 1.01f;
     for (int i = 0; i < size; ++i) {
-      u.push_back(static_cast<float>(random.uniform(0, kStride - 1)));
-      v.push_back(static_cast<float>(random.uniform(0, kRows - 1)));
+      const auto n = static_cast<float>(i);
+      u.push_back(trial % 4 ? u0 + right * n : static_cast<float>(random.uniform(0, kWide - 1)));
+      v.push_back(trial % 4 ? v0 + down * n : static_cast<float>(random.uniform(0, kHigh - 1)));
     }
-    kernels.read(picture.data(), kStride, u.data(), v.data(), size, read.data());
+    kernels.read(picture.data(), kWide, u.data(), v.data(), size, read.data());
     out.read.insert(out.read.end(), read.begin(), read.end());
   }
   return out;
@@ -138,9 +144,9 @@ TEST(KeyKernels, TheDefaultIsTheWidestThatTheProcessorHas) {
   EXPECT_EQ(&key_kernels(), &key_kernels(widest_vector_level()));
 }
 
-// What is read in a picture of 2 x 2 such means, and one element after the last.
+// What is read in a picture of 2 x 2 such means.
 float read_alone(std::uint16_t half) {
-  const std::uint16_t means[5] = {half, half, half, half, 0};
+  const std::uint16_t means[4 + kKeyReach] = {half, half, half, half};
   const float zero = 0;
   float out = -1;
   key_kernels().read(means, 2, &zero, &zero, 1, &out);

@@ -1,0 +1,134 @@
+#include "sim/events/crossings.h"
+
+#include <array>
+
+#include "sim/base/vector_level.h"
+#include "sim/events/logarithm.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr double kMostDecays = 690;  // natural_exp's limit; nothing is left then
+constexpr double kSolvedUs = 0.01;   // size of the last step
+
+constexpr std::int64_t kNothing = Crossings::kNothing, kHeld = Crossings::kHeld;
+constexpr std::int64_t kArmed = Crossings::kArmed, kUnknown = Crossings::kUnknown;
+
+struct Row {
+  std::size_t size;
+  const double *s0, *s1, *dt_us, *rise_per_us, *decay_per_us, *reference, *off, *on;
+  double *crossing_us, *reference_after;
+  std::int64_t* answer;
+  double refractory_us;
+};
+
+// By value and without branches, so that loops over them are vectorised.
+inline double smaller(double a, double b) { return a < b ? a : b; }
+inline double larger(double a, double b) { return a > b ? a : b; }
+inline double size_of(double a) { return a < 0 ? -a : a; }
+
+[[gnu::always_inline]] inline double left_of(double decay_per_us, double t_us) {
+  return natural_exp(-smaller(decay_per_us * t_us, kMostDecays));
+}
+
+// S(t) = s0 + rise t - p (1 - exp(-decay t)), for 0 <= t <= dt.
+struct Curve {
+  double s0, rise, p, decay, dt;
+};
+
+// Newton's method: where S - level would be 0 if it ran straight on from t_us.
+[[gnu::always_inline]] inline double newton_step(const Curve& c, double level, double t_us) {
+  const double left = left_of(c.decay, t_us);
+  const double error = c.s0 + c.rise * t_us - c.p * (1 - left) - level;
+  const double slope = c.rise - c.p * c.decay * left;
+  const double next_us = slope != 0 ? t_us - error / slope : 0.0;
+  return smaller(larger(next_us, 0.0), c.dt);
+}
+
+[[gnu::always_inline]] inline void solve_row(Row row) {
+  const double refractory_us = row.refractory_us;
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < row.size; ++i) {
+    const double s0 = row.s0[i], s1 = row.s1[i], dt = row.dt_us[i];
+    const double reference = row.reference[i], off = row.off[i], on = row.on[i];
+    const double given_rise = row.rise_per_us[i], given_decay = row.decay_per_us[i];
+    const double decay = larger(given_decay, 0.0);
+    const double left = left_of(decay, dt);
+    const bool straight = left >= 1;
+    const double rise = straight ? (s1 - s0) / dt : given_rise;
+    const double p = straight ? 0.0 : (s0 + rise * dt - s1) / (straight ? 1.0 : 1 - left);
+    const bool turns = (rise - p * decay) * (rise - p * decay * left) < 0;
+
+    const bool up = s1 > s0;
+    const double level = reference + (up ? on : off);
+    const bool crosses = (up ? s1 - level : level - s1) >= 0;
+
+    // From the chord on. Three steps do nearly always.
+    const Curve curve = {s0, rise, p, decay, dt};
+    const double chord_us = crosses ? (level - s0) * dt / (s1 - s0) : 0.0;
+    const double t1 = newton_step(curve, level, chord_us);
+    const double t2 = newton_step(curve, level, t1);
+    const double t3 = newton_step(curve, level, t2);
+    const double before = newton_step(curve, level, t3);
+    const double t = newton_step(curve, level, before);
+
+    const double armed_us = t + refractory_us;
+    const bool held = (refractory_us > 0) & (armed_us > dt);
+    const double s_armed = s0 + rise * armed_us - p * (1 - left_of(decay, armed_us));
+    const double after = (refractory_us > 0) & (!held) ? s_armed : level;
+    const double room = smaller(after + on - s1, s1 - (after + off));
+    const bool again = crosses & !held & !(room > 0);
+    const bool unsolved = crosses & !(size_of(t - before) < kSolvedUs);
+    const bool unknown = (given_decay < 0) | turns | again | unsolved;
+    row.crossing_us[i] = t;
+    row.reference_after[i] = after;
+    const std::int64_t event = held ? kHeld : kArmed;
+    const std::int64_t answer = crosses ? event : kNothing;
+    row.answer[i] = unknown ? kUnknown : answer;
+  }
+}
+
+void solve_portable(const Row& row) { solve_row(row); }
+DODGESIM_TARGET_AVX2 void solve_avx2(const Row& row) { solve_row(row); }
+DODGESIM_TARGET_AVX512 void solve_avx512(const Row& row) { solve_row(row); }
+
+constexpr std::array<void (*)(const Row&), kVectorLevels> kSolve = {solve_portable, solve_avx2,
+                                                                    solve_avx512};
+
+}  // namespace
+
+void Crossings::clear() {
+  for (auto* values :
+       {&s0_, &s1_, &dt_us_, &rise_per_us_, &decay_per_us_, &reference_, &off_, &on_}) {
+    values->clear();
+  }
+}
+
+void Crossings::add(const Pixel& pixel) {
+  s0_.push_back(pixel.s0);
+  s1_.push_back(pixel.s1);
+  dt_us_.push_back(pixel.dt_us);
+  rise_per_us_.push_back(pixel.rise_per_us);
+  decay_per_us_.push_back(pixel.decay_per_us);
+  reference_.push_back(pixel.reference);
+  off_.push_back(pixel.off);
+  on_.push_back(pixel.on);
+}
+
+void Crossings::solve(double refractory_us) {
+  static const int level = widest_vector_level();
+  solve(refractory_us, level);
+}
+
+void Crossings::solve(double refractory_us, int vector_level) {
+  crossing_us_.resize(size());
+  reference_after_.resize(size());
+  answer_.resize(size());
+  kSolve[static_cast<std::size_t>(vector_level)](
+      {size(), s0_.data(), s1_.data(), dt_us_.data(), rise_per_us_.data(), decay_per_us_.data(),
+       reference_.data(), off_.data(), on_.data(), crossing_us_.data(), reference_after_.data(),
+       answer_.data(), refractory_us});
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,52 @@
+// Where signals first cross a level between two samples, for many pixels at once.
+//
+// From its last sample on, a pixel's signal runs as the input of a low-pass that rises evenly makes
+// its output run: S(t) = s0 + rise t - p (1 - exp(-decay t)), with p such that S(dt) = s1; with
+// decay 0 it is a straight line. Where such a curve only rises or only falls it crosses a level at
+// most once, and Newton's method finds the place to within 0.01 us.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace dodgesim {
+
+class Crossings {
+ public:
+  // What happens to a pixel until its new sample.
+  enum Answer : std::uint8_t {
+    kNothing,  // no event
+    kHeld,     // one event; it ends in its refractory period
+    kArmed,    // one event; it is armed again
+    kUnknown,  // more than that, or the curve turns: somebody must look
+  };
+
+  // Of one pixel, which is armed. Times count from its last sample.
+  struct Pixel {
+    double s0, s1, dt_us;
+    double rise_per_us, decay_per_us;  // decay 0: a straight line; below: unknown
+    double reference, off, on;         // events at reference + off (off < 0) and reference + on
+  };
+
+  void clear();
+  void add(const Pixel& pixel);
+  std::size_t size() const { return s0_.size(); }
+
+  // Answers for all pixels. The same bytes at every vector level.
+  void solve(double refractory_us);
+  void solve(double refractory_us, int vector_level);
+
+  Answer answer(std::size_t i) const { return static_cast<Answer>(answer_[i]); }
+  // Of pixels with an event: the crossing, and the reference after it and the refractory period.
+  double crossing_us(std::size_t i) const { return crossing_us_[i]; }
+  double reference_after(std::size_t i) const { return reference_after_[i]; }
+  bool on(std::size_t i) const { return s1_[i] > s0_[i]; }
+
+ private:
+  std::vector<double> s0_, s1_, dt_us_, rise_per_us_, decay_per_us_, reference_, off_, on_;
+  std::vector<double> crossing_us_, reference_after_;
+  std::vector<std::int64_t> answer_;  // as wide as the numbers: they are computed together
+};
+
+}  // namespace dodgesim
