@@ -225,10 +225,14 @@ std::vector<Bin> make_bins(const std::vector<double>& values, double width) {
     for (const double value : distinct) bins.push_back({value, value});
     return bins;
   }
-  const auto cell_of = [&](double value) { return std::floor(value / width); };
-  for (double i = cell_of(*distinct.begin()); i <= cell_of(*distinct.rbegin()); ++i) {
-    // Multiples such as 3 * 0.1 would print as 0.30000000000000004.
-    const auto edge = [&](double k) { return std::round(k * width * 1e9) / 1e9; };
+  const auto cell_of = [&](double value) {
+    return static_cast<std::int64_t>(std::floor(value / width));
+  };
+  // Multiples such as 3 * 0.1 would print as 0.30000000000000004.
+  const auto edge = [&](std::int64_t k) {
+    return std::round(static_cast<double>(k) * width * 1e9) / 1e9;
+  };
+  for (std::int64_t i = cell_of(*distinct.begin()); i <= cell_of(*distinct.rbegin()); ++i) {
     bins.push_back({edge(i), edge(i + 1)});
   }
   return bins;

@@ -53,7 +53,7 @@ std::vector<bool> answers(EventCamera& camera, const EventCameraSpec& spec,
   for (std::size_t i = 0; i < filmed.events.size(); ++i) {
     const Event& event = filmed.events[i];
     if (filmed.causes[i] != kCauseScene) continue;
-    answered[static_cast<std::size_t>(event.y * kWidth + event.x)] = true;
+    answered[std::size_t{event.y} * kWidth + event.x] = true;
   }
   return answered;
 }

@@ -59,6 +59,11 @@ struct Curve {
     const double rise = straight ? (s1 - s0) / dt : given_rise;
     const double p = straight ? 0.0 : (s0 + rise * dt - s1) / (straight ? 1.0 : 1 - left);
     const bool turns = (rise - p * decay) * (rise - p * decay * left) < 0;
+    // Where it turns, p exp(-decay t) = rise / decay.
+    const double lag = rise / (turns ? decay : 1.0);
+    const double turn_us = natural_log(turns ? p / lag : 1.0) / (turns ? decay : 1.0);
+    const double extreme = turns ? s0 + rise * turn_us - p + lag : s1;
+    const bool within = (extreme > reference + off) & (extreme < reference + on);
 
     const bool up = s1 > s0;
     const double level = reference + (up ? on : off);
@@ -80,7 +85,7 @@ struct Curve {
     const double room = smaller(after + on - s1, s1 - (after + off));
     const bool again = crosses & !held & !(room > 0);
     const bool unsolved = crosses & !(size_of(t - before) < kSolvedUs);
-    const bool unknown = (given_decay < 0) | turns | again | unsolved;
+    const bool unknown = (given_decay < 0) | (turns & (crosses | !within)) | again | unsolved;
     row.crossing_us[i] = t;
     row.reference_after[i] = after;
     const std::int64_t event = held ? kHeld : kArmed;

@@ -19,7 +19,7 @@ class Crossings {
     kNothing,  // no event
     kHeld,     // one event; it ends in its refractory period
     kArmed,    // one event; it is armed again
-    kUnknown,  // more than that, or the curve turns: somebody must look
+    kUnknown,  // more than that, or an event on a curve that turns: somebody must look
   };
 
   // Of one pixel, which is armed. Times count from its last sample.

@@ -166,47 +166,54 @@ DODGESIM_TARGET_AVX512 inline Corners gathered(const std::uint16_t* means, int s
   return {_mm512_i32gather_epi32(at, means, 2), _mm512_i32gather_epi32(at, means + stride, 2)};
 }
 
-// The pairs that begin at `pairs` among the kKeyReach means from `first` on. Index i picks the
-// halves i and i + 1.
-DODGESIM_TARGET_AVX512 inline __m512i picked(const std::uint16_t* first, __m512i pairs) {
-  return _mm512_permutex2var_epi16(_mm512_loadu_si512(first), pairs,
-                                   _mm512_loadu_si512(first + kKeyReach / 2));
-}
+constexpr int kReach = 64;
 
-// The same as gathered() in a fraction of its time, if the pixels lie near each other in few rows,
-// as those of a camera do that rolls little; false if they do not.
+// The same as gathered() in a fraction of its time, if the pixels lie in `rows` rows from `row` on
+// and within kReach means from `column` on; false if they do not.
 DODGESIM_TARGET_AVX512 inline bool pick(const std::uint16_t* means, int stride, const Places& p,
-                                        Corners& corners) {
-  constexpr int kMostRows = 4;
-  const int first_column = _mm512_cvtsi512_si32(p.column);
-  const __m512i right = _mm512_sub_epi32(p.column, _mm512_set1_epi32(first_column));
-  const __mmask16 near = _mm512_cmplt_epu32_mask(right, _mm512_set1_epi32(kKeyReach - 1));
-  if (near != 0xffff) return false;
+                                        int row, int rows, int column, Corners& corners) {
+  const __m512i right = _mm512_sub_epi32(p.column, _mm512_set1_epi32(column));
+  const __m512i down = _mm512_sub_epi32(p.row, _mm512_set1_epi32(row));
+  if (_mm512_cmplt_epu32_mask(right, _mm512_set1_epi32(kReach - 1)) != 0xffff ||
+      _mm512_cmplt_epu32_mask(down, _mm512_set1_epi32(rows)) != 0xffff) {
+    return false;
+  }
+  // In the halves of each 32 bits the numbers of a mean and of its right neighbour.
   const __m512i pairs = _mm512_add_epi32(_mm512_or_si512(right, _mm512_slli_epi32(right, 16)),
                                          _mm512_set1_epi32(1 << 16));
+  const std::uint16_t* at = means + row * stride + column;
+  __mmask16 above = 0;
   corners = {_mm512_setzero_si512(), _mm512_setzero_si512()};
-  unsigned left = 0xffff;
-  for (int n = 0; n < kMostRows && left != 0; ++n) {
-    const auto some = static_cast<__mmask16>(left);
-    const int row = _mm512_cvtsi512_si32(_mm512_maskz_compress_epi32(some, p.row));
-    const __mmask16 here = _mm512_cmpeq_epi32_mask(p.row, _mm512_set1_epi32(row));
-    const std::uint16_t* const first = means + row * stride + first_column;
-    corners.top = _mm512_mask_mov_epi32(corners.top, here, picked(first, pairs));
-    corners.bottom = _mm512_mask_mov_epi32(corners.bottom, here, picked(first + stride, pairs));
-    left &= ~static_cast<unsigned>(here);
+  for (int n = 0; n <= rows; ++n, at += stride) {
+    const __m512i picked = _mm512_permutex2var_epi16(_mm512_loadu_si512(at), pairs,
+                                                     _mm512_loadu_si512(at + kReach / 2));
+    corners.bottom = _mm512_mask_mov_epi32(corners.bottom, above, picked);
+    above = _mm512_cmpeq_epi32_mask(down, _mm512_set1_epi32(n));
+    corners.top = _mm512_mask_mov_epi32(corners.top, above, picked);
   }
-  return left == 0;
+  // The camera's next row lies two rows of means below, with the default supersampling.
+  _mm_prefetch(at, _MM_HINT_T0);
+  _mm_prefetch(at + stride, _MM_HINT_T0);
+  return true;
 }
 
 DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, const float* u,
                                         const float* v, int size, float* luminance) {
   constexpr int kLanes = 16;
+  constexpr int kMostRows = kKeySpareRows;  // more take longer than to gather
   const __m512i low = _mm512_set1_epi32(0xffff);
+  // The rows that sixteen pixels meet, as the camera's roll is the same for all.
+  const float fall = kLanes * (v[size - 1] - v[0]) / static_cast<float>(size);
+  const int rows = static_cast<int>(fall < 0 ? -fall : fall) + 2;
   int i = 0;
   for (; i + kLanes <= size; i += kLanes) {
     const Places p = places_at(u + i, v + i);
+    const int row = static_cast<int>(smaller(v[i], v[i + kLanes - 1]));
+    const int column = static_cast<int>(smaller(u[i], u[i + kLanes - 1]));
     Corners c = {_mm512_setzero_si512(), _mm512_setzero_si512()};
-    if (!pick(means, stride, p, c)) c = gathered(means, stride, p);
+    if (rows > kMostRows || !pick(means, stride, p, row, rows, column, c)) {
+      c = gathered(means, stride, p);
+    }
     const __m512 upper =
         between(numbers(_mm512_and_si512(c.top, low)), numbers(_mm512_srli_epi32(c.top, 16)), p.fu);
     const __m512 lower = between(numbers(_mm512_and_si512(c.bottom, low)),

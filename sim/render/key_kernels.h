@@ -29,14 +29,14 @@ struct KeyKernels {
   // Straight between nodes: `cells` cells of kKeyCellPx pixels each from `cells` + 1 nodes, which
   // lie at `share` of the way from `above` to `below`.
   void (*spread)(const float* above, const float* below, float share, int cells, float* out);
-  // Reads `means` (half precision) at (u, v), linearly in between. May look at kKeyReach elements
-  // after the last one that it needs.
+  // Reads `means` (half precision) at (u, v), linearly in between. kKeySpareRows rows must
+  // follow the last one that is needed; what is in them does not matter.
   void (*read)(const std::uint16_t* means, int stride, const float* u, const float* v, int size,
                float* luminance);
 };
 
 inline constexpr int kKeyCellPx = 8;
-inline constexpr int kKeyReach = 64;
+inline constexpr int kKeySpareRows = 16;
 
 const KeyKernels& key_kernels();                  // the fastest
 const KeyKernels& key_kernels(int vector_level);  // this processor must have it

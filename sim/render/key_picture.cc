@@ -61,15 +61,16 @@ Eigen::Matrix3d directions(const Intrinsics& view, const Eigen::Matrix3d& R_KC) 
 KeyPicture::KeyPicture(const Intrinsics& view, const KeySpec& spec)
     : view_(view),
       supersampling_(static_cast<int>(spec.supersampling)),
+      columns_(cells_of(view.width) + 1),
       every_picture_(spec.max_misplacement_px <= 0),
       max_misplacement_px_(spec.max_misplacement_px),
-      max_zoom_(spec.max_zoom),
-      columns_(cells_of(view.width) + 1) {
+      max_zoom_(spec.max_zoom) {
   const int margin = static_cast<int>(spec.margin_px);
   const double f = every_picture_ ? view.f : kFocalShare * view.f;
   wide_ = {view.width + 2 * margin, view.height + 2 * margin, f};
   fine_ = {supersampling_ * wide_.width, supersampling_ * wide_.height, supersampling_ * f};
-  means_.resize(area(fine_) + kKeyReach);
+  means_.resize(area(fine_) +
+                static_cast<std::size_t>(kKeySpareRows) * static_cast<std::size_t>(fine_.width));
   column_sums_.resize(static_cast<std::size_t>(fine_.width));
   sharp_row_.resize(column_sums_.size());
   for (auto& row : mean_rows_) row.resize(column_sums_.size());

@@ -87,7 +87,10 @@ class KeyPicture {
 
   Intrinsics view_, fine_, wide_;  // wide_: the view with its margin, no finer
   int supersampling_;
-  bool every_picture_;  // is drawn
+  int columns_;           // of nodes
+  int tile_columns_ = 0;  // see tile_largest_
+  bool every_picture_;    // is drawn
+  bool is_set_ = false;
   double max_misplacement_px_, max_zoom_;
 
   // While means are taken.
@@ -95,18 +98,15 @@ class KeyPicture {
   std::array<std::vector<float>, kMeanRows> mean_rows_;
   std::vector<float> column_sums_, sharp_row_;
 
-  bool is_set_ = false;
   Eigen::Isometry3d X_KW_ = Eigen::Isometry3d::Identity();  // K: the camera when it was drawn
-  std::vector<std::uint16_t> means_;  // over apertures, half precision; of fine_ and kKeyReach more
+  std::vector<std::uint16_t> means_;  // over apertures, half precision; of fine_, with spare rows
   std::vector<float> inverse_depth_;  // of wide_ [1/m]
   std::vector<float> tile_largest_;   // of inverse_depth_, over tiles of a cell's size [1/m]
-  int tile_columns_ = 0;
   double nearest_inverse_m_ = 0;      // largest of inverse_depth_
   double misplacement_px_per_m_ = 0;  // bound on the error of a straight line between nodes
 
   // Of the last show().
   Eigen::Isometry3d X_KC_ = Eigen::Isometry3d::Identity();
-  int columns_;                         // of nodes
   std::vector<float> node_u_, node_v_;  // where a node lies in means_ [px]
   std::vector<float> row_u_, row_v_;    // where the pixels of a row lie
 };

@@ -109,7 +109,7 @@ Results results(int level, int size) {
     out.spread.insert(out.spread.end(), spread.begin(), spread.end());
 
     constexpr int kWide = 300, kHigh = 90;
-    std::vector<std::uint16_t> picture(static_cast<std::size_t>(kWide * kHigh + kKeyReach));
+    std::vector<std::uint16_t> picture(static_cast<std::size_t>(kWide * (kHigh + kKeySpareRows)));
     std::vector<float> u, v, read(static_cast<std::size_t>(size));
     const auto bright = luminances(kWide * kHigh, random);
     kernels.halve(bright.data(), kWide * kHigh, picture.data());
@@ -146,7 +146,7 @@ TEST(KeyKernels, TheDefaultIsTheWidestThatTheProcessorHas) {
 
 // What is read in a picture of 2 x 2 such means.
 float read_alone(std::uint16_t half) {
-  const std::uint16_t means[4 + kKeyReach] = {half, half, half, half};
+  const std::uint16_t means[4 + 2 * kKeySpareRows] = {half, half, half, half};
   const float zero = 0;
   float out = -1;
   key_kernels().read(means, 2, &zero, &zero, 1, &out);
