@@ -9,7 +9,6 @@
 
 #include "sim/base/random.h"
 #include "sim/events/event_log.h"
-#include "sim/world/view_distance.h"
 
 namespace dodgesim {
 
@@ -51,7 +50,6 @@ struct EventRig::Eye {
         pixels(setup.events, setup.intrinsics.width, setup.intrinsics.height, setup.seed,
                setup.throw_index, camera_name(camera), setup.keep_causes),
         packets(setup.packet_us),
-        view(setup.intrinsics),
         key(setup.intrinsics, setup.keys),
         luminance(static_cast<std::size_t>(setup.intrinsics.width) *
                   static_cast<std::size_t>(setup.intrinsics.height)) {}
@@ -61,8 +59,9 @@ struct EventRig::Eye {
   Sampler sampler;
   EventCamera pixels;
   Packetizer packets;
-  ViewDistance view;
-  KeyPicture key;  // of the static scene
+  KeyPicture key;                                         // of the static scene
+  StaticDistances distances{0};                           // as in the last whole picture
+  Eigen::Vector3d seen_from_W = Eigen::Vector3d::Zero();  // by that picture
   std::vector<float> luminance;
   EventHash hash;
   std::int64_t count = 0;
@@ -175,7 +174,7 @@ Picture EventRig::picture(const std::vector<float>& luminance) const {
 void EventRig::start() {
   const Snapshot& now = world_.snapshot();
   for (auto& eye : eyes_) {
-    show(*eye, now, whole(), eye->luminance);
+    show_whole(*eye, now);
     eye->pixels.reset(now.t_us, picture(eye->luminance));
     eye->sampler.reset(now.t_us);
     eye->packets.reset();
@@ -184,7 +183,7 @@ void EventRig::start() {
 
 void EventRig::rebase() {
   for (auto& eye : eyes_) {
-    show(*eye, world_.snapshot(), whole(), eye->luminance);
+    show_whole(*eye, world_.snapshot());
     eye->pixels.rebase(picture(eye->luminance));
   }
 }
@@ -196,7 +195,7 @@ void EventRig::require(TimeUs t_us) {
 void EventRig::advance(const Snapshot& a, const Snapshot& b, const Sink& sink) {
   for (auto& eye : eyes_) {
     samples_.clear();
-    eye->sampler.advance(a, b, eye->view.nearest_m(world_, b, eye->X_BC), samples_);
+    eye->sampler.advance(a, b, distances_until(*eye, a, b), samples_);
     for (const Sample& sample : samples_) {
       const Snapshot now = interpolate(a, b, sample.t_us);
       const Rect region = eye->sampler.region(sample, now);
@@ -210,6 +209,31 @@ void EventRig::advance(const Snapshot& a, const Snapshot& b, const Sink& sink) {
   }
 }
 
+// How near the static scene is to the camera between a and b.
+StaticDistances EventRig::distances_until(const Eye& eye, const Snapshot& a,
+                                          const Snapshot& b) const {
+  StaticDistances distances = eye.distances;
+  double moved_m = 0;
+  for (const Snapshot* now : {&a, &b}) {
+    const Eigen::Vector3d p_W = now->vehicle.pose() * eye.X_BC.translation();
+    moved_m = std::max(moved_m, (p_W - eye.seen_from_W).norm());
+  }
+  for (double& distance_m : distances.m) distance_m -= moved_m;
+  return distances;
+}
+
+// Shows the whole picture of an instant, and keeps how near what it shows is.
+void EventRig::show_whole(Eye& eye, const Snapshot& snapshot) {
+  show(eye, snapshot, whole(), eye.luminance);
+  for (int row = 0; row < StaticDistances::kRows; ++row) {
+    for (int column = 0; column < StaticDistances::kColumns; ++column) {
+      const Rect part = StaticDistances::part(setup_.intrinsics, column, row);
+      eye.distances.at(column, row) = eye.key.nearest_m(part);
+    }
+  }
+  eye.seen_from_W = snapshot.vehicle.pose() * eye.X_BC.translation();
+}
+
 void EventRig::take_region(Eye& eye, const Snapshot& snapshot, const Rect& region) {
   show(eye, snapshot, region, region_luminance_);
   ++regions_;
@@ -219,7 +243,7 @@ void EventRig::take_region(Eye& eye, const Snapshot& snapshot, const Rect& regio
 }
 
 void EventRig::take_picture(Eye& eye, const Snapshot& snapshot) {
-  show(eye, snapshot, whole(), eye.luminance);
+  show_whole(eye, snapshot);
   ++pictures_;
   const auto start = WallClock::now();
   events_.clear();

@@ -69,6 +69,8 @@ class EventRig {
 
   void draw_key(Eye& eye, const Eigen::Isometry3d& X_WC);
   void show(Eye& eye, const Snapshot& snapshot, const Rect& region, std::vector<float>& luminance);
+  void show_whole(Eye& eye, const Snapshot& snapshot);
+  StaticDistances distances_until(const Eye& eye, const Snapshot& a, const Snapshot& b) const;
   void draw_objects(Eye& eye, const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
                     const Rect& region, std::vector<float>& luminance);
   void flicker(TimeUs t_us, const Rect& region, std::vector<float>& luminance) const;

@@ -10,10 +10,10 @@ namespace dodgesim {
 
 namespace {
 
-// Nodes at which the speed of the static scene is evaluated. It is a smooth function of the place
-// that is largest at the border, nearly always in a corner.
-constexpr int kGridColumns = 9;
-constexpr int kGridRows = 7;
+// The speed of the static scene is evaluated at the corners of the parts of the view. At one
+// distance it is a smooth function of the place, and in a part largest at its border.
+constexpr int kGridColumns = StaticDistances::kColumns + 1;
+constexpr int kGridRows = StaticDistances::kRows + 1;
 
 // No surface is taken to be nearer than this, so that all speeds stay finite [m].
 constexpr double kNearestM = 1e-3;
@@ -27,7 +27,25 @@ constexpr double kRegionMarginPx = 1;
 
 constexpr TimeUs kNever = std::numeric_limits<TimeUs>::max();
 
+// Of the parts that meet at a corner.
+double nearest_at(const StaticDistances& distances, int column, int row) {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (int j = std::max(row - 1, 0); j <= std::min(row, StaticDistances::kRows - 1); ++j) {
+    for (int i = std::max(column - 1, 0); i <= std::min(column, StaticDistances::kColumns - 1);
+         ++i) {
+      nearest_m = std::min(nearest_m, distances.at(i, j));
+    }
+  }
+  return std::max(nearest_m, kNearestM);
+}
+
 }  // namespace
+
+Rect StaticDistances::part(const Intrinsics& view, int column, int row) {
+  return {view.width * column / kColumns, view.height * row / kRows,
+          (view.width * (column + 1) + kColumns - 1) / kColumns,
+          (view.height * (row + 1) + kRows - 1) / kRows};
+}
 
 Sampler::Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics,
                  const Eigen::Isometry3d& X_BC, std::vector<double> object_radius_m)
@@ -73,17 +91,16 @@ void Sampler::require(TimeUs t_us) {
   if (place == required_us_.end() || *place != t_us) required_us_.insert(place, t_us);
 }
 
-void Sampler::set_speeds(const Snapshot& a, const Snapshot& b, double nearest_static_m) {
-  parts_[0].speed_pxps =
-      std::max(static_speed(a, nearest_static_m), static_speed(b, nearest_static_m));
+void Sampler::set_speeds(const Snapshot& a, const Snapshot& b, const StaticDistances& distances) {
+  parts_[0].speed_pxps = std::max(static_speed(a, distances), static_speed(b, distances));
   for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
     parts_[1 + i].speed_pxps = std::max(object_speed(a, i), object_speed(b, i));
   }
 }
 
-void Sampler::advance(const Snapshot& a, const Snapshot& b, double nearest_static_m,
+void Sampler::advance(const Snapshot& a, const Snapshot& b, const StaticDistances& distances,
                       std::vector<Sample>& samples) {
-  set_speeds(a, b, nearest_static_m);
+  set_speeds(a, b, distances);
   TimeUs now_us = a.t_us;
   while (true) {
     const Sample sample = next_sample(now_us);
@@ -181,15 +198,17 @@ Sampler::CameraMotion Sampler::camera_motion(const Snapshot& snapshot) const {
   return camera;
 }
 
-double Sampler::static_speed(const Snapshot& snapshot, double nearest_static_m) const {
+double Sampler::static_speed(const Snapshot& snapshot, const StaticDistances& distances) const {
   const CameraMotion camera = camera_motion(snapshot);
   const Eigen::Vector3d& w = camera.w_C;
   const Eigen::Vector3d& v = camera.v_C;
-  const double distance = std::max(nearest_static_m, kNearestM);
   double fastest = 0;
-  for (const Eigen::Vector2d& p : view_grid_) {
+  for (std::size_t i = 0; i < view_grid_.size(); ++i) {
+    const Eigen::Vector2d& p = view_grid_[i];
     const double x = p.x();
     const double y = p.y();
+    const auto node = static_cast<int>(i);
+    const double distance = nearest_at(distances, node % kGridColumns, node / kGridColumns);
     // Image motion of a static point (x, y, 1) Z: d/dt of X/Z and Y/Z with dp/dt = -v - w x p.
     const double approach = w.x() * y - w.y() * x;
     const Eigen::Vector2d turn(-w.y() + w.z() * y + x * approach, w.x() - w.z() * x + y * approach);

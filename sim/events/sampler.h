@@ -20,6 +20,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "sim/base/time.h"
@@ -40,6 +42,23 @@ struct Sample {
   bool operator==(const Sample&) const = default;
 };
 
+// Lower bounds on the distance from a camera to the static scene [m], for each part of its view,
+// row by row. The sky is infinitely far.
+struct StaticDistances {
+  static constexpr int kColumns = 8, kRows = 6;
+
+  explicit StaticDistances(double everywhere_m) { m.fill(everywhere_m); }
+
+  double& at(int column, int row) { return m[static_cast<std::size_t>(row * kColumns + column)]; }
+  double at(int column, int row) const {
+    return m[static_cast<std::size_t>(row * kColumns + column)];
+  }
+  // The pixels of a part.
+  static Rect part(const Intrinsics& view, int column, int row);
+
+  std::array<double, std::size_t{kColumns} * kRows> m;
+};
+
 class Sampler {
  public:
   // `X_BC` is the pose of the camera in the vehicle's frame, `object_radius_m` the radius of the
@@ -56,10 +75,9 @@ class Sampler {
   void require(TimeUs t_us);
 
   // Appends the samples to take in (a.t_us, b.t_us], in order, no two at the same instant. a and b
-  // are a tick apart, and consecutive calls follow each other. `nearest_static_m` is a lower bound
-  // on the distance from the camera to the static scene in its view. Objects that are not launched
-  // do not count.
-  void advance(const Snapshot& a, const Snapshot& b, double nearest_static_m,
+  // are a tick apart, and consecutive calls follow each other; `distances` hold all the while.
+  // Objects that are not launched do not count.
+  void advance(const Snapshot& a, const Snapshot& b, const StaticDistances& distances,
                std::vector<Sample>& samples);
 
   // Where an object is, to be drawn over a picture of the static scene; may be empty.
@@ -71,7 +89,7 @@ class Sampler {
   Rect region(const Sample& sample, const Snapshot& snapshot);
 
   // Bounds on the speed in the image at one instant [px/s].
-  double static_speed(const Snapshot& snapshot, double nearest_static_m) const;
+  double static_speed(const Snapshot& snapshot, const StaticDistances& distances) const;
   double object_speed(const Snapshot& snapshot, std::size_t object) const;  // 0: out of view
 
  private:
@@ -91,7 +109,7 @@ class Sampler {
   TimeUs time_of_displacement(const Part& part, double limit_px, TimeUs now_us) const;
   TimeUs time_of_motion(const Part& part, TimeUs now_us) const;
   TimeUs time_due() const;
-  void set_speeds(const Snapshot& a, const Snapshot& b, double nearest_static_m);
+  void set_speeds(const Snapshot& a, const Snapshot& b, const StaticDistances& distances);
   Sample next_sample(TimeUs now_us) const;
   void sampled(const Sample& sample);
   ImageBox bounds(const Snapshot& snapshot, std::size_t object) const;

@@ -10,6 +10,9 @@ namespace dodgesim {
 
 namespace {
 
+// Bounds in single precision are made so much larger.
+constexpr float kRoundedUp = 1 + 0x1p-20f;
+
 // Rounding of poses.
 constexpr double kSamePose = 1e-9;
 
@@ -76,7 +79,7 @@ KeyPicture::KeyPicture(const Intrinsics& view, const KeySpec& spec)
   for (auto& row : mean_rows_) row.resize(column_sums_.size());
   inverse_depth_.resize(area(wide_));
   tile_columns_ = cells_of(wide_.width);
-  tile_largest_.resize(static_cast<std::size_t>(tile_columns_) *
+  tile_nearest_.resize(static_cast<std::size_t>(tile_columns_) *
                        static_cast<std::size_t>(cells_of(wide_.height)));
   const auto nodes =
       static_cast<std::size_t>(columns_) * static_cast<std::size_t>(cells_of(view.height) + 1);
@@ -167,9 +170,9 @@ void KeyPicture::set_depth(const std::vector<float>& inverse_depth) {
   }
 }
 
-// Of the tile whose first pixel is (x0, y0): its largest inverse depth, and how far it is from what
-// its corners say. The view's cells lie anywhere between the tiles: a step in the middle of a tile
-// counts half there, and may count whole in a cell.
+// Of the tile whose first pixel is (x0, y0): how near it is, and how far its inverse depth is from
+// what its corners say. The view's cells lie anywhere between the tiles: a step in the middle of a
+// tile counts half there, and may count whole in a cell.
 void KeyPicture::set_tile(int x0, int y0) {
   const int x1 = std::min(x0 + kKeyCellPx, wide_.width - 1);
   const int y1 = std::min(y0 + kKeyCellPx, wide_.height - 1);
@@ -189,8 +192,12 @@ void KeyPicture::set_tile(int x0, int y0) {
       error = std::max(error, std::abs(at(x, y) - left - step * static_cast<float>(x - x0)));
     }
   }
-  tile_largest_[static_cast<std::size_t>(y0 / kKeyCellPx * tile_columns_ + x0 / kKeyCellPx)] =
-      largest;
+  // Of the pixel that is nearest to the axis, for which the distance is shortest.
+  const Eigen::Vector2d middle(std::clamp(wide_.cx(), 1.0 * x0, 1.0 * x1) - wide_.cx(),
+                               std::clamp(wide_.cy(), 1.0 * y0, 1.0 * y1) - wide_.cy());
+  const double secant = std::sqrt(1 + middle.squaredNorm() / (wide_.f * wide_.f));
+  tile_nearest_[static_cast<std::size_t>(y0 / kKeyCellPx * tile_columns_ + x0 / kKeyCellPx)] =
+      static_cast<float>(largest / secant) * kRoundedUp;
   nearest_inverse_m_ = std::max(nearest_inverse_m_, static_cast<double>(largest));
   // Of the corner that is farthest from the axis.
   const Eigen::Vector2d ray(
@@ -305,22 +312,22 @@ double KeyPicture::nearest_m(const Rect& region) const {
   for (int j = cells.y0; j <= cells.y1; ++j) {
     for (int i = cells.x0; i <= cells.x1; ++i) {
       const std::size_t k = node(i, j);
-      u0 = std::min(u0, node_u_[k]), u1 = std::max(u1, node_u_[k]);
-      v0 = std::min(v0, node_v_[k]), v1 = std::max(v1, node_v_[k]);
+      u0 = smaller(u0, node_u_[k]), u1 = larger(u1, node_u_[k]);
+      v0 = smaller(v0, node_v_[k]), v1 = larger(v1, node_v_[k]);
     }
   }
-  const int tile_px = kKeyCellPx * supersampling_;
-  const int rows = static_cast<int>(tile_largest_.size()) / tile_columns_;
-  float largest = 0;
-  for (int y = static_cast<int>(v0) / tile_px;
-       y <= std::min(static_cast<int>(v1) / tile_px, rows - 1); ++y) {
-    for (int x = static_cast<int>(u0) / tile_px;
-         x <= std::min(static_cast<int>(u1) / tile_px, tile_columns_ - 1); ++x) {
-      largest = std::max(largest, tile_largest_[static_cast<std::size_t>(y * tile_columns_ + x)]);
-    }
+  const auto tile = [this](float place) {
+    return static_cast<int>(place) / (kKeyCellPx * supersampling_);
+  };
+  const int rows = static_cast<int>(tile_nearest_.size()) / tile_columns_;
+  const int first = std::max(tile(u0) - 1, 0), last = std::min(tile(u1) + 1, tile_columns_ - 1);
+  float nearest = 0;
+  for (int y = std::max(tile(v0) - 1, 0); y <= std::min(tile(v1) + 1, rows - 1); ++y) {
+    const float* const row = &tile_nearest_[static_cast<std::size_t>(y * tile_columns_)];
+    for (int x = first; x <= last; ++x) nearest = larger(nearest, row[x]);
   }
-  // Depth along the key's axis bounds the distance from the key, which the camera has left.
-  return 1.0 / static_cast<double>(largest) - X_KC_.translation().norm();
+  // From the key's place, which the camera has left.
+  return 1.0 / static_cast<double>(nearest) - X_KC_.translation().norm();
 }
 
 }  // namespace dodgesim

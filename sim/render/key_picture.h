@@ -69,7 +69,7 @@ class KeyPicture {
   bool show(const Eigen::Isometry3d& X_WC, const Rect& region, float* luminance);
 
   // A lower bound on the distance from the camera [m] of everything static that the last show()
-  // showed in `region`; infinite for the sky.
+  // saw in `region` and kKeyCellPx around it, inside the view or not; infinite for the sky.
   double nearest_m(const Rect& region) const;
 
  private:
@@ -88,7 +88,7 @@ class KeyPicture {
   Intrinsics view_, fine_, wide_;  // wide_: the view with its margin, no finer
   int supersampling_;
   int columns_;           // of nodes
-  int tile_columns_ = 0;  // see tile_largest_
+  int tile_columns_ = 0;  // see tile_nearest_
   bool every_picture_;    // is drawn
   bool is_set_ = false;
   double max_misplacement_px_, max_zoom_;
@@ -101,7 +101,7 @@ class KeyPicture {
   Eigen::Isometry3d X_KW_ = Eigen::Isometry3d::Identity();  // K: the camera when it was drawn
   std::vector<std::uint16_t> means_;  // over apertures, half precision; of fine_, with spare rows
   std::vector<float> inverse_depth_;  // of wide_ [1/m]
-  std::vector<float> tile_largest_;   // of inverse_depth_, over tiles of a cell's size [1/m]
+  std::vector<float> tile_nearest_;   // bounds on inverse distance, by tiles of a cell's size [1/m]
   double nearest_inverse_m_ = 0;      // largest of inverse_depth_
   double misplacement_px_per_m_ = 0;  // bound on the error of a straight line between nodes
 

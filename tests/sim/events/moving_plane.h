@@ -68,7 +68,8 @@ inline std::vector<TimeUs> sample_times(const MovingPlane& plane, const Sampling
   sampler.reset(0);
   std::vector<Sample> samples;
   for (TimeUs t = 0; t < end_us; t += kTickUs) {
-    sampler.advance(plane.snapshot(t), plane.snapshot(t + kTickUs), nearest_m, samples);
+    sampler.advance(plane.snapshot(t), plane.snapshot(t + kTickUs), StaticDistances(nearest_m),
+                    samples);
   }
   std::vector<TimeUs> times;
   times.reserve(samples.size());

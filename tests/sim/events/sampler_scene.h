@@ -40,14 +40,19 @@ inline Snapshot scene(const Snapshot& start, TimeUs t_us) {
   return s;
 }
 
-inline std::vector<Sample> run_samples(Sampler& sampler, const Snapshot& start, double nearest_m,
-                                       TimeUs end_us) {
+inline std::vector<Sample> run_samples(Sampler& sampler, const Snapshot& start,
+                                       const StaticDistances& distances, TimeUs end_us) {
   std::vector<Sample> samples;
   sampler.reset(0);
   for (TimeUs t = 0; t < end_us; t += kTickUs) {
-    sampler.advance(scene(start, t), scene(start, t + kTickUs), nearest_m, samples);
+    sampler.advance(scene(start, t), scene(start, t + kTickUs), distances, samples);
   }
   return samples;
+}
+
+inline std::vector<Sample> run_samples(Sampler& sampler, const Snapshot& start, double nearest_m,
+                                       TimeUs end_us) {
+  return run_samples(sampler, start, StaticDistances(nearest_m), end_us);
 }
 
 inline std::vector<TimeUs> times_of(const std::vector<Sample>& samples) {

@@ -27,7 +27,7 @@ TEST(Sampler, SamplesExactlyWhenRequired) {
   std::vector<Sample> samples;
   const auto go = [&](TimeUs from, TimeUs to) {
     for (TimeUs t = from; t < to; t += kTickUs) {
-      sampler.advance(scene({}, t), scene({}, t + kTickUs), 1.0, samples);
+      sampler.advance(scene({}, t), scene({}, t + kTickUs), StaticDistances(1.0), samples);
     }
   };
   go(0, 4000);
@@ -148,18 +148,22 @@ TEST(Sampler, NoPointOfTheStaticSceneMovesFartherThanTheLimitBetweenSamples) {
   RandomStream random(3, 0, "sampler");
   SamplingSpec spec;
   spec.min_interval_us = 1;
-  const double nearest = 1.0;
   double largest = 0;
   for (int trial = 0; trial < 100; ++trial) {
     const Snapshot start = random_scene(random);
     Sampler sampler = sampler_for({}, spec);
-    const auto times = run(sampler, start, nearest, 10000);
+    // Alike everywhere, or different in every part of the view.
+    StaticDistances distances(1.0);
+    for (double& m : distances.m) m = trial % 2 == 0 ? 1.0 : random.uniform(0.5, 5);
+    const auto times = times_of(run_samples(sampler, start, distances, 10000));
     std::vector<Eigen::Vector3d> pixels;  // with the distance in place of z
     for (int i = 0; i < 150; ++i) {
-      const double far = i % 3 == 0 ? nearest : random.uniform(nearest, 8);
-      pixels.emplace_back(random.uniform(-0.5, 319.5), random.uniform(-0.5, 239.5), far);
-      if (i % 5 == 0)
-        pixels.back().head<2>() = Eigen::Vector2d(i % 2 == 0 ? -0.49 : 319.49, 239.49);
+      Eigen::Vector3d& p =
+          pixels.emplace_back(random.uniform(-0.5, 319.5), random.uniform(-0.5, 239.5), 0);
+      if (i % 5 == 0) p.head<2>() = Eigen::Vector2d(i % 2 == 0 ? -0.49 : 319.49, 239.49);
+      const double nearest = distances.at(static_cast<int>((p.x() + 0.5) * 8 / 320),
+                                          static_cast<int>((p.y() + 0.5) * 6 / 240));
+      p.z() = i % 3 == 0 ? nearest : random.uniform(nearest, 8);
     }
     TimeUs previous = 0;
     for (const TimeUs t : times) {

@@ -41,7 +41,7 @@ class ThrownBall : public ::testing::Test {
     Sampler sampler = new_sampler();
     std::vector<Sample> samples;
     for (TimeUs t = 0; t < end_us; t += kTickUs) {
-      sampler.advance(scene(t), scene(t + kTickUs), 2.5, samples);
+      sampler.advance(scene(t), scene(t + kTickUs), StaticDistances(2.5), samples);
     }
     return samples;
   }
