@@ -26,8 +26,8 @@ std::vector<Event> film(const EventCameraSpec& spec, double displacement_px, std
   EventCamera camera(spec, kWidth, kHeight, seed, 0, "check", true);
   const DriftingTexture texture(kWidth, kHeight, kSpeedPxps, seed);
   // The last instants are the same for all rates.
-  const auto step_us = static_cast<TimeUs>(1e6 * displacement_px / kSpeedPxps + 0.5);
-  const auto end_us = static_cast<TimeUs>(1e6 * kFilmPx / kSpeedPxps + 0.5);
+  const TimeUs step_us = std::llround(1e6 * displacement_px / kSpeedPxps);
+  const TimeUs end_us = std::llround(1e6 * kFilmPx / kSpeedPxps);
   auto times = regular_times(step_us, end_us);
   times.push_back(end_us + spec.latency_us + 1);
   return record(

@@ -65,7 +65,7 @@ NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, dou
       continue;
     }
     ++(event.polarity > 0 ? found.on : found.off);
-    ++found.per_pixel[static_cast<std::size_t>(event.y * kWidth + event.x)];
+    ++found.per_pixel[std::size_t{event.y} * kWidth + event.x];
   }
   return found;
 }

@@ -84,7 +84,7 @@ StepAnswer measure_level(const EventCameraSpec& spec, double lux, std::uint64_t 
   StepAnswer answer{lux, {}};
   std::vector<bool> seen(static_cast<std::size_t>(kWidth) * kHeight);
   for (const Event& event : record(camera, step, times).events) {
-    const auto pixel = static_cast<std::size_t>(event.y * kWidth + event.x);
+    const auto pixel = std::size_t{event.y} * kWidth + event.x;
     if (event.polarity < 0 || seen[pixel]) continue;
     seen[pixel] = true;
     answer.latencies_us.push_back(static_cast<double>(event.t_us - kBeforeUs));
@@ -147,7 +147,9 @@ Check judge(const std::vector<StepAnswer>& answers, const EventCameraSpec& expec
     measured.y.push_back(median_us);
     measured.spread.push_back(spread(answer.latencies_us));
   }
-  for (double lux = 1; lux <= 10000; lux *= 1.2) {
+  constexpr int kPoints = 50;
+  for (int i = 0; i < kPoints; ++i) {
+    const double lux = std::pow(10, 4.0 * i / (kPoints - 1));  // 1 to 10000
     if (!applies(expected, lux)) continue;
     curve.x.push_back(lux);
     curve.y.push_back(quantile(expected_latencies_us(expected, lux), 0.5));

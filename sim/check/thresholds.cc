@@ -42,7 +42,7 @@ std::vector<double> ramp_thresholds(const EventCameraSpec& spec, std::uint64_t s
   std::vector<Fired> fired(static_cast<std::size_t>(kWidth) * kHeight);
   for (const Event& event : events) {
     if ((event.polarity > 0) != up) continue;
-    Fired& pixel = fired[static_cast<std::size_t>(event.y * kWidth + event.x)];
+    Fired& pixel = fired[std::size_t{event.y} * kWidth + event.x];
     if (pixel.count++ == 0) pixel.first_us = event.t_us;
     pixel.last_us = event.t_us;
   }

@@ -59,6 +59,7 @@ double share_above(const std::vector<PixelTime>& pixels, double threshold) {
 
 std::vector<double> values(const std::vector<PixelTime>& pixels, double PixelTime::*member) {
   std::vector<double> out;
+  out.reserve(pixels.size());
   for (const PixelTime& pixel : pixels) out.push_back(pixel.*member);
   return out;
 }

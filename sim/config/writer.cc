@@ -16,6 +16,7 @@ std::string list(const std::vector<std::string>& items) {
 
 std::string list(const std::vector<double>& values) {
   std::vector<std::string> items;
+  items.reserve(values.size());
   for (const double value : values) items.push_back(to_text(value));
   return list(items);
 }

@@ -34,6 +34,11 @@ constexpr std::size_t kWord = 8;
 // they need to stay in the cache.
 constexpr int kBandRows = 8;
 
+// Of a time that is not negative; llround would be a call.
+TimeUs rounded(double us) {
+  return static_cast<TimeUs>(us + 0.5);  // NOLINT(bugprone-incorrect-roundings)
+}
+
 float checked(float luminance) {
   if (!(luminance >= 0 && luminance <= std::numeric_limits<float>::max())) {
     throw SimulationError("An event camera was shown a luminance of " + std::to_string(luminance) +
@@ -283,8 +288,7 @@ void PixelArray::fire(std::size_t index, double crossing_us, double until_us, bo
     cause = kCauseLeak;
   }
   // Rounded to the clock, but no later than what comes next and after the last sample.
-  const TimeUs rounded_us =
-      std::min(static_cast<TimeUs>(crossing_us + 0.5), static_cast<TimeUs>(until_us));
+  const TimeUs rounded_us = std::min(rounded(crossing_us), static_cast<TimeUs>(until_us));
   emit(index, std::max(rounded_us, run.first_us), on, cause, run);
 }
 

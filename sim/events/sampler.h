@@ -49,14 +49,17 @@ struct StaticDistances {
 
   explicit StaticDistances(double everywhere_m) { m.fill(everywhere_m); }
 
-  double& at(int column, int row) { return m[static_cast<std::size_t>(row * kColumns + column)]; }
-  double at(int column, int row) const {
-    return m[static_cast<std::size_t>(row * kColumns + column)];
-  }
+  double& at(int column, int row) { return m[index(column, row)]; }
+  double at(int column, int row) const { return m[index(column, row)]; }
   // The pixels of a part.
   static Rect part(const Intrinsics& view, int column, int row);
 
   std::array<double, std::size_t{kColumns} * kRows> m;
+
+ private:
+  static std::size_t index(int column, int row) {
+    return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column);
+  }
 };
 
 class Sampler {

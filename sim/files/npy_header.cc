@@ -84,7 +84,7 @@ class HeaderParser {
     if (quote != '\'' && quote != '"') fail("a text in quotes is missing");
     const std::size_t end = rest_.find(quote, 1);
     if (end == std::string_view::npos) fail("a text does not end");
-    const std::string text(rest_.substr(1, end - 1));
+    std::string text(rest_.substr(1, end - 1));
     rest_.remove_prefix(end + 1);
     return text;
   }
@@ -94,7 +94,7 @@ class HeaderParser {
     for (std::size_t i = 0; i < rest_.size(); ++i) {
       if (rest_[i] == '[') ++depth;
       if (rest_[i] != ']' || --depth > 0) continue;
-      const std::string text(rest_.substr(0, i + 1));
+      std::string text(rest_.substr(0, i + 1));
       rest_.remove_prefix(i + 1);
       return text;
     }
