@@ -79,13 +79,12 @@ KeyPicture::KeyPicture(const Intrinsics& view, const KeySpec& spec)
   for (auto& row : mean_rows_) row.resize(column_sums_.size());
   inverse_depth_.resize(area(wide_));
   tile_columns_ = cells_of(wide_.width);
-  tile_nearest_.resize(static_cast<std::size_t>(tile_columns_) *
-                       static_cast<std::size_t>(cells_of(wide_.height)));
+  tile_nearest_.resize(tile(0, cells_of(wide_.height)));
   const auto nodes =
       static_cast<std::size_t>(columns_) * static_cast<std::size_t>(cells_of(view.height) + 1);
   node_u_.resize(nodes);
   node_v_.resize(nodes);
-  row_u_.resize(static_cast<std::size_t>(columns_ * kKeyCellPx));
+  row_u_.resize(static_cast<std::size_t>(columns_) * kKeyCellPx);
   row_v_.resize(row_u_.size());
 }
 
@@ -196,7 +195,7 @@ void KeyPicture::set_tile(int x0, int y0) {
   const Eigen::Vector2d middle(std::clamp(wide_.cx(), 1.0 * x0, 1.0 * x1) - wide_.cx(),
                                std::clamp(wide_.cy(), 1.0 * y0, 1.0 * y1) - wide_.cy());
   const double secant = std::sqrt(1 + middle.squaredNorm() / (wide_.f * wide_.f));
-  tile_nearest_[static_cast<std::size_t>(y0 / kKeyCellPx * tile_columns_ + x0 / kKeyCellPx)] =
+  tile_nearest_[tile(x0 / kKeyCellPx, y0 / kKeyCellPx)] =
       static_cast<float>(largest / secant) * kRoundedUp;
   nearest_inverse_m_ = std::max(nearest_inverse_m_, static_cast<double>(largest));
   // Of the corner that is farthest from the axis.
@@ -260,6 +259,11 @@ std::size_t KeyPicture::node(int column, int row) const {
          static_cast<std::size_t>(column);
 }
 
+std::size_t KeyPicture::tile(int column, int row) const {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(tile_columns_) +
+         static_cast<std::size_t>(column);
+}
+
 void KeyPicture::place_nodes() {
   KeyMap map{};
   const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> direction =
@@ -316,14 +320,15 @@ double KeyPicture::nearest_m(const Rect& region) const {
       v0 = smaller(v0, node_v_[k]), v1 = larger(v1, node_v_[k]);
     }
   }
-  const auto tile = [this](float place) {
+  const auto tile_at = [this](float place) {
     return static_cast<int>(place) / (kKeyCellPx * supersampling_);
   };
   const int rows = static_cast<int>(tile_nearest_.size()) / tile_columns_;
-  const int first = std::max(tile(u0) - 1, 0), last = std::min(tile(u1) + 1, tile_columns_ - 1);
+  const int first = std::max(tile_at(u0) - 1, 0),
+            last = std::min(tile_at(u1) + 1, tile_columns_ - 1);
   float nearest = 0;
-  for (int y = std::max(tile(v0) - 1, 0); y <= std::min(tile(v1) + 1, rows - 1); ++y) {
-    const float* const row = &tile_nearest_[static_cast<std::size_t>(y * tile_columns_)];
+  for (int y = std::max(tile_at(v0) - 1, 0); y <= std::min(tile_at(v1) + 1, rows - 1); ++y) {
+    const float* const row = &tile_nearest_[tile(0, y)];
     for (int x = first; x <= last; ++x) nearest = larger(nearest, row[x]);
   }
   // From the key's place, which the camera has left.

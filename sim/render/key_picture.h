@@ -84,6 +84,7 @@ class KeyPicture {
   bool covers_view() const;
   void place_pixels(int row, const Rect& cells);
   std::size_t node(int column, int row) const;
+  std::size_t tile(int column, int row) const;
 
   Intrinsics view_, fine_, wide_;  // wide_: the view with its margin, no finer
   int supersampling_;
