@@ -71,6 +71,29 @@ EgoMotion::EgoMotion(const EgoMotionConfig& config, const CameraModel& camera)
   set_motion(Eigen::Vector3d::Zero(), 0, 0);
 }
 
+// Events of a time bin share a matrix: a loop without branches.
+void EgoMotion::warp(std::span<const Event> events, float* __restrict u,
+                     float* __restrict v) const {
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const Eigen::Vector2f& d = bearing_of(events[i]);
+    u[i] = d.x();
+    v[i] = d.y();
+  }
+  for (std::size_t first = 0, end = 0; first < events.size(); first = end) {
+    const std::size_t bin = bin_of(events[first]);
+    while (end < events.size() && bin_of(events[end]) == bin) ++end;
+    const Eigen::Matrix3f H = bins_[bin];
+    for (std::size_t i = first; i < end; ++i) {
+      const float x = H(0, 0) * u[i] + H(0, 1) * v[i] + H(0, 2);
+      const float y = H(1, 0) * u[i] + H(1, 1) * v[i] + H(1, 2);
+      const float z = H(2, 0) * u[i] + H(2, 1) * v[i] + H(2, 2);
+      const float scale = 1.0F / z;
+      u[i] = x * scale;
+      v[i] = y * scale;
+    }
+  }
+}
+
 void EgoMotion::set_motion(const Eigen::Vector3d& w_WC_C, TimeUs begin_us, TimeUs end_us) {
   const double length_us = static_cast<double>(end_us - begin_us);
   const Eigen::Vector3d w = config_.enabled ? w_WC_C : Eigen::Vector3d::Zero();

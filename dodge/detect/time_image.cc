@@ -1,5 +1,6 @@
 #include "dodge/detect/time_image.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -47,7 +48,6 @@ TimeImage::TimeImage(const TimeImageConfig& config, int width, int height)
 
 void TimeImage::accumulate(std::span<const std::span<const Event>> pieces,
                            const EgoMotion& ego_motion, TimeUs begin_us, TimeUs end_us) {
-  const int width = count_.cols, height = count_.rows;
   std::uint16_t* count = count_.ptr<std::uint16_t>();
   float* time_sum = rho_.ptr<float>();
   for (const int pixel : active()) {
@@ -57,16 +57,45 @@ void TimeImage::accumulate(std::span<const std::span<const Event>> pieces,
   active_count_ = 0;
 
   const float per_us = 1.0F / static_cast<float>(end_us - begin_us);
-  for (const std::span<const Event> piece : pieces) {
-    for (const Event& event : piece) {
-      const int pixel = compensated_pixel(ego_motion, event, width, height);
-      if (pixel < 0) continue;
-      // Without a branch: whether a pixel is new cannot be predicted.
-      active_[active_count_] = pixel;
-      active_count_ += count[pixel] == 0 ? 1 : 0;
-      ++count[pixel];
-      time_sum[pixel] += per_us * static_cast<float>(event.t_us - begin_us);
+  for (std::span<const Event> piece : pieces) {
+    while (!piece.empty()) {
+      const std::size_t size = std::min(piece.size(), kBlock);
+      add(piece.first(size), ego_motion, begin_us, per_us);
+      piece = piece.subspan(size);
     }
+  }
+}
+
+void TimeImage::add(std::span<const Event> block, const EgoMotion& ego_motion, TimeUs begin_us,
+                    float per_us) {
+  std::uint16_t* count = count_.ptr<std::uint16_t>();
+  float* time_sum = rho_.ptr<float>();
+  place(block, ego_motion);
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    const int pixel = pixel_[i];
+    if (pixel < 0) continue;
+    // Without a branch: whether a pixel is new cannot be predicted.
+    active_[active_count_] = pixel;
+    active_count_ += count[pixel] == 0 ? 1 : 0;
+    ++count[pixel];
+    time_sum[pixel] += per_us * static_cast<float>(block[i].t_us - begin_us);
+  }
+}
+
+// The compensated pixels of the events.
+void TimeImage::place(std::span<const Event> block, const EgoMotion& ego_motion) {
+  const int width = count_.cols, height = count_.rows;
+  bool inside = true;
+  for (const Event& event : block) inside &= event.x < width && event.y < height;
+  if (!inside) {
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      pixel_[i] = compensated_pixel(ego_motion, block[i], width, height);
+    }
+    return;
+  }
+  ego_motion.warp(block, u_.data(), v_.data());
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    pixel_[i] = pixel_at(u_[i], v_[i], width, height);
   }
 }
 

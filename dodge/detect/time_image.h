@@ -3,6 +3,7 @@
 // Falanga et al. 2020. All images have the camera's size.
 #pragma once
 
+#include <array>
 #include <opencv2/core.hpp>
 #include <span>
 #include <vector>
@@ -44,18 +45,22 @@ struct TimeImageConfig {
   }
 };
 
+// The pixel that a place in an image of width x height lies in, as y * width + x; -1 outside.
+inline int pixel_at(float x, float y, int width, int height) {
+  // Rounds to the nearest pixel; the test on the shifted value also catches NaN.
+  const float u = x + 0.5F, v = y + 0.5F;
+  const bool inside =
+      (u >= 0) & (v >= 0) & (u < static_cast<float>(width)) & (v < static_cast<float>(height));
+  return inside ? static_cast<int>(v) * width + static_cast<int>(u) : -1;
+}
+
 // The compensated pixel of an event in an image of width x height, as y * width + x; -1 if that is
 // outside of the image, or the event's own pixel is.
 inline int compensated_pixel(const EgoMotion& ego_motion, const Event& event, int width,
                              int height) {
   if (event.x >= width || event.y >= height) return -1;
   const Eigen::Vector2f warped = ego_motion.warp(event);
-  // Rounds to the nearest pixel; the test on the shifted value also catches NaN.
-  const float u = warped.x() + 0.5F, v = warped.y() + 0.5F;
-  if (!(u >= 0 && v >= 0 && u < static_cast<float>(width) && v < static_cast<float>(height))) {
-    return -1;
-  }
-  return static_cast<int>(v) * width + static_cast<int>(u);
+  return pixel_at(warped.x(), warped.y(), width, height);
 }
 
 class TimeImage {
@@ -85,9 +90,16 @@ class TimeImage {
   const cv::Mat1b& obstacle_mask() const { return obstacle_mask_; }    // 0 or 255, cleaned
 
  private:
+  static constexpr std::size_t kBlock = 256;  // events that are warped together
+
+  void add(std::span<const Event> block, const EgoMotion& ego_motion, TimeUs begin_us,
+           float per_us);
+  void place(std::span<const Event> block, const EgoMotion& ego_motion);
   std::span<const int> active() const { return std::span(active_).first(active_count_); }
 
   TimeImageConfig config_;
+  std::array<float, kBlock> u_, v_;
+  std::array<int, kBlock> pixel_;
   cv::Mat1w count_;
   cv::Mat1f rho_;  // holds the sum of times until threshold() normalises it
   cv::Mat1f averaged_, previous_;

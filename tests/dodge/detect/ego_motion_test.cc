@@ -99,6 +99,26 @@ TEST(EgoMotion, is_exact_to_its_bound_at_the_end_and_at_the_start) {
   }
 }
 
+TEST(EgoMotion, warps_many_events_as_each_alone) {
+  const CameraModel camera;
+  EgoMotion ego_motion({}, camera);
+  ego_motion.set_motion({3, -5, 2}, kBeginUs, kEndUs);
+  dodgesim::RandomStream random(1, 1, "events");
+  std::vector<Event> events;
+  for (int i = 0; i < 1000; ++i) {  // some before the window, some after it
+    events.push_back({.t_us = kBeginUs - 100 + 11 * i,
+                      .x = static_cast<std::uint16_t>(random.uniform(0, camera.width)),
+                      .y = static_cast<std::uint16_t>(random.uniform(0, camera.height))});
+  }
+  std::vector<float> u(events.size()), v(events.size());
+  ego_motion.warp(events, u.data(), v.data());
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const Eigen::Vector2f alone = ego_motion.warp(events[i]);
+    ASSERT_EQ(u[i], alone.x()) << i;
+    ASSERT_EQ(v[i], alone.y()) << i;
+  }
+}
+
 TEST(EgoMotion, undistorts) {
   CameraModel camera{.width = 240,
                      .height = 180,
