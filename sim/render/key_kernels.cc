@@ -226,7 +226,8 @@ DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, 
 constexpr auto read_avx2 = read_portable, read_avx512 = read_portable;
 #endif
 
-// One set of functions a level.
+// One set of functions a level. The target is an attribute.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define DODGESIM_KEY_KERNELS(suffix, target)                                                   \
   target void halve_##suffix(const float* values, int size, std::uint16_t* halves) {           \
     halve_row(values, size, halves);                                                           \
@@ -246,6 +247,7 @@ DODGESIM_KEY_KERNELS(avx2, DODGESIM_TARGET_AVX2);
 DODGESIM_KEY_KERNELS(avx512, DODGESIM_TARGET_AVX512);
 
 #undef DODGESIM_KEY_KERNELS
+// NOLINTEND(bugprone-macro-parentheses)
 
 constexpr std::array<KeyKernels, kVectorLevels> kKernels = {k_portable, k_avx2, k_avx512};
 
