@@ -1,9 +1,10 @@
 // The pixels of an event camera: each turns the luminance that it sees into events.
 //
 // A pixel answers to the signal S: the response L to the luminance (response.h), behind the
-// photoreceptor's bandwidth (photoreceptor.h), plus what the leak has added to it. S runs linearly
-// from sample to sample, or, where a bandwidth bends it by more than kCurveShare of a threshold, in
-// as many straight pieces as it takes. A pixel fires an ON event when S reaches reference + C_on
+// photoreceptor's bandwidth (photoreceptor.h), plus what the leak has added to it. From sample to
+// sample S runs linearly, or as a bandwidth bends it: exactly where a pixel makes one event and the
+// bandwidth is of first order (crossings.h), else in straight pieces that stay within kCurveShare of
+// the thresholds. A pixel fires an ON event when S reaches reference + C_on
 // and an OFF event when S falls to reference - C_off, stamped at that crossing (Lichtsteiner et al.
 // 2008; the event model (1) of Falanga et al. 2020); the reference then moves to the level that was
 // crossed, so one interval may hold several events of a pixel.
