@@ -1,14 +1,14 @@
 #include "sim/campaign/campaign.h"
 
 #include <chrono>
-#include <fstream>
-#include <sstream>
+#include <optional>
 
-#include "sim/base/error.h"
-#include "sim/campaign/csv.h"
+#include "sim/campaign/build_info.h"
+#include "sim/campaign/campaign_directory.h"
+#include "sim/campaign/journal.h"
 #include "sim/campaign/manifest.h"
 #include "sim/campaign/progress.h"
-#include "sim/campaign/tables.h"
+#include "sim/campaign/result_files.h"
 #include "sim/config/resolve_throw.h"
 #include "sim/files/output_file.h"
 
@@ -18,89 +18,53 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kScenarioFile = "scenario.resolved.yaml";
-constexpr const char* kResultFiles[] = {"manifest.json", "throws.csv", "detections.csv",
-                                        "timing.csv",    "table.md",   "table.csv",
-                                        "truth.csv"};
-
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw IoError(path.string() + " could not be read.");
-  return text.str();
+std::string program_name() {
+  const BuildInfo build = build_info();
+  return build.version + " " + build.commit + (build.modified ? " modified" : "");
 }
 
-// Makes `out` ready: a directory that holds the resolved scenario and no results.
-void prepare(const fs::path& out, const std::string& resolved, bool force) {
-  std::error_code error;
-  fs::create_directories(out, error);
-  if (!fs::is_directory(out)) {
-    throw IoError(out.string() + " could not be created: " +
-                  (error ? error.message() : "a file of that name exists") + ".");
-  }
-  if (!force && !fs::is_empty(out)) {
-    if (!fs::exists(out / kScenarioFile)) {
-      throw ScenarioError(out.string() +
-                          " is neither empty nor a campaign; choose another directory or add "
-                          "--force.");
-    }
-    if (read_file(out / kScenarioFile) != resolved) {
-      throw ScenarioError(out.string() +
-                          " holds the results of another scenario; choose another directory or add "
-                          "--force to overwrite them.");
-    }
-  }
-  // Results of an earlier run must not stand beside the scenario of this one.
-  for (const char* name : kResultFiles) {
-    fs::remove(out / name, error);
-    if (error) {
-      throw IoError((out / name).string() + " could not be removed: " + error.message() + ".");
-    }
-  }
-  write_file(out / kScenarioFile, resolved);
+CampaignIdentity identity_of(const Scenario& scenario, const CampaignOptions& options) {
+  return {to_yaml(scenario), program_name(), options.truth};
 }
 
-// The files that grow throw by throw.
-class ResultFiles {
- public:
-  ResultFiles(const fs::path& out, bool truth)
-      : throws_(out / "throws.csv"),
-        detections_(out / "detections.csv"),
-        timing_(out / "timing.csv") {
-    throws_.write(csv_header<ThrowResult>());
-    detections_.write(csv_header<DetectionRow>());
-    timing_.write("throw,simulated_s,wall_s,real_time_factor\n");
-    if (!truth) return;
-    truth_.emplace(out / "truth.csv");
-    truth_->write(csv_header<EventTruthRow>());
+// Numbers of the shard's throws.
+std::vector<int> throws_of(const Scenario& scenario, const Shard& shard) {
+  std::vector<int> throws;
+  for (int i = shard.index; i < scenario.repeats; i += shard.count) throws.push_back(i);
+  return throws;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Flies what the journal lacks.
+void fly_missing(const Scenario& scenario, const CampaignOptions& options, const FlyFunction& fly,
+                 const std::optional<JournalIndex>& found, CampaignSummary& summary) {
+  const fs::path path = options.out / kJournalFile;
+  std::optional<Journal> journal;
+  if (found) {
+    journal.emplace(path, *found);
+  } else {
+    journal.emplace(path, identity_of(scenario, options));
   }
-
-  void add(const ThrowResult& result) {
-    throws_.write(csv_row(result));
-    for (const DetectionRow& row : result.detection_rows) detections_.write(csv_row(row));
-    const double simulated_s = seconds(result.duration_us);
-    timing_.write(to_text(result.index) + "," + to_text(simulated_s) + "," +
-                  to_text(result.wall_s) + "," +
-                  (result.wall_s > 0 ? to_text(simulated_s / result.wall_s) : "") + "\n");
-    if (!truth_) return;
-    for (const EventTruthRow& row : result.truth_rows) truth_->write(csv_row(row));
+  WorkerTasks tasks;
+  for (const int throw_index : throws_of(scenario, options.shard)) {
+    ++summary.wanted;
+    if (!found || found->throws.count(throw_index) == 0) tasks.throws.push_back(throw_index);
   }
-
-  void commit() {
-    throws_.commit();
-    detections_.commit();
-    timing_.commit();
-    if (truth_) truth_->commit();
-  }
-
- private:
-  OutputFile throws_, detections_, timing_;
-  std::optional<OutputFile> truth_;
-};
-
-bool any_error(const ThrowResult& result) {
-  return result.flown.failed() || result.none.failed() || result.oracle.failed();
+  tasks.jobs = options.jobs;
+  tasks.limits = options.limits;
+  tasks.fly = fly;
+  tasks.stop = options.stop;
+  tasks.blank = [&](int index) { return blank_result(scenario, index); };
+  Progress progress(static_cast<std::int64_t>(tasks.throws.size()), options.show_progress);
+  tasks.receive = [&](const ThrowResult& result) {
+    journal->add(result);
+    progress.show(++summary.flown);
+  };
+  summary.memory = fly_in_workers(tasks);
+  journal->sync();
 }
 
 }  // namespace
@@ -126,42 +90,21 @@ CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& op
                              const FlyFunction& fly) {
   const auto begin = std::chrono::steady_clock::now();
   const std::string started = utc_now();
-  prepare(options.out, to_yaml(scenario), options.force);
+  make_directory(options.out);
+  const DirectoryLock lock(options.out);
+  const auto found = find_journal(options, identity_of(scenario, options));
+  remove_result_files(options.out);
+  write_file(options.out / kScenarioFile, to_yaml(scenario));
 
-  ResultFiles files(options.out, options.truth);
   CampaignSummary summary;
-  Progress progress(scenario.repeats, options.show_progress);
-  double simulated_s = 0, computing_s = 0;
-
-  WorkerTasks tasks;
-  tasks.throws = scenario.repeats;
-  tasks.jobs = options.jobs;
-  tasks.fly = fly;
-  tasks.blank = [&](int index) { return blank_result(scenario, index); };
-  tasks.receive = [&](ThrowResult result) {
-    files.add(result);
-    simulated_s += seconds(result.duration_us);
-    computing_s += result.wall_s;
-    if (any_error(result)) ++summary.errors;
-    summary.truth.add(result.truth_rows);
-    result.truth_rows.clear();
-    result.truth_rows.shrink_to_fit();
-    result.detection_rows.clear();
-    result.detection_rows.shrink_to_fit();
-    summary.results.push_back(std::move(result));
-  };
-  tasks.progress = [&](int finished) { progress.show(finished); };
-  fly_in_workers(tasks);
-  progress.finish();
-
-  const Tables tables = make_tables(summary.results, scenario.name, scenario.pilot);
-  summary.table = tables.markdown;
-  summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (computing_s > 0) summary.real_time_factor = simulated_s / computing_s;
-
-  files.commit();
-  write_file(options.out / "table.md", tables.markdown);
-  write_file(options.out / "table.csv", tables.csv);
+  fly_missing(scenario, options, fly, found, summary);
+  const JournalIndex index = read_journal(options.out / kJournalFile);
+  if (static_cast<int>(index.throws.size()) < summary.wanted) {
+    summary.results.resize(index.throws.size());
+    return summary;
+  }
+  write_result_files(options.out, scenario, index, options.truth, summary);
+  summary.wall_s = seconds_since(begin);
   write_file(options.out / "manifest.json", manifest_json(scenario, options, summary, started));
   return summary;
 }

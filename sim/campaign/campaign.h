@@ -1,20 +1,22 @@
 // Flies all throws of a scenario and writes a directory of results:
+//
 //   scenario.resolved.yaml  every value spelled out
-//   throws.csv              one row a throw, in throw order       } byte-identical for any number
-//   detections.csv          one row a detection, in throw order   } of workers
-//   table.md, table.csv     success tables                        }
-//   truth.csv               on request: what the events' causes say about the detection, a row a
-//   cycle timing.csv              computing time of each throw manifest.json           commit,
-//   versions, machine, command line, throughput; written last, so a
+//   results.bin             every result as it came (journal.h): what --resume and merge go on with
+//   throws.csv, detections.csv, table.md, table.csv, and truth.csv on request (result_files.h):
+//                           byte-identical for any number of workers, shards and resumes
+//   timing.csv              computing time of each throw
+//   manifest.json           commit, versions, machine, command line, throughput; written last, so a
 //                           directory that has it is complete
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "sim/campaign/result.h"
+#include "sim/campaign/shard.h"
 #include "sim/campaign/workers.h"
 #include "sim/config/scenario.h"
 
@@ -23,30 +25,52 @@ namespace dodgesim {
 struct CampaignOptions {
   std::filesystem::path out;
   int jobs = 1;
-  bool force = false;        // overwrite whatever is in `out`
+  bool force = false;   // start anew, whatever is in `out`
+  bool resume = false;  // fly what is missing in `out`
+  Shard shard;
+  WorkerLimits limits;
   std::string command_line;  // for the manifest
   // Name of the OpenGL renderer, for the manifest. Asked for after the workers have ended, because
   // no GL context may exist when they are forked; may be empty.
   std::function<std::string()> gl_renderer;
   bool show_progress = false;
-  bool truth = false;  // write truth.csv, from the results' truth_rows
+  bool truth = false;          // write truth.csv, from the results' truth_rows
+  std::function<bool()> stop;  // see WorkerTasks
 };
 
 struct CampaignSummary {
   std::vector<ThrowResult> results;  // in throw order, without their detections
+  int wanted = 0;                    // throws of the shard; more than results if it was stopped
   std::string table;                 // Markdown
   int errors = 0;                    // throws of which a flight failed
   EventTruthSums truth;              // of all throws, when their results have it
-  double wall_s = 0;
+  double wall_s = 0;                 // of this run
   double real_time_factor = 0;  // simulated time of the flown pilots per computing time, one core
+  WorkerMemory memory;          // of this run
+  int flown = 0;                // throws of this run
+
+  bool complete() const { return static_cast<int>(results.size()) == wanted; }
 };
 
 // The result of throw `index` before any flight: its numbers as drawn. Requires a valid scenario.
 ThrowResult blank_result(const Scenario& scenario, int index);
 
-// Throws ScenarioError when `out` holds something else than a campaign of this very scenario and
-// force is not set, or as `fly` does; IoError when a file cannot be written.
+// Flies the throws with `fly`. If it is stopped, nothing but the journal is written. Throws
+// ScenarioError, also if `out` holds something else or another process is writing there, and
+// IoError; what was flown stays in the journal.
 CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& options,
                              const FlyFunction& fly);
+
+// A merge lacks throws; what() lists them.
+class MissingThrows : public std::runtime_error {
+ public:
+  explicit MissingThrows(const std::string& what) : std::runtime_error(what) {}
+};
+
+// Puts the results of several directories (shards of one campaign, in any order, some perhaps
+// twice) together in options.out, as if one process had flown them. Throws ScenarioError if they
+// are of different campaigns, contradict each other, or lack throws (MissingThrows); IoError.
+CampaignSummary merge_campaigns(const std::vector<std::filesystem::path>& directories,
+                                const CampaignOptions& options);
 
 }  // namespace dodgesim

@@ -84,11 +84,13 @@ class ByteReader {
 
  private:
   std::string_view take(std::uint64_t size) {
-    if (size > bytes_.size()) throw SimulationError("A worker sent an incomplete result.");
+    if (size > bytes_.size()) throw IoError("A result is not whole.");
     const std::string_view head = bytes_.substr(0, size);
     bytes_.remove_prefix(size);
     return head;
   }
+
+  void number(bool& value) { value = take(1).front() != '\0'; }
 
   template <class T>
   void number(T& value) {
@@ -131,8 +133,23 @@ ThrowResult result_from_bytes(std::string_view bytes) {
   reader("", result.wall_s);
   read_rows(reader, result.detection_rows);
   read_rows(reader, result.truth_rows);
-  if (!reader.at_end()) throw SimulationError("A worker sent more than one result.");
+  if (!reader.at_end()) throw IoError("A result is longer than one.");
   return result;
+}
+
+std::string to_bytes(const CampaignIdentity& identity) {
+  CampaignIdentity copy = identity;
+  ByteWriter writer;
+  copy.visit(writer);
+  return writer.take();
+}
+
+CampaignIdentity identity_from_bytes(std::string_view bytes) {
+  CampaignIdentity identity;
+  ByteReader reader(bytes);
+  identity.visit(reader);
+  if (!reader.at_end()) throw IoError("The identity of a campaign is longer than one.");
+  return identity;
 }
 
 }  // namespace dodgesim

@@ -1,6 +1,8 @@
 #include "sim/campaign/workers.h"
 
 #include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/types.h>
 #include <sys/wait.h>
@@ -8,10 +10,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <map>
+#include <fstream>
+#include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -27,7 +32,13 @@ enum class Kind : std::uint32_t { kResult, kScenarioError };
 struct Header {
   Kind kind = Kind::kResult;
   std::uint32_t size = 0;
+  double resident_mb = 0;  // of the worker
 };
+
+using Clock = std::chrono::steady_clock;
+
+// How often somebody may ask for a stop.
+constexpr int kPollMs = 200;
 
 // Whole reads and writes on a stream socket; false when the other side is gone.
 bool read_all(int fd, void* data, std::size_t size) {
@@ -59,23 +70,60 @@ void mark_failed(ThrowResult& result, const std::string& reason) {
   result.flown.error = reason;
 }
 
+double resident_mb() {
+  std::ifstream statm("/proc/self/statm");
+  double total = 0, resident = 0;
+  statm >> total >> resident;
+  return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+ThrowResult failed_throw(const WorkerTasks& tasks, int index, const std::string& reason) {
+  ThrowResult result = tasks.blank(index);
+  mark_failed(result, reason);
+  return result;
+}
+
+std::string memory_reason(const WorkerLimits& limits) {
+  if (limits.memory_mb <= 0) return "There was not enough memory.";
+  return "The throw needed more memory than the " + std::to_string(limits.memory_mb) +
+         " MB of the limit.";
+}
+
+// One throw, as header and body of the answer.
+std::string fly_one(const WorkerTasks& tasks, int index, Header& header) {
+  try {
+    return to_bytes(tasks.fly(index));
+  } catch (const ScenarioError& error) {
+    header.kind = Kind::kScenarioError;
+    return error.what();
+  } catch (const std::bad_alloc&) {
+    return to_bytes(failed_throw(tasks, index, memory_reason(tasks.limits)));
+  } catch (const std::exception& error) {
+    return to_bytes(failed_throw(tasks, index, error.what()));
+  }
+}
+
+void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
+  // Ctrl-C goes to the whole terminal: the campaign decides what becomes of its workers.
+  ::signal(SIGINT, SIG_IGN);
+  ::signal(SIGTERM, SIG_DFL);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != campaign) ::_exit(1);  // it has ended already
+  if (limits.memory_mb > 0) {
+    const auto bytes = static_cast<rlim_t>(limits.memory_mb) << 20;
+    const rlimit limit = {bytes, bytes};
+    ::setrlimit(RLIMIT_AS, &limit);
+  }
+}
+
 // The life of a worker: throw numbers in, results out, until the campaign closes the socket.
 [[noreturn]] void serve(int fd, const WorkerTasks& tasks) {
   int index = 0;
   while (read_all(fd, &index, sizeof(index))) {
     Header header;
-    std::string body;
-    try {
-      body = to_bytes(tasks.fly(index));
-    } catch (const ScenarioError& error) {
-      header.kind = Kind::kScenarioError;
-      body = error.what();
-    } catch (const std::exception& error) {
-      ThrowResult result = tasks.blank(index);
-      mark_failed(result, error.what());
-      body = to_bytes(result);
-    }
+    const std::string body = fly_one(tasks, index, header);
     header.size = static_cast<std::uint32_t>(body.size());
+    header.resident_mb = resident_mb();
     if (!write_all(fd, &header, sizeof(header)) || !write_all(fd, body.data(), body.size())) break;
   }
   // Not exit(): the campaign's open files and their buffers are not ours to flush.
@@ -98,16 +146,19 @@ class Pool {
   Pool& operator=(const Pool&) = delete;
 
   ~Pool() {
-    for (Worker& worker : workers_) {
-      ::kill(worker.pid, SIGKILL);
-      reap(worker);
-    }
+    for (Worker& worker : workers_) end(worker);
   }
 
-  void run() {
-    const int jobs = std::clamp(tasks_.jobs, 1, std::max(1, tasks_.throws));
-    for (int i = 0; i < jobs && next_ < tasks_.throws; ++i) start_worker();
-    while (!workers_.empty()) wait_for_results();
+  WorkerMemory run() {
+    const std::size_t jobs = static_cast<std::size_t>(std::max(1, tasks_.jobs));
+    while (workers_.size() < jobs && has_next()) start_worker();
+    while (!workers_.empty()) {
+      if (tasks_.stop && tasks_.stop()) break;
+      wait_for_results();
+      give_up_late_ones();
+    }
+    if (counted_ == 0) return {};
+    return {first_mb_ / counted_, last_mb_ / counted_};
   }
 
  private:
@@ -115,14 +166,19 @@ class Pool {
     pid_t pid = 0;
     int fd = -1;
     int index = 0;  // the throw it flies
+    Clock::time_point begin;
+    double first_mb = 0, last_mb = 0;
   };
+
+  bool has_next() const { return next_ < tasks_.throws.size(); }
 
   void start_worker() {
     int fds[2];
-    if (::socketpair(AF_UNIX, SOCK_STREAM, 0, fds) != 0) {
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, fds) != 0) {
       throw IoError(std::string("A worker's socket could not be made: ") + std::strerror(errno));
     }
     std::fflush(nullptr);  // else the worker would inherit, and might repeat, buffered output
+    const pid_t campaign = ::getpid();
     const pid_t pid = ::fork();
     if (pid < 0) {
       ::close(fds[0]);
@@ -133,20 +189,30 @@ class Pool {
       // A worker that held its siblings' sockets would keep them from seeing the campaign's end.
       for (const Worker& sibling : workers_) ::close(sibling.fd);
       ::close(fds[0]);
+      prepare_worker(tasks_.limits, campaign);
       serve(fds[1], tasks_);
     }
     ::close(fds[1]);
-    workers_.push_back({pid, fds[0], 0});
+    Worker worker;
+    worker.pid = pid;
+    worker.fd = fds[0];
+    workers_.push_back(worker);
     assign(workers_.back());
   }
 
   void assign(Worker& worker) {
-    worker.index = next_++;
+    worker.index = tasks_.throws[next_++];
+    worker.begin = Clock::now();
     // A worker that died between two throws is noticed when its socket reports the end.
     write_all(worker.fd, &worker.index, sizeof(worker.index));
   }
 
-  static int reap(Worker& worker) {
+  int reap(Worker& worker) {
+    if (worker.first_mb > 0) {
+      first_mb_ += worker.first_mb;
+      last_mb_ += worker.last_mb;
+      ++counted_;
+    }
     ::close(worker.fd);
     int status = 0;
     while (::waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
@@ -154,16 +220,35 @@ class Pool {
     return status;
   }
 
+  int end(Worker& worker) {
+    ::kill(worker.pid, SIGKILL);
+    return reap(worker);
+  }
+
   void wait_for_results() {
     std::vector<pollfd> polled;
+    polled.reserve(workers_.size());
     for (const Worker& worker : workers_) polled.push_back({worker.fd, POLLIN, 0});
-    if (::poll(polled.data(), polled.size(), -1) < 0) {
+    if (::poll(polled.data(), polled.size(), kPollMs) < 0) {
       if (errno == EINTR) return;
       throw IoError(std::string("Waiting for the workers failed: ") + std::strerror(errno));
     }
     // From the last to the first, because finished workers leave the list.
     for (std::size_t i = polled.size(); i-- > 0;) {
       if (polled[i].revents != 0) take_result(i);
+    }
+  }
+
+  void give_up_late_ones() {
+    if (tasks_.limits.wall_s <= 0) return;
+    const std::chrono::duration<double> limit(tasks_.limits.wall_s);
+    for (std::size_t i = workers_.size(); i-- > 0;) {
+      if (Clock::now() - workers_[i].begin < limit) continue;
+      std::ostringstream reason;
+      reason << "The throw took longer than the " << tasks_.limits.wall_s
+             << " s of computing time of the limit.";
+      end(workers_[i]);
+      lose(i, reason.str());
     }
   }
 
@@ -176,10 +261,12 @@ class Pool {
       body.resize(header.size);
       alive = read_all(worker.fd, body.data(), body.size());
     }
-    if (!alive) return replace(i);
+    if (!alive) return lose(i, describe_death(reap(worker)));
     if (header.kind == Kind::kScenarioError) throw ScenarioError(body);
-    finish(worker.index, result_from_bytes(body));
-    if (next_ < tasks_.throws) {
+    if (worker.first_mb == 0) worker.first_mb = header.resident_mb;
+    worker.last_mb = header.resident_mb;
+    tasks_.receive(result_from_bytes(body));
+    if (has_next()) {
       assign(worker);
     } else {
       reap(worker);
@@ -187,36 +274,23 @@ class Pool {
     }
   }
 
-  void replace(std::size_t i) {
-    Worker dead = workers_[i];
+  // The throw of a worker that is no more.
+  void lose(std::size_t i, const std::string& reason) {
+    const int index = workers_[i].index;
     workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
-    ThrowResult result = tasks_.blank(dead.index);
-    mark_failed(result, describe_death(reap(dead)));
-    finish(dead.index, std::move(result));
-    if (next_ < tasks_.throws) start_worker();
-  }
-
-  void finish(int index, ThrowResult result) {
-    waiting_.emplace(index, std::move(result));
-    ++finished_;
-    while (!waiting_.empty() && waiting_.begin()->first == received_) {
-      tasks_.receive(std::move(waiting_.begin()->second));
-      waiting_.erase(waiting_.begin());
-      ++received_;
-    }
-    if (tasks_.progress) tasks_.progress(finished_);
+    tasks_.receive(failed_throw(tasks_, index, reason));
+    if (has_next()) start_worker();
   }
 
   const WorkerTasks& tasks_;
   std::vector<Worker> workers_;
-  std::map<int, ThrowResult> waiting_;  // finished before an earlier throw
-  int next_ = 0;                        // throw to assign
-  int received_ = 0;
-  int finished_ = 0;
+  std::size_t next_ = 0;  // throw to assign
+  double first_mb_ = 0, last_mb_ = 0;
+  int counted_ = 0;  // workers that have flown a throw
 };
 
 }  // namespace
 
-void fly_in_workers(const WorkerTasks& tasks) { Pool(tasks).run(); }
+WorkerMemory fly_in_workers(const WorkerTasks& tasks) { return Pool(tasks).run(); }
 
 }  // namespace dodgesim

@@ -1,7 +1,9 @@
 // dodgesim run: flies a campaign.
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -24,7 +26,21 @@ struct Arguments {
   CampaignOptions options;
   std::optional<int> throws;
   std::optional<std::uint64_t> seed;
+  std::string shard;
 };
+
+// Set by a signal that asks for the end. A second one ends the program at once.
+volatile std::sig_atomic_t stop_signal = 0;
+
+void ask_to_stop(int signal) { stop_signal = signal; }
+
+void watch_signals() {
+  struct sigaction action {};
+  action.sa_handler = ask_to_stop;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
 
 ThrowResult fly_with_truth(const Scenario& scenario, int index) {
   EventTruth truth;
@@ -54,16 +70,32 @@ int run(const Arguments& arguments) {
   if (arguments.seed) scenario.seed = *arguments.seed;
 
   CampaignOptions options = arguments.options;
+  if (!arguments.shard.empty()) {
+    options.shard =
+        parse_shard(arguments.shard, [](const char* name) { return std::getenv(name); });
+  }
+  watch_signals();
+  options.stop = [] { return stop_signal != 0; };
   options.show_progress = ::isatty(STDERR_FILENO) == 1;
   options.gl_renderer = [] { return OsmesaContext(GlProfile::kCore33, 1, 1).renderer(); };
   const CampaignSummary summary = run_campaign(scenario, options, [&](int index) {
     return options.truth ? fly_with_truth(scenario, index) : fly_throw(scenario, index);
   });
 
+  if (!summary.complete()) {
+    std::cerr << "Stopped after " << summary.results.size() << " of "
+              << count_of_throws(summary.wanted) << "; the same command with --resume flies the "
+              << "rest.\n";
+    return kIncomplete;
+  }
   std::cout << summary.table;
   std::printf("%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n",
-              count_of_throws(scenario.repeats).c_str(), duration_text(summary.wall_s).c_str(),
+              count_of_throws(summary.wanted).c_str(), duration_text(summary.wall_s).c_str(),
               summary.real_time_factor, options.out.c_str());
+  if (summary.flown > 0) {
+    std::printf("Memory of a worker: %.0f MB after its first throw, %.0f MB after its last\n",
+                summary.memory.first_mb, summary.memory.last_mb);
+  }
   warn_of_lost_events(summary.results);
   if (options.truth) std::cout << truth_text(summary.truth) << "\n";
   if (summary.errors == 0) return kOk;
@@ -79,6 +111,9 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
   CampaignOptions& options = arguments->options;
   options.command_line = command_line;
   options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  constexpr double kTimeLimitS = 600;
+  constexpr std::int64_t kMemoryLimitMb = 4096;
+  options.limits = {kTimeLimitS, kMemoryLimitMb};
 
   CLI::App* command =
       program.add_subcommand("run", "Fly all throws of a scenario and write tables of success");
@@ -94,7 +129,26 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
   command->add_option("--throws", arguments->throws, "Number of throws, in place of repeats")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--seed", arguments->seed, "Seed, in place of the scenario's");
-  command->add_flag("--force", options.force, "Overwrite results of another scenario in DIR");
+  CLI::Option* force =
+      command->add_flag("--force", options.force, "Start anew, whatever results are in DIR");
+  command->add_flag("--resume", options.resume, "Fly only the throws that DIR has no results of")
+      ->excludes(force);
+  command
+      ->add_option("--shard", arguments->shard,
+                   "Fly only a part: INDEX/COUNT (from 0), auto/COUNT (the index from\n"
+                   "SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX or AWS_BATCH_JOB_ARRAY_INDEX) or\n"
+                   "auto (Slurm: the count, too); see dodgesim merge")
+      ->type_name("PART");
+  command
+      ->add_option("--time-limit", options.limits.wall_s,
+                   "Seconds of computing after which a throw is given up; 0: never")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  command
+      ->add_option("--memory-limit", options.limits.memory_mb,
+                   "Address space of a worker [MB]; a throw that needs more fails; 0: no limit")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
   command->add_flag("--truth", options.truth,
                     "Also write truth.csv: of the events that the pilot takes for an obstacle's,\n"
                     "how many an object made, and of those that it made, how many are found");
@@ -102,7 +156,9 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
   command->footer(
       "Writes to DIR: table.md and table.csv (dodged / would have hit, with 95 % intervals),\n"
       "throws.csv (a row a throw), detections.csv, timing.csv, scenario.resolved.yaml and\n"
-      "manifest.json (commit, versions, machine).\n\n"
+      "manifest.json (commit, versions, machine). results.bin has every result as it comes: after\n"
+      "Ctrl-C, a kill or a full disk, --resume goes on from there. A throw that crashes, hangs or\n"
+      "needs too much memory fails with its reason and never counts as a success.\n\n"
       "Examples:\n"
       "  dodgesim run scenarios/demo.yaml --out out/demo\n"
       "  dodgesim run scenarios/demo.yaml --out out/quick --throws 4 -j 2\n"

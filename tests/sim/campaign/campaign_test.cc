@@ -13,58 +13,13 @@
 
 #include "sim/base/error.h"
 #include "sim/files/output_file.h"
-#include "tests/sim/campaign/fake_throws.h"
+#include "tests/sim/campaign/campaign_fixture.h"
 
 namespace dodgesim {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-class CampaignTest : public testing::Test {
- protected:
-  CampaignTest() {
-    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    root_ = fs::temp_directory_path() / ("dodgesim_" + name + "_" + std::to_string(::getpid()));
-    fs::remove_all(root_);
-    fs::create_directories(root_);
-    scenario_ = parse_scenario(
-        "seed: 4\nrepeats: 12\nthrow: {size_m: !choice [0.1, 0.2], distance_m: !uniform [2, 5]}\n",
-        "fake.yaml", "");
-  }
-  ~CampaignTest() override { fs::remove_all(root_); }
-
-  CampaignOptions options(const std::string& name, int jobs = 1) const {
-    CampaignOptions options;
-    options.out = root_ / name;
-    options.jobs = jobs;
-    return options;
-  }
-
-  // A throw whose result depends on its number alone; the first ones take longest, so that workers
-  // finish out of order.
-  ThrowResult fly(int index) const {
-    std::this_thread::sleep_for(std::chrono::milliseconds(index < 3 ? 30 : 1));
-    ThrowResult result = blank_result(scenario_, index);
-    result.flown = flown(index % 3 == 0);
-    result.none = flown(true);
-    result.duration_us = 2000000;
-    result.detection_rows.resize(static_cast<std::size_t>(index));
-    for (DetectionRow& row : result.detection_rows) row.throw_index = index;
-    return result;
-  }
-
-  static std::string read(const fs::path& path) {
-    std::ifstream file(path);
-    EXPECT_TRUE(file) << path;
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-
-  fs::path root_;
-  Scenario scenario_;
-};
 
 TEST_F(CampaignTest, WritesTheTruthOnRequestOnly) {
   scenario_.repeats = 3;
@@ -91,6 +46,7 @@ TEST_F(CampaignTest, WritesTheTruthOnRequestOnly) {
   }
   // What an earlier run left is not taken for this one's.
   CampaignOptions again = options("with");
+  again.force = true;
   run_campaign(scenario_, again, fly_one);
   EXPECT_FALSE(fs::exists(root_ / "with/truth.csv"));
 }
@@ -186,7 +142,7 @@ TEST_F(CampaignTest, AFullDiskIsReportedAndNothingIsClaimed) {
 TEST_F(CampaignTest, AnotherScenarioIsNotOverwrittenUnlessForced) {
   const auto fly_one = [&](int index) { return fly(index); };
   run_campaign(scenario_, options("a"), fly_one);
-  EXPECT_NO_THROW(run_campaign(scenario_, options("a"), fly_one)) << "the same scenario again";
+  EXPECT_THROW(run_campaign(scenario_, options("a"), fly_one), ScenarioError) << "the same again";
   const std::string before = read(root_ / "a" / "throws.csv");
 
   Scenario other = scenario_;

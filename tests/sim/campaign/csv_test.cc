@@ -89,9 +89,9 @@ TEST(Wire, AResultArrivesAsItWasSent) {
 TEST(Wire, AnIncompleteResultIsNoticedAtEveryLength) {
   const std::string bytes = to_bytes(full_result());
   for (std::size_t n = 0; n < bytes.size(); ++n) {
-    EXPECT_THROW(result_from_bytes(bytes.substr(0, n)), SimulationError) << n;
+    EXPECT_THROW(result_from_bytes(bytes.substr(0, n)), IoError) << n;
   }
-  EXPECT_THROW(result_from_bytes(bytes + "x"), SimulationError);
+  EXPECT_THROW(result_from_bytes(bytes + "x"), IoError);
 }
 
 }  // namespace

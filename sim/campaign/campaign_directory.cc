@@ -1,0 +1,103 @@
+#include "sim/campaign/campaign_directory.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "sim/base/error.h"
+#include "sim/campaign/result_files.h"
+#include "sim/files/staged_file.h"
+
+namespace dodgesim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLockFile = ".lock";
+
+// Other than what a campaign leaves that was killed before it began.
+bool holds_anything(const fs::path& out) {
+  for (const auto& entry : fs::directory_iterator(out)) {
+    const fs::path name = entry.path().filename();
+    if (name != kLockFile && name != StagedFile::partial_name(kScenarioFile) &&
+        name != StagedFile::partial_name(kJournalFile)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+[[noreturn]] void refuse_foreign(const fs::path& out) {
+  throw ScenarioError(out.string() +
+                      " is neither empty nor a campaign; choose another directory or add --force.");
+}
+
+[[noreturn]] void refuse_finished(const fs::path& out, const JournalIndex& index) {
+  throw ScenarioError(out.string() + " holds results of " + std::to_string(index.throws.size()) +
+                      " throws; add --resume to fly what is missing, or --force to start anew.");
+}
+
+}  // namespace
+
+void make_directory(const fs::path& out) {
+  std::error_code error;
+  fs::create_directories(out, error);
+  if (fs::is_directory(out)) return;
+  throw IoError(out.string() + " could not be created: " +
+                (error ? error.message() : "a file of that name exists") + ".");
+}
+
+DirectoryLock::DirectoryLock(const fs::path& out) {
+  const fs::path path = out / kLockFile;
+  fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (fd_ < 0) {
+    throw IoError(path.string() + " could not be written: " + std::strerror(errno) + ".");
+  }
+  // Workers must not inherit the lock, as they do that of flock().
+  struct flock whole {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  if (::fcntl(fd_, F_SETLK, &whole) == 0) return;
+  ::close(fd_);
+  throw ScenarioError(out.string() + " is being written to by another dodgesim.");
+}
+
+DirectoryLock::~DirectoryLock() { ::close(fd_); }
+
+void expect_free(const fs::path& out, bool force) {
+  if (force || !holds_anything(out)) return;
+  if (!fs::exists(out / kJournalFile)) refuse_foreign(out);
+  refuse_finished(out, read_journal(out / kJournalFile));
+}
+
+std::string difference(const CampaignIdentity& a, const CampaignIdentity& b) {
+  if (a.scenario != b.scenario) return "of another scenario";
+  if (a.program != b.program) {
+    return "of another version of dodgesim (" + a.program + ", not " + b.program + ")";
+  }
+  return a.truth ? "with --truth, not without" : "without --truth, not with it";
+}
+
+std::optional<JournalIndex> find_journal(const CampaignOptions& options,
+                                         const CampaignIdentity& identity) {
+  const fs::path& out = options.out;
+  const fs::path journal = out / kJournalFile;
+  if (options.force || !holds_anything(out)) return std::nullopt;
+  if (!fs::exists(journal)) {
+    // Stopped before the first result.
+    if (options.resume && fs::exists(out / kScenarioFile)) return std::nullopt;
+    refuse_foreign(out);
+  }
+  JournalIndex index = read_journal(journal);
+  if (!options.resume) refuse_finished(out, index);
+  if (index.identity != identity) {
+    throw ScenarioError(out.string() + " holds results " + difference(index.identity, identity) +
+                        "; choose another directory, or add --force to start anew.");
+  }
+  return index;
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,40 @@
+// The directory of a campaign: who may write to it, and what is in it already.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "sim/campaign/campaign.h"
+#include "sim/campaign/journal.h"
+
+namespace dodgesim {
+
+// Throws IoError.
+void make_directory(const std::filesystem::path& out);
+
+// One process at a time writes to a directory. The lock ends with the process, however that ends.
+class DirectoryLock {
+ public:
+  // Throws ScenarioError if another process holds it, IoError.
+  explicit DirectoryLock(const std::filesystem::path& out);
+  DirectoryLock(const DirectoryLock&) = delete;
+  DirectoryLock& operator=(const DirectoryLock&) = delete;
+  ~DirectoryLock();
+
+ private:
+  int fd_ = -1;
+};
+
+// Throws ScenarioError if a new campaign would overwrite something, unless `force`.
+void expect_free(const std::filesystem::path& out, bool force);
+
+// The journal to go on with; nothing for a new campaign. Throws ScenarioError if `options` do not
+// say to overwrite or go on with what is there, or it is of another campaign; IoError.
+std::optional<JournalIndex> find_journal(const CampaignOptions& options,
+                                         const CampaignIdentity& identity);
+
+// How `a` differs from `b`, to follow "results": "of another scenario".
+std::string difference(const CampaignIdentity& a, const CampaignIdentity& b);
+
+}  // namespace dodgesim

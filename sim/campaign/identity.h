@@ -1,0 +1,23 @@
+// What must be the same for results to be put together.
+#pragma once
+
+#include <string>
+
+namespace dodgesim {
+
+struct CampaignIdentity {
+  std::string scenario;  // as it was resolved, YAML
+  std::string program;   // version and commit
+  bool truth = false;    // the results hold truth_rows
+
+  bool operator==(const CampaignIdentity&) const = default;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("scenario", scenario);
+    v("program", program);
+    v("truth", truth);
+  }
+};
+
+}  // namespace dodgesim

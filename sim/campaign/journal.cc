@@ -1,0 +1,206 @@
+#include "sim/campaign/journal.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include "sim/base/error.h"
+#include "sim/campaign/wire.h"
+#include "sim/files/staged_file.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr std::chrono::seconds kSyncEvery(1);
+
+// Changes with every change of what is written.
+constexpr char kMagic[8] = {'d', 'o', 'd', 'g', 'e', 'j', '0', '1'};
+
+// No throw has results of this size; a larger number is damage.
+constexpr std::uint32_t kLargestRecord = 1u << 30;
+
+// In front of the identity and of every record.
+struct Header {
+  std::uint32_t size = 0;
+  std::uint32_t mark = 0;  // checksum of the size: whether the next record can be found
+  std::uint64_t checksum = 0;
+};
+static_assert(sizeof(Header) == 16);
+
+std::uint64_t checksum(const char* bytes, std::size_t size) { return XXH64(bytes, size, 0); }
+
+std::uint32_t mark_of(std::uint32_t size) {
+  return static_cast<std::uint32_t>(XXH64(&size, sizeof size, 1));
+}
+
+std::string framed(const std::string& bytes) {
+  Header header;
+  header.size = static_cast<std::uint32_t>(bytes.size());
+  header.mark = mark_of(header.size);
+  header.checksum = checksum(bytes.data(), bytes.size());
+  std::string out(sizeof header, '\0');
+  std::memcpy(out.data(), &header, sizeof header);
+  return out + bytes;
+}
+
+// Reads a journal from its start.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& path) : path_(path), file_(path, std::ios::binary) {
+    if (!file_) fail("could not be opened");
+    file_.seekg(0, std::ios::end);
+    size_ = static_cast<std::uint64_t>(file_.tellg());
+  }
+
+  // The next frame's bytes. False at the end, or where the rest cannot be divided into frames.
+  // `intact` says whether they are as they were written.
+  bool next(std::string& bytes, bool& intact) {
+    Header header;
+    if (size_ - at_ < sizeof header) return false;
+    read(&header, sizeof header);
+    if (header.mark != mark_of(header.size) || header.size > kLargestRecord) return false;
+    if (size_ - at_ - sizeof header < header.size) return false;
+    bytes.resize(header.size);
+    at_ += sizeof header;
+    read(bytes.data(), header.size);
+    at_ += header.size;
+    intact = checksum(bytes.data(), bytes.size()) == header.checksum;
+    return true;
+  }
+
+  void expect_magic() {
+    char magic[sizeof kMagic] = {};
+    if (size_ >= sizeof magic) read(magic, sizeof magic);
+    if (std::memcmp(magic, kMagic, sizeof magic) != 0) {
+      fail("holds no results of this version of dodgesim");
+    }
+    at_ += sizeof magic;
+  }
+
+  std::uint64_t at() const { return at_; }
+  std::uint64_t size() const { return size_; }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw IoError(path_.string() + " " + what + ".");
+  }
+
+ private:
+  void read(void* data, std::size_t size) {
+    file_.seekg(static_cast<std::streamoff>(at_));
+    file_.read(static_cast<char*>(data), static_cast<std::streamsize>(size));
+    if (!file_) fail("could not be read");
+  }
+
+  std::filesystem::path path_;
+  std::ifstream file_;
+  std::uint64_t at_ = 0, size_ = 0;
+};
+
+}  // namespace
+
+std::uint64_t result_digest(const ThrowResult& result) {
+  ThrowResult timeless = result;
+  timeless.wall_s = 0;
+  const std::string bytes = to_bytes(timeless);
+  return checksum(bytes.data(), bytes.size());
+}
+
+JournalIndex read_journal(const std::filesystem::path& path) {
+  Reader reader(path);
+  reader.expect_magic();
+  JournalIndex index;
+  std::string bytes;
+  bool intact = false;
+  if (!reader.next(bytes, intact) || !intact) reader.fail("has lost its beginning");
+  index.identity = identity_from_bytes(bytes);
+  index.end = reader.at();
+  while (reader.next(bytes, intact)) {
+    index.end = reader.at();
+    if (!intact) {
+      ++index.damaged;
+      continue;
+    }
+    const ThrowResult result = result_from_bytes(bytes);
+    const auto size = static_cast<std::uint32_t>(bytes.size());
+    index.throws[result.index] = {reader.at() - size, size, result_digest(result)};
+  }
+  return index;
+}
+
+ThrowResult read_result(const std::filesystem::path& path, const JournalRecord& record) {
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(record.size, '\0');
+  file.seekg(static_cast<std::streamoff>(record.offset));
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file) throw IoError(path.string() + " could not be read.");
+  return result_from_bytes(bytes);
+}
+
+void for_each_result(const std::filesystem::path& path, const JournalIndex& index,
+                     const std::function<void(ThrowResult)>& take) {
+  for (const auto& [number, record] : index.throws) take(read_result(path, record));
+}
+
+Journal::Journal(const std::filesystem::path& path, const CampaignIdentity& identity)
+    : path_(path) {
+  // Whole or not there at all.
+  path_ = StagedFile::partial_name(path);
+  open(O_CREAT | O_TRUNC);
+  append(std::string(kMagic, sizeof kMagic) + framed(to_bytes(identity)));
+  sync();
+  if (::rename(path_.c_str(), path.c_str()) != 0) fail("could not be renamed", errno);
+  path_ = path;
+}
+
+Journal::Journal(const std::filesystem::path& path, const JournalIndex& index)
+    : path_(path), end_(index.end) {
+  open(0);
+  if (::ftruncate(fd_, static_cast<off_t>(end_)) != 0) fail("could not be cut", errno);
+}
+
+Journal::~Journal() { ::close(fd_); }
+
+void Journal::open(int flags) {
+  fd_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | flags, 0644);
+  if (fd_ < 0) fail("could not be opened", errno);
+}
+
+void Journal::add(const ThrowResult& result) {
+  append(framed(to_bytes(result)));
+  if (std::chrono::steady_clock::now() - synced_ > kSyncEvery) sync();
+}
+
+void Journal::append(const std::string& bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t n =
+        ::pwrite(fd_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(end_ + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      const int error = n < 0 ? errno : ENOSPC;
+      if (::ftruncate(fd_, static_cast<off_t>(end_)) != 0) fail("could not be cut", errno);
+      fail("could not be written", error);
+    }
+    done += static_cast<std::size_t>(n);
+  }
+  end_ += bytes.size();
+}
+
+void Journal::sync() {
+  synced_ = std::chrono::steady_clock::now();
+  if (::fdatasync(fd_) == 0 || errno == EINVAL || errno == ENOTSUP) return;
+  fail("could not be written", errno);
+}
+
+void Journal::fail(const std::string& what, int error) const {
+  throw IoError(path_.string() + " " + what + ": " + std::strerror(error) + ".");
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,104 @@
+// merge_campaigns(): the results of several directories as those of one campaign.
+#include <chrono>
+#include <map>
+
+#include "sim/base/error.h"
+#include "sim/campaign/campaign.h"
+#include "sim/campaign/campaign_directory.h"
+#include "sim/campaign/journal.h"
+#include "sim/campaign/manifest.h"
+#include "sim/campaign/result_files.h"
+#include "sim/files/output_file.h"
+
+namespace dodgesim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where a throw's result is.
+struct Source {
+  fs::path directory;
+  JournalRecord record;
+};
+
+struct Sources {
+  CampaignIdentity identity;
+  std::map<int, Source> throws;
+};
+
+void add_directory(const fs::path& directory, bool first, Sources& sources) {
+  const JournalIndex index = read_journal(directory / kJournalFile);
+  if (first) sources.identity = index.identity;
+  if (index.identity != sources.identity) {
+    throw ScenarioError(directory.string() + " holds results " +
+                        difference(index.identity, sources.identity) +
+                        "; only shards of one campaign can be merged.");
+  }
+  for (const auto& [number, record] : index.throws) {
+    const auto [at, is_new] = sources.throws.try_emplace(number, Source{directory, record});
+    if (is_new || at->second.record.digest == record.digest) continue;
+    throw ScenarioError("Throw " + std::to_string(number) + " went differently in " +
+                        at->second.directory.string() + " and in " + directory.string() +
+                        "; the same throw flies alike on machines of one kind.");
+  }
+}
+
+// "3, 7 to 9, 12"
+std::string ranges(const std::vector<int>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size();) {
+    std::size_t last = i;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    text += (text.empty() ? "" : ", ") + std::to_string(numbers[i]);
+    if (last > i) text += " to " + std::to_string(numbers[last]);
+    i = last + 1;
+  }
+  return text;
+}
+
+void expect_all(const Scenario& scenario, const Sources& sources) {
+  std::vector<int> missing;
+  for (int i = 0; i < scenario.repeats; ++i) {
+    if (sources.throws.count(i) == 0) missing.push_back(i);
+  }
+  if (missing.empty()) return;
+  throw MissingThrows(std::to_string(missing.size()) + " of " + std::to_string(scenario.repeats) +
+                      " throws are missing: " + ranges(missing) + ".");
+}
+
+}  // namespace
+
+CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
+                                const CampaignOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::string started = utc_now();
+  Sources sources;
+  for (const fs::path& directory : directories) {
+    add_directory(directory, &directory == &directories.front(), sources);
+  }
+  const Scenario scenario = parse_scenario(sources.identity.scenario, kScenarioFile, "");
+  expect_all(scenario, sources);
+
+  make_directory(options.out);
+  const DirectoryLock lock(options.out);
+  expect_free(options.out, options.force);
+  remove_result_files(options.out);
+  write_file(options.out / kScenarioFile, sources.identity.scenario);
+  {
+    Journal journal(options.out / kJournalFile, sources.identity);
+    for (const auto& [number, source] : sources.throws) {
+      journal.add(read_result(source.directory / kJournalFile, source.record));
+    }
+    journal.sync();
+  }
+  CampaignSummary summary;
+  summary.wanted = scenario.repeats;
+  write_result_files(options.out, scenario, read_journal(options.out / kJournalFile),
+                     sources.identity.truth, summary);
+  summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  write_file(options.out / "manifest.json", manifest_json(scenario, options, summary, started));
+  return summary;
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,96 @@
+#include "sim/campaign/result_files.h"
+
+#include <optional>
+
+#include "sim/base/error.h"
+#include "sim/campaign/csv.h"
+#include "sim/campaign/tables.h"
+#include "sim/files/output_file.h"
+
+namespace dodgesim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kResultFiles[] = {"manifest.json", "throws.csv", "detections.csv",
+                                        "timing.csv",    "table.md",   "table.csv",
+                                        "truth.csv"};
+
+// The files with rows of throws.
+class RowFiles {
+ public:
+  RowFiles(const fs::path& out, bool truth)
+      : throws_(out / "throws.csv"),
+        detections_(out / "detections.csv"),
+        timing_(out / "timing.csv") {
+    throws_.write(csv_header<ThrowResult>());
+    detections_.write(csv_header<DetectionRow>());
+    timing_.write("throw,simulated_s,wall_s,real_time_factor\n");
+    if (!truth) return;
+    truth_.emplace(out / "truth.csv");
+    truth_->write(csv_header<EventTruthRow>());
+  }
+
+  void add(const ThrowResult& result) {
+    throws_.write(csv_row(result));
+    for (const DetectionRow& row : result.detection_rows) detections_.write(csv_row(row));
+    const double simulated_s = seconds(result.duration_us);
+    timing_.write(to_text(result.index) + "," + to_text(simulated_s) + "," +
+                  to_text(result.wall_s) + "," +
+                  (result.wall_s > 0 ? to_text(simulated_s / result.wall_s) : "") + "\n");
+    if (!truth_) return;
+    for (const EventTruthRow& row : result.truth_rows) truth_->write(csv_row(row));
+  }
+
+  void commit() {
+    throws_.commit();
+    detections_.commit();
+    timing_.commit();
+    if (truth_) truth_->commit();
+  }
+
+ private:
+  OutputFile throws_, detections_, timing_;
+  std::optional<OutputFile> truth_;
+};
+
+bool any_error(const ThrowResult& result) {
+  return result.flown.failed() || result.none.failed() || result.oracle.failed();
+}
+
+}  // namespace
+
+void remove_result_files(const fs::path& out) {
+  std::error_code error;
+  for (const char* name : kResultFiles) {
+    fs::remove(out / name, error);
+    if (error) {
+      throw IoError((out / name).string() + " could not be removed: " + error.message() + ".");
+    }
+  }
+}
+
+void write_result_files(const fs::path& out, const Scenario& scenario, const JournalIndex& index,
+                        bool truth, CampaignSummary& summary) {
+  RowFiles rows(out, truth);
+  double simulated_s = 0, computing_s = 0;
+  for_each_result(out / kJournalFile, index, [&](ThrowResult result) {
+    rows.add(result);
+    simulated_s += seconds(result.duration_us);
+    computing_s += result.wall_s;
+    if (any_error(result)) ++summary.errors;
+    summary.truth.add(result.truth_rows);
+    result.truth_rows = {};
+    result.detection_rows = {};
+    summary.results.push_back(std::move(result));
+  });
+  if (computing_s > 0) summary.real_time_factor = simulated_s / computing_s;
+  const Tables tables = make_tables(summary.results, scenario.name, scenario.pilot);
+  summary.table = tables.markdown;
+  rows.commit();
+  write_file(out / "table.md", tables.markdown);
+  write_file(out / "table.csv", tables.csv);
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,23 @@
+// The files of a campaign that people and programs read, made from its journal.
+#pragma once
+
+#include <filesystem>
+
+#include "sim/campaign/campaign.h"
+#include "sim/campaign/journal.h"
+
+namespace dodgesim {
+
+// Removes them: what an earlier run has left must not stand beside another journal.
+void remove_result_files(const std::filesystem::path& out);
+
+// Writes throws.csv, detections.csv, timing.csv, table.md, table.csv and, with `truth`, truth.csv,
+// and fills in what the summary says about the results. The same bytes for the same results, but
+// for timing.csv.
+void write_result_files(const std::filesystem::path& out, const Scenario& scenario,
+                        const JournalIndex& index, bool truth, CampaignSummary& summary);
+
+inline constexpr const char* kJournalFile = "results.bin";
+inline constexpr const char* kScenarioFile = "scenario.resolved.yaml";
+
+}  // namespace dodgesim

@@ -1,0 +1,89 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/base/error.h"
+#include "tests/sim/campaign/campaign_fixture.h"
+
+namespace dodgesim {
+namespace {
+
+using testing::HasSubstr;
+
+class MergeTest : public CampaignTest {
+ protected:
+  void fly_shard(const std::string& name, int index, int count) const {
+    CampaignOptions part = options(name);
+    part.shard = {index, count};
+    run_campaign(scenario_, part, [this](int i) { return fly(i); });
+  }
+  CampaignSummary merge(const std::vector<std::string>& names, const std::string& out) const {
+    std::vector<std::filesystem::path> directories;
+    for (const std::string& name : names) directories.push_back(root_ / name);
+    return merge_campaigns(directories, options(out));
+  }
+  template <class Error>
+  std::string refusal(const std::vector<std::string>& names) const {
+    try {
+      merge(names, "refused");
+    } catch (const Error& error) {
+      EXPECT_FALSE(std::filesystem::exists(root_ / "refused" / "throws.csv"));
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(MergeTest, IsWhatOneProcessWouldHaveWritten) {
+  run_campaign(scenario_, options("whole"), [&](int index) { return fly(index); });
+  for (const int count : {2, 5}) {
+    std::vector<std::string> names;
+    for (int i = 0; i < count; ++i) {
+      names.insert(names.begin(), std::to_string(count) + "_" + std::to_string(i));
+      fly_shard(names.front(), i, count);
+    }
+    names.push_back(names.front());  // once more
+    const std::string out = "merged" + std::to_string(count);
+    EXPECT_EQ(merge(names, out).results.size(), 12u);
+    for (const char* file : kReproducible) {
+      EXPECT_EQ(read(root_ / "whole" / file), read(root_ / out / file)) << file;
+    }
+  }
+}
+
+TEST_F(MergeTest, ListsWhatIsMissing) {
+  fly_shard("a", 0, 3);
+  fly_shard("b", 1, 3);
+  EXPECT_EQ(refusal<MissingThrows>({"a", "b"}), "4 of 12 throws are missing: 2, 5, 8, 11.");
+  EXPECT_EQ(refusal<MissingThrows>({"b"}),
+            "8 of 12 throws are missing: 0, 2 to 3, 5 to 6, 8 to 9, 11.");
+}
+
+TEST_F(MergeTest, RefusesShardsThatContradictEachOther) {
+  fly_shard("a", 0, 2);
+  fly_shard("b", 1, 2);
+  CampaignOptions part = options("c");
+  part.shard = {1, 2};
+  run_campaign(scenario_, part, [&](int index) {
+    ThrowResult result = fly(index);
+    if (index == 7) result.events_hash ^= 1;
+    return result;
+  });
+  EXPECT_THAT(refusal<ScenarioError>({"a", "b", "c"}), HasSubstr("Throw 7 went differently in"));
+}
+
+TEST_F(MergeTest, RefusesShardsOfOtherCampaigns) {
+  fly_shard("a", 0, 2);
+  scenario_.seed = 99;
+  fly_shard("b", 1, 2);
+  EXPECT_THAT(refusal<ScenarioError>({"a", "b"}), HasSubstr("holds results of another scenario"));
+  EXPECT_THROW(merge({"a", "none"}, "out"), IoError);
+}
+
+TEST_F(MergeTest, OverwritesNothing) {
+  fly_shard("a", 0, 1);
+  merge({"a"}, "out");
+  EXPECT_THROW(merge({"a"}, "out"), ScenarioError);
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,150 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <csignal>
+#include <vector>
+
+#include "sim/base/error.h"
+#include "sim/base/random.h"
+#include "sim/campaign/journal.h"
+#include "tests/sim/campaign/campaign_fixture.h"
+
+namespace dodgesim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class ResumeTest : public CampaignTest {
+ protected:
+  FlyFunction fly_one_ = [this](int index) { return fly(index); };
+
+  CampaignOptions resuming(const std::string& name, int jobs = 1) const {
+    CampaignOptions again = options(name, jobs);
+    again.resume = true;
+    return again;
+  }
+  void expect_same_files(const std::string& a, const std::string& b) const {
+    for (const char* file : kReproducible) {
+      EXPECT_EQ(read(root_ / a / file), read(root_ / b / file)) << file;
+    }
+  }
+};
+
+TEST_F(ResumeTest, AKillAtAnyMomentLosesNoFinishedThrow) {
+  run_campaign(scenario_, options("whole"), fly_one_);
+  RandomStream random(1, 0, "kills");
+  for (int trial = 0; trial < 30; ++trial) {
+    const std::string name = "killed" + std::to_string(trial);
+    std::size_t before = 0;
+    for (int kill = 0; kill < 3; ++kill) {
+      const pid_t child = ::fork();
+      if (child == 0) {
+        run_campaign(scenario_, resuming(name, 1 + trial % 3), fly_one_);
+        ::_exit(0);
+      }
+      std::this_thread::sleep_for(
+          std::chrono::microseconds(static_cast<std::int64_t>(random.uniform(0, 60000))));
+      ::kill(child, SIGKILL);
+      ::waitpid(child, nullptr, 0);
+      if (!fs::exists(root_ / name / "results.bin")) continue;  // killed before it began
+      const std::size_t now = read_journal(root_ / name / "results.bin").throws.size();
+      EXPECT_GE(now, before);
+      before = now;
+    }
+    const CampaignSummary summary = run_campaign(scenario_, resuming(name), fly_one_);
+    EXPECT_EQ(summary.flown, 12 - static_cast<int>(before));
+    expect_same_files("whole", name);
+  }
+}
+
+TEST_F(ResumeTest, AFinishedCampaignFliesNothingMore) {
+  run_campaign(scenario_, options("a"), fly_one_);
+  const CampaignSummary again =
+      run_campaign(scenario_, resuming("a"), [](int) -> ThrowResult { ::_exit(1); });
+  EXPECT_EQ(again.flown, 0);
+  EXPECT_EQ(again.errors, 0);
+  EXPECT_EQ(again.results.size(), 12u);
+}
+
+TEST_F(ResumeTest, AStopIsCleanAndCanBeResumed) {
+  run_campaign(scenario_, options("whole"), fly_one_);
+  int asked = 0;
+  CampaignOptions stopping = options("stopped", 2);
+  stopping.stop = [&asked] { return ++asked > 4; };
+  const CampaignSummary stopped = run_campaign(scenario_, stopping, fly_one_);
+  EXPECT_FALSE(stopped.complete());
+  EXPECT_FALSE(fs::exists(root_ / "stopped" / "throws.csv"));
+  EXPECT_FALSE(fs::exists(root_ / "stopped" / "manifest.json"));
+  EXPECT_TRUE(run_campaign(scenario_, resuming("stopped"), fly_one_).complete());
+  expect_same_files("whole", "stopped");
+}
+
+TEST_F(ResumeTest, RefusesToGoOnWithAnotherCampaign) {
+  run_campaign(scenario_, options("a"), fly_one_);
+  Scenario other = scenario_;
+  other.seed = 5;
+  EXPECT_THROW(run_campaign(other, resuming("a"), fly_one_), ScenarioError);
+  CampaignOptions truth = resuming("a");
+  truth.truth = true;
+  EXPECT_THROW(run_campaign(scenario_, truth, fly_one_), ScenarioError);
+}
+
+TEST_F(ResumeTest, ASecondProcessIsRefused) {
+  run_campaign(scenario_, options("a"), [&](int index) {
+    if (index == 0) {  // in the worker, while the campaign runs
+      try {
+        run_campaign(scenario_, resuming("a"), fly_one_);
+        throw SimulationError("It was not refused.");
+      } catch (const ScenarioError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("is being written to by another dodgesim"));
+      }
+    }
+    return fly(index);
+  });
+  EXPECT_EQ(read(root_ / "a" / "throws.csv").find("not refused"), std::string::npos);
+}
+
+TEST_F(ResumeTest, AThrowThatHangsIsGivenUp) {
+  CampaignOptions limited = options("hang", 2);
+  limited.limits.wall_s = 0.3;
+  const CampaignSummary summary = run_campaign(scenario_, limited, [&](int index) {
+    while (index == 5) std::this_thread::sleep_for(std::chrono::hours(1));
+    return fly(index);
+  });
+  EXPECT_EQ(summary.errors, 1);
+  EXPECT_THAT(summary.results[5].flown.error, HasSubstr("took longer than the 0.3 s"));
+}
+
+TEST_F(ResumeTest, AThrowThatNeedsTooMuchMemoryFails) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "Sanitizers reserve more address space than any limit allows.";
+#endif
+  CampaignOptions limited = options("memory", 2);
+  limited.limits.memory_mb = 2048;
+  const CampaignSummary summary = run_campaign(scenario_, limited, [&](int index) {
+    std::vector<std::vector<char>> hoard;
+    while (index == 5) hoard.emplace_back(std::size_t{100} << 20, 'x');
+    return fly(index);
+  });
+  EXPECT_EQ(summary.errors, 1);
+  EXPECT_THAT(summary.results[5].flown.error, HasSubstr("more memory than the 2048 MB"));
+}
+
+TEST_F(ResumeTest, ADamagedResultIsFlownAgain) {
+  run_campaign(scenario_, options("whole"), fly_one_);
+  run_campaign(scenario_, options("broken"), fly_one_);
+  const fs::path journal = root_ / "broken" / "results.bin";
+  const JournalIndex index = read_journal(journal);
+  std::fstream file(journal, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(static_cast<std::streamoff>(index.throws.at(7).offset + 3));
+  file.put('\x55');
+  file.close();
+  const CampaignSummary summary = run_campaign(scenario_, resuming("broken"), fly_one_);
+  EXPECT_EQ(summary.flown, 1);
+  expect_same_files("whole", "broken");
+}
+
+}  // namespace
+}  // namespace dodgesim

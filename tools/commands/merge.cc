@@ -1,0 +1,57 @@
+// dodgesim merge: puts the shards of a campaign together.
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "sim/campaign/campaign.h"
+#include "tools/commands/command.h"
+
+namespace dodgesim {
+
+namespace {
+
+struct Arguments {
+  std::vector<std::filesystem::path> directories;
+  CampaignOptions options;
+};
+
+int merge(const Arguments& arguments) {
+  try {
+    const CampaignSummary summary = merge_campaigns(arguments.directories, arguments.options);
+    std::cout << summary.table;
+    std::printf("%s from %zu directories\nResults: %s\n", count_of_throws(summary.wanted).c_str(),
+                arguments.directories.size(), arguments.options.out.c_str());
+    return summary.errors == 0 ? kOk : kIncomplete;
+  } catch (const MissingThrows& error) {
+    std::cerr << error.what() << "\n";
+    return kIncomplete;
+  }
+}
+
+}  // namespace
+
+void add_merge_command(CLI::App& program, const std::string& command_line, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  arguments->options.command_line = command_line;
+  CLI::App* command = program.add_subcommand(
+      "merge", "Put the parts of a campaign together that run --shard has flown");
+  command->add_option("directories", arguments->directories, "What run --out wrote, in any order")
+      ->required()
+      ->type_name("DIR...");
+  command->add_option("--out", arguments->options.out, "Where the whole campaign goes")
+      ->required()
+      ->type_name("DIR");
+  command->add_flag("--force", arguments->options.force, "Overwrite whatever results are in DIR");
+  command->footer(
+      "The files are those that one process would have written, byte for byte (but for timing.csv\n"
+      "and manifest.json). A part may be there twice. Parts of different scenarios or versions, "
+      "and\n"
+      "throws that went differently, are refused (exit 2); missing throws are listed (exit 3).\n\n"
+      "Example:\n"
+      "  dodgesim run s.yaml --out part0 --shard 0/2\n"
+      "  dodgesim run s.yaml --out part1 --shard 1/2\n"
+      "  dodgesim merge part0 part1 --out whole");
+  command->callback([arguments, &exit_code] { exit_code = merge(*arguments); });
+}
+
+}  // namespace dodgesim
