@@ -1,0 +1,82 @@
+// Campaigns in parts, from the command line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/cli/program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using dodgesim::testing::dodgesim;
+using dodgesim::testing::Outcome;
+using testing::HasSubstr;
+
+class CampaignCommandTest : public testing::Test {
+ protected:
+  CampaignCommandTest() {
+    fs::create_directories(root_);
+    std::ofstream(root_ / "s.yaml") << "seed: 3\nrepeats: 6\npilot: oracle\nafter_s: 0.1\n";
+  }
+  ~CampaignCommandTest() override { fs::remove_all(root_); }
+
+  Outcome run(const std::string& out, const std::string& options = "") const {
+    return dodgesim("run " + (root_ / "s.yaml").string() + " -j 2 --out " + path(out) + " " +
+                    options);
+  }
+  std::string path(const std::string& name) const { return (root_ / name).string(); }
+  std::string contents(const std::string& name) const {
+    std::ifstream file(root_ / name);
+    EXPECT_TRUE(file) << name;
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  void expect_same(const std::string& a, const std::string& b) const {
+    for (const char* file : {"/throws.csv", "/detections.csv", "/table.md", "/table.csv"}) {
+      EXPECT_EQ(contents(a + file), contents(b + file)) << file;
+    }
+  }
+
+  fs::path root_ = fs::temp_directory_path() / ("dodgesim_campaign_" + std::to_string(::getpid()));
+};
+
+TEST_F(CampaignCommandTest, PartsMergeToTheWhole) {
+  EXPECT_EQ(run("whole").exit_code, 0);
+  EXPECT_EQ(run("a", "--shard 0/2").exit_code, 0);
+  const Outcome early = dodgesim("merge " + path("a") + " --out " + path("early"));
+  EXPECT_EQ(early.exit_code, 3);
+  EXPECT_THAT(early.output, HasSubstr("3 of 6 throws are missing: 1, 3, 5."));
+  EXPECT_FALSE(fs::exists(root_ / "early"));
+  EXPECT_EQ(run("b", "--shard 1/2").exit_code, 0);
+  const Outcome merged =
+      dodgesim("merge " + path("b") + " " + path("a") + " " + path("b") + " --out " + path("all"));
+  EXPECT_EQ(merged.exit_code, 0) << merged.output;
+  expect_same("whole", "all");
+}
+
+TEST_F(CampaignCommandTest, ResultsAreNeitherLostNorFlownTwice) {
+  EXPECT_EQ(run("out").exit_code, 0);
+  const std::string before = contents("out/throws.csv");
+  const Outcome again = run("out");
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.output, HasSubstr("holds results of 6 throws; add --resume"));
+  EXPECT_EQ(contents("out/throws.csv"), before);
+  EXPECT_EQ(run("out", "--resume").exit_code, 0);
+  EXPECT_EQ(contents("out/throws.csv"), before);
+  EXPECT_EQ(run("out", "--resume --seed 4").exit_code, 2);
+  EXPECT_EQ(run("out", "--force --seed 4").exit_code, 0);
+  EXPECT_NE(contents("out/throws.csv"), before);
+}
+
+TEST_F(CampaignCommandTest, RefusesPartsThatAreNone) {
+  const Outcome outcome = run("out", "--shard 2/2");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("there is no shard 2 of 2"));
+}
+
+}  // namespace
