@@ -123,13 +123,13 @@ double hypergeometric_pmf(std::int64_t k, std::int64_t marked, std::int64_t unma
                   log_binomial_pmf(drawn, all, p));
 }
 
-double largest_p_value(double end, const std::function<double(double)>& p_value) {
+double largest_p_value(double lo, double hi, const std::function<double(double)>& p_value) {
   constexpr int kPoints = 300;
   constexpr int kRefinements = 40;
   const double step = 1.0 / kPoints;
   const auto at = [&](double t) {
     const double sine = std::sin(0.5 * std::numbers::pi * t);
-    return p_value(end * sine * sine);
+    return p_value(lo + (hi - lo) * sine * sine);
   };
   double best = 0, best_t = 0;
   for (int i = 0; i <= kPoints; ++i) {
@@ -140,13 +140,13 @@ double largest_p_value(double end, const std::function<double(double)>& p_value)
     }
   }
   // Golden-section search between the neighbours.
-  double lo = std::max(0.0, best_t - step), hi = std::min(1.0, best_t + step);
+  double from = std::max(0.0, best_t - step), to = std::min(1.0, best_t + step);
   for (int i = 0; i < kRefinements; ++i) {
-    const double width = (hi - lo) / std::numbers::phi;
-    const double left = hi - width, right = lo + width;
+    const double width = (to - from) / std::numbers::phi;
+    const double left = to - width, right = from + width;
     const double at_left = at(left), at_right = at(right);
     best = std::max({best, at_left, at_right});
-    (at_left < at_right ? lo : hi) = at_left < at_right ? left : right;
+    (at_left < at_right ? from : to) = at_left < at_right ? left : right;
   }
   return std::min(best, 1.0);
 }

@@ -25,9 +25,9 @@ std::vector<double> binomial_pmf_table(std::int64_t n, double p);
 double hypergeometric_pmf(std::int64_t k, std::int64_t marked, std::int64_t unmarked,
                           std::int64_t drawn);
 
-// Largest value of a p-value over the nuisance probability in [0, end]: the supremum that
+// Largest value of a p-value over the nuisance probability in [lo, hi]: the supremum that
 // unconditional exact tests ask for. Searched on 300 points, denser towards both ends (where the
-// p-value varies over 1/n), then refined around the best of them.
-double largest_p_value(double end, const std::function<double(double)>& p_value);
+// p-value may vary within 1/n), then refined around the best of them.
+double largest_p_value(double lo, double hi, const std::function<double(double)>& p_value);
 
 }  // namespace dodgesim

@@ -13,6 +13,8 @@ namespace dodgesim {
 
 namespace {
 
+constexpr double kImplausible = 1e-6;  // see drop_p_value()
+
 void check(const PairedCounts& counts) {
   if (std::min({counts.both, counts.only_first, counts.only_second, counts.neither}) < 0) {
     throw std::invalid_argument("Counts of throws must not be negative.");
@@ -120,11 +122,16 @@ double drop_p_value(const PairedCounts& counts, double margin) {
     while (b <= n - c && tango_statistic(b, c, n, margin) < seen) ++b;
     least[static_cast<std::size_t>(c)] = b;
   }
-  // At the border of the null: lost - gained = margin, over what is left of the nuisance.
+  // At the border of the null, lost - gained = margin, the smaller of the two rates is free. The
+  // search stays where the count seen does not refute it.
   const double least_lost = std::max(0.0, margin), least_gained = std::max(0.0, -margin);
-  return largest_p_value(0.5 * (1 - std::abs(margin)), [&](double q) {
-    return probability_of_region(least, n, least_lost + q, least_gained + q);
-  });
+  const Interval plausible =
+      clopper_pearson(margin < 0 ? counts.only_first : counts.only_second, n, 1 - kImplausible);
+  const double end = 0.5 * (1 - std::abs(margin));
+  const double largest = largest_p_value(
+      std::min(plausible.lo, end), std::min(plausible.hi, end),
+      [&](double q) { return probability_of_region(least, n, least_lost + q, least_gained + q); });
+  return std::min(1.0, largest + kImplausible);
 }
 
 DropVerdict judge_drop(const PairedCounts& counts, double margin, double confidence) {

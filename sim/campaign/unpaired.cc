@@ -81,7 +81,7 @@ double boschloo_lower(const Proportion& first, const Proportion& second) {
     while (x2 < n2 && fisher_tail(x1, n1, n2, x1 + x2 + 1) <= seen) ++x2;
     most[static_cast<std::size_t>(x1)] = x2;
   }
-  return largest_p_value(1, [&](double rate) {
+  return largest_p_value(0, 1, [&](double rate) {
     const std::vector<double> p1 = binomial_pmf_table(n1, rate), p2 = binomial_pmf_table(n2, rate);
     double sum = 0, below = 0;
     std::int64_t k = -1;
