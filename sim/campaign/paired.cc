@@ -46,7 +46,7 @@ double probability_of_region(const std::vector<std::int64_t>& least, std::int64_
                              double lost, double gained) {
   constexpr double kNegligible = 1e-16;
   const std::vector<double> gains = binomial_pmf_table(total, gained);
-  const double lost_of_rest = gained < 1 ? std::min(1.0, lost / (1 - gained)) : 0;
+  const double lost_of_rest = std::min(1.0, lost / (1 - gained));
   double sum = 0;
   for (std::size_t c = 0; c < least.size(); ++c) {
     if (gains[c] < kNegligible) continue;

@@ -18,7 +18,6 @@ constexpr double kNegligible = 1e-18;  // of a sum: below its rounding
 double fisher_tail(std::int64_t least, std::int64_t n1, std::int64_t n2, std::int64_t successes) {
   const std::int64_t lowest = std::max<std::int64_t>(0, successes - n2);
   const std::int64_t highest = std::min(n1, successes);
-  if (least <= lowest) return 1;
   const double mean =
       static_cast<double>(successes) * static_cast<double>(n1) / static_cast<double>(n1 + n2);
   const bool above_mean = static_cast<double>(least) > mean;
@@ -63,8 +62,8 @@ double fisher_two_sided(const Proportion& first, const Proportion& second) {
     (pmf(k) <= limit ? below : inside) = k;
   }
   // The lower end of the first group is the upper end of the second.
-  const double upper = above > highest ? 0 : fisher_tail(above, n1, n2, successes);
-  const double lower = below < lowest ? 0 : fisher_tail(successes - below, n2, n1, successes);
+  const double upper = fisher_tail(above, n1, n2, successes);
+  const double lower = fisher_tail(successes - below, n2, n1, successes);
   return std::min(1.0, upper + lower);
 }
 
@@ -102,7 +101,6 @@ void check(const Proportion& first, const Proportion& second) {
 
 double fisher(const Proportion& first, const Proportion& second, Alternative alternative) {
   check(first, second);
-  if (first.trials == 0 || second.trials == 0) return 1;
   if (alternative == Alternative::kDifferent) return fisher_two_sided(first, second);
   const bool lower = alternative == Alternative::kLower;
   const Proportion& high = lower ? first : second;
@@ -112,7 +110,6 @@ double fisher(const Proportion& first, const Proportion& second, Alternative alt
 
 double boschloo(const Proportion& first, const Proportion& second, Alternative alternative) {
   check(first, second);
-  if (first.trials == 0 || second.trials == 0) return 1;
   switch (alternative) {
     case Alternative::kLower:
       return boschloo_lower(first, second);

@@ -177,9 +177,11 @@ TEST(DropPValue, IsTheLargestProbabilityOfTablesAsExtreme) {
             statistic_by_search(static_cast<double>(b), static_cast<double>(c), n, margin);
       }
     }
-    for (const auto& [lost, gained] : {std::pair{0, 0}, {1, 0}, {3, 0}, {0, 2}, {4, 1}, {6, 2}}) {
+    for (const auto& [lost, gained] :
+         {std::pair{0, 0}, {1, 0}, {3, 0}, {0, 2}, {4, 1}, {6, 2}, {5, 4}}) {
       double largest = 0;
-      for (double q = 0; q <= 0.5 * (1 - std::abs(margin)); q += 1.0 / 1024) {
+      for (int i = 0; i <= 1024; ++i) {
+        const double q = 0.5 * (1 - std::abs(margin)) * i / 1024;
         double sum = 0;
         for (std::int64_t b = 0; b <= n; ++b) {
           for (std::int64_t c = 0; b + c <= n; ++c) {
