@@ -11,7 +11,7 @@ namespace dodgesim {
 // Stops as soon as the success rate is known to +- half_width: `stop: {half_width: 0.03}`.
 //
 // Looking at a usual interval after each throw and stopping when it is narrow enough covers too
-// seldom (Wilson's at 95 % and 0.05: 93.3 % at the worst rate). This is the fixed-width rule of
+// seldom (Wilson's at 95 % and 0.05: 93.3 % at the worst rate). This is a fixed-width rule after
 // Frey 2010 (The American Statistician 64:242) with pseudo counts of 4: stop at the first n with z
 // sqrt(r (1 - r) / n) <= half_width, where r = (successes + 4) / (n + 8), and report successes / n
 // +- half_width. The constructor chooses z such that the coverage is at least the confidence at
