@@ -23,7 +23,7 @@ double fisher(const Proportion& first, const Proportion& second,
 // Boschloo's exact unconditional test (Boschloo 1970, Statistica Neerlandica 24:1), p-value: tables
 // ordered by Fisher's one-sided p-value, the largest probability over the unknown common rate.
 // One-sided it is never above Fisher's, so it is the more powerful, and exact too. kDifferent
-// doubles the smaller side. Takes 50 ms for two groups of 10,000 throws, and in proportion to their
+// doubles the smaller side. Takes 0.1 s for two groups of 10,000 throws, and in proportion to their
 // number.
 double boschloo(const Proportion& first, const Proportion& second,
                 Alternative alternative = Alternative::kDifferent);
