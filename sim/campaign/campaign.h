@@ -1,11 +1,10 @@
 // Flies all throws of a scenario and writes a directory of results:
+//
 //   scenario.resolved.yaml  every value spelled out
-//   throws.csv              one row a throw, in throw order       } byte-identical for any number
-//   detections.csv          one row a detection, in throw order   } of workers
-//   table.md, table.csv     success tables                        }
-//   truth.csv               on request: what the events' causes say about the detection, a row a
-//   cycle timing.csv              computing time of each throw manifest.json           commit,
-//   versions, machine, command line, throughput; written last, so a
+//   throws.csv, detections.csv, table.md, table.csv, and truth.csv on request: rows in throw order,
+//                           byte-identical for any number of workers
+//   timing.csv              computing time of each throw
+//   manifest.json           commit, versions, machine, command line, throughput; written last, so a
 //                           directory that has it is complete
 #pragma once
 

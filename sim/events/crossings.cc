@@ -78,7 +78,8 @@ template <bool kBent>
     if constexpr (kBent) {
       const double t1 = newton_step(curve, level, chord_us);
       const double t2 = newton_step(curve, level, t1);
-      before = newton_step(curve, level, t2);
+      const double t3 = newton_step(curve, level, t2);
+      before = newton_step(curve, level, t3);
       t = newton_step(curve, level, before);
     }
 
