@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "sim/base/branchless.h"
 #include "sim/base/vector_level.h"
 #include "sim/events/logarithm.h"
 
@@ -23,9 +24,6 @@ struct Row {
   double refractory_us;
 };
 
-// By value and without branches, so that loops over them are vectorised.
-inline double smaller(double a, double b) { return a < b ? a : b; }
-inline double larger(double a, double b) { return a > b ? a : b; }
 inline double size_of(double a) { return a < 0 ? -a : a; }
 
 [[gnu::always_inline]] inline double left_of(double decay_per_us, double t_us) {
