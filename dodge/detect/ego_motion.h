@@ -73,7 +73,7 @@ class EgoMotion {
     return {p.x() * scale, p.y() * scale};
   }
 
-  // The same for many events in the order of time, several times faster: (u[i], v[i]) of events[i].
+  // The same for many events, faster: (u[i], v[i]) of events[i].
   void warp(std::span<const Event> events, float* u, float* v) const;
 
  private:

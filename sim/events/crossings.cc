@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "sim/base/branchless.h"
 #include "sim/base/vector_level.h"
 #include "sim/events/logarithm.h"
 
@@ -23,9 +24,6 @@ struct Row {
   double refractory_us;
 };
 
-// By value and without branches, so that loops over them are vectorised.
-inline double smaller(double a, double b) { return a < b ? a : b; }
-inline double larger(double a, double b) { return a > b ? a : b; }
 inline double size_of(double a) { return a < 0 ? -a : a; }
 
 [[gnu::always_inline]] inline double left_of(double decay_per_us, double t_us) {
@@ -46,6 +44,8 @@ struct Curve {
   return smaller(larger(next_us, 0.0), c.dt);
 }
 
+// kBent: some of the signals may be no straight lines.
+template <bool kBent>
 [[gnu::always_inline]] inline void solve_row(Row row) {
   const double refractory_us = row.refractory_us;
 #pragma GCC ivdep
@@ -53,8 +53,8 @@ struct Curve {
     const double s0 = row.s0[i], s1 = row.s1[i], dt = row.dt_us[i];
     const double reference = row.reference[i], off = row.off[i], on = row.on[i];
     const double given_rise = row.rise_per_us[i], given_decay = row.decay_per_us[i];
-    const double decay = larger(given_decay, 0.0);
-    const double left = left_of(decay, dt);
+    const double decay = kBent ? larger(given_decay, 0.0) : 0.0;
+    const double left = kBent ? left_of(decay, dt) : 1.0;
     const bool straight = left >= 1;
     const double rise = straight ? (s1 - s0) / dt : given_rise;
     const double p = straight ? 0.0 : (s0 + rise * dt - s1) / (straight ? 1.0 : 1 - left);
@@ -72,15 +72,19 @@ struct Curve {
     // From the chord on. Three steps do nearly always.
     const Curve curve = {s0, rise, p, decay, dt};
     const double chord_us = crosses ? (level - s0) * dt / (s1 - s0) : 0.0;
-    const double t1 = newton_step(curve, level, chord_us);
-    const double t2 = newton_step(curve, level, t1);
-    const double t3 = newton_step(curve, level, t2);
-    const double before = newton_step(curve, level, t3);
-    const double t = newton_step(curve, level, before);
+    double before = chord_us, t = chord_us;
+    if constexpr (kBent) {
+      const double t1 = newton_step(curve, level, chord_us);
+      const double t2 = newton_step(curve, level, t1);
+      const double t3 = newton_step(curve, level, t2);
+      before = newton_step(curve, level, t3);
+      t = newton_step(curve, level, before);
+    }
 
     const double armed_us = t + refractory_us;
     const bool held = (refractory_us > 0) & (armed_us > dt);
-    const double s_armed = s0 + rise * armed_us - p * (1 - left_of(decay, armed_us));
+    const double left_armed = kBent ? left_of(decay, armed_us) : 1.0;
+    const double s_armed = s0 + rise * armed_us - p * (1 - left_armed);
     const double after = (refractory_us > 0) & (!held) ? s_armed : level;
     const double room = smaller(after + on - s1, s1 - (after + off));
     const bool again = crosses & !held & !(room > 0);
@@ -94,16 +98,27 @@ struct Curve {
   }
 }
 
-void solve_portable(const Row& row) { solve_row(row); }
-DODGESIM_TARGET_AVX2 void solve_avx2(const Row& row) { solve_row(row); }
-DODGESIM_TARGET_AVX512 void solve_avx512(const Row& row) { solve_row(row); }
+template <bool kBent>
+void solve_portable(const Row& row) {
+  solve_row<kBent>(row);
+}
+template <bool kBent>
+DODGESIM_TARGET_AVX2 void solve_avx2(const Row& row) {
+  solve_row<kBent>(row);
+}
+template <bool kBent>
+DODGESIM_TARGET_AVX512 void solve_avx512(const Row& row) {
+  solve_row<kBent>(row);
+}
 
-constexpr std::array<void (*)(const Row&), kVectorLevels> kSolve = {solve_portable, solve_avx2,
-                                                                    solve_avx512};
+template <bool kBent>
+constexpr std::array<void (*)(const Row&), kVectorLevels> kSolve = {
+    solve_portable<kBent>, solve_avx2<kBent>, solve_avx512<kBent>};
 
 }  // namespace
 
 void Crossings::clear() {
+  bent_ = false;
   for (auto* values :
        {&s0_, &s1_, &dt_us_, &rise_per_us_, &decay_per_us_, &reference_, &off_, &on_}) {
     values->clear();
@@ -111,6 +126,7 @@ void Crossings::clear() {
 }
 
 void Crossings::add(const Pixel& pixel) {
+  bent_ |= pixel.decay_per_us > 0;
   s0_.push_back(pixel.s0);
   s1_.push_back(pixel.s1);
   dt_us_.push_back(pixel.dt_us);
@@ -130,10 +146,21 @@ void Crossings::solve(double refractory_us, int vector_level) {
   crossing_us_.resize(size());
   reference_after_.resize(size());
   answer_.resize(size());
-  kSolve[static_cast<std::size_t>(vector_level)](
-      {size(), s0_.data(), s1_.data(), dt_us_.data(), rise_per_us_.data(), decay_per_us_.data(),
-       reference_.data(), off_.data(), on_.data(), crossing_us_.data(), reference_after_.data(),
-       answer_.data(), refractory_us});
+  const Row row = {size(),
+                   s0_.data(),
+                   s1_.data(),
+                   dt_us_.data(),
+                   rise_per_us_.data(),
+                   decay_per_us_.data(),
+                   reference_.data(),
+                   off_.data(),
+                   on_.data(),
+                   crossing_us_.data(),
+                   reference_after_.data(),
+                   answer_.data(),
+                   refractory_us};
+  const auto level = static_cast<std::size_t>(vector_level);
+  (bent_ ? kSolve<true> : kSolve<false>)[level](row);
 }
 
 }  // namespace dodgesim

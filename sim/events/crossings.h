@@ -44,6 +44,7 @@ class Crossings {
   bool on(std::size_t i) const { return s1_[i] > s0_[i]; }
 
  private:
+  bool bent_ = false;  // is any of them
   std::vector<double> s0_, s1_, dt_us_, rise_per_us_, decay_per_us_, reference_, off_, on_;
   std::vector<double> crossing_us_, reference_after_;
   std::vector<std::int64_t> answer_;  // as wide as the numbers: they are computed together

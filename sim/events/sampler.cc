@@ -136,10 +136,11 @@ TimeUs Sampler::time_of_displacement(const Part& part, double limit_px, TimeUs n
 }
 
 // The instant at which the motion of a part asks for its next sample, if the speed lasts.
-TimeUs Sampler::time_of_motion(const Part& part, TimeUs now_us) const {
+TimeUs Sampler::time_of_motion(std::size_t index, TimeUs now_us) const {
+  const Part& part = parts_[index];
   TimeUs t_us = time_of_displacement(part, spec_.max_displacement_px, now_us);
   const TimeUs fast_us = part.last_us + spec_.fast_interval_us;
-  if (t_us < fast_us) {
+  if (index == 0 && t_us < fast_us) {
     t_us = std::min(fast_us, time_of_displacement(part, fast_displacement_px_, now_us));
   }
   return std::max(t_us, part.last_us + spec_.min_interval_us);
@@ -154,9 +155,9 @@ TimeUs Sampler::time_due() const {
 // The sample after now_us that is due first if the speeds last.
 Sample Sampler::next_sample(TimeUs now_us) const {
   const auto later = [now_us](TimeUs t_us) { return std::max(t_us, now_us + 1); };
-  Sample next{later(std::min(time_of_motion(parts_[0], now_us), time_due()))};
+  Sample next{later(std::min(time_of_motion(0, now_us), time_due()))};
   for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
-    const TimeUs t_us = later(time_of_motion(parts_[1 + i], now_us));
+    const TimeUs t_us = later(time_of_motion(1 + i, now_us));
     if (t_us < next.t_us) next = {t_us, static_cast<int>(i)};
   }
   return next;
@@ -183,7 +184,7 @@ Rect Sampler::region(const Sample& sample, const Snapshot& snapshot) {
   const ImageBox both = last_seen_[object].merged(box);
   last_seen_[object] = box;
   const double until_next_px = object_speed(snapshot, object) * seconds(spec_.min_interval_us);
-  return pixels_about(both, std::max(fast_displacement_px_, until_next_px) + kRegionMarginPx,
+  return pixels_about(both, std::max(spec_.max_displacement_px, until_next_px) + kRegionMarginPx,
                       intrinsics_);
 }
 

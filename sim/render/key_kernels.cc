@@ -7,15 +7,12 @@
 #include <immintrin.h>
 #endif
 
+#include "sim/base/branchless.h"
 #include "sim/base/vector_level.h"
 
 namespace dodgesim {
 
 namespace {
-
-// By value, so that loops over them are vectorised. Not a number becomes the bound.
-inline float smaller(float a, float b) { return a < b ? a : b; }
-inline float larger(float a, float b) { return a > b ? a : b; }
 
 // The exponents of half and single precision differ by 112, their mantissas by 13 bits.
 constexpr float kFewer = 0x1p-112f, kMore = 0x1p112f;

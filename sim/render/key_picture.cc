@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/branchless.h"
 #include "sim/render/key_kernels.h"
 
 namespace dodgesim {
@@ -39,9 +40,6 @@ Rect cells_about(const Rect& region) {
 // side, of which the logarithm makes much; so it stops at this share of its neighbours.
 constexpr float kSharpening = 1.0f / 12;
 constexpr float kDarkest = 0.95f;
-
-inline float smaller(float a, float b) { return a < b ? a : b; }
-inline float larger(float a, float b) { return a > b ? a : b; }
 
 inline float sharpened(float before, float here, float after) {
   const float sharp = here + kSharpening * (2 * here - before - after);

@@ -12,8 +12,8 @@
 // between them. A pixel's luminance is the mean over its square aperture, as a pixel of a sensor
 // collects it, and is read from a picture of all such means, half a pixel apart (with the default
 // supersampling of 2), linearly in between; the means are sharpened by what the linear reading
-// smooths away on the average. Against pictures that are supersampled 8 times and all drawn, a
-// turning camera's background makes 0.2 to 1.4 % fewer events, edges in depth up to 3 % fewer.
+// smooths away on the average. What all this costs in
+// accuracy: results/sensor/README.md.
 #pragma once
 
 #include <Eigen/Dense>

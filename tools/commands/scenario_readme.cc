@@ -17,6 +17,8 @@ and flies. Each file here runs as it is:
 | `ci.yaml` | a few throws, for a quick check of the whole loop |
 | `goal_flight.yaml` | balls at a vehicle on its way to a goal at 1.5 m/s |
 | `mono.yaml` | one camera and balls of known size |
+| `range_cap_1_5m.yaml`, `range_cap_3m.yaml` | 200 balls that pilot and oracle believe alike |
+| `quiet_hover.yaml`, `quiet_goal_flight.yaml` | nothing: dodges would be false alarms |
 
 ```
 dodgesim validate scenarios/demo.yaml                  # is it well-formed?

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include <cmath>
 
 #include "sim/check/prescribed_throw.h"
@@ -43,15 +45,21 @@ SamplingResult good_result() {
   return result;
 }
 
-TEST(SamplingStudy, FailsForMoreThanOnePercentAndFiftyMicroseconds) {
+TEST(SamplingStudy, FailsBeyondItsLimits) {
   EXPECT_FALSE(judge({good_result()}).failed());
-  SamplingResult bad = good_result();
-  bad.object.events = 985;
-  EXPECT_TRUE(judge({bad}).failed());
-  bad = good_result();
-  bad.scene.median_us = 51;
-  EXPECT_TRUE(judge({bad}).failed());
-  EXPECT_FALSE(judge({good_result(), bad}).failed());  // the first variant counts
+  const auto fails = [](const std::function<void(SamplingResult&)>& spoil) {
+    SamplingResult bad = good_result();
+    spoil(bad);
+    EXPECT_FALSE(judge({good_result(), bad}).failed());  // the first variant counts
+    return judge({bad}).failed();
+  };
+  EXPECT_TRUE(
+      fails([](SamplingResult& r) { r.object.events = 0.985 * r.object.reference_events; }));
+  EXPECT_TRUE(fails([](SamplingResult& r) { r.object.median_us = 51; }));
+  EXPECT_FALSE(fails([](SamplingResult& r) { r.scene.events = 0.98 * r.scene.reference_events; }));
+  EXPECT_TRUE(fails([](SamplingResult& r) { r.scene.events = 0.97 * r.scene.reference_events; }));
+  EXPECT_FALSE(fails([](SamplingResult& r) { r.scene.median_us = 100; }));
+  EXPECT_TRUE(fails([](SamplingResult& r) { r.scene.median_us = 126; }));
 }
 
 TEST(PrescribedThrow, MovesAsItsVelocitiesSay) {

@@ -133,7 +133,7 @@ TEST(Sampler, NoPointOfAnObjectMovesFartherThanTheLimitBetweenSamples) {
             start, previous, t, 200, [&](int i, const Snapshot& s, const Eigen::Isometry3d&) {
               return Eigen::Vector3d(s.objects[0].pose() * surface[static_cast<std::size_t>(i)]);
             });
-        EXPECT_LE(moved_px, limit_px(spec, t - previous) * 1.01);
+        EXPECT_LE(moved_px, spec.max_displacement_px * 1.01);
         seen += moved_px > 0 ? 1 : 0;
         largest = std::max(largest, moved_px);
       }
