@@ -68,8 +68,8 @@ TEST_F(CampaignCommandTest, ResultsAreNeitherLostNorFlownTwice) {
   EXPECT_EQ(contents("out/throws.csv"), before);
   EXPECT_EQ(run("out", "--resume").exit_code, 0);
   EXPECT_EQ(contents("out/throws.csv"), before);
-  EXPECT_EQ(run("out", "--resume --seed 4").exit_code, 2);
-  EXPECT_EQ(run("out", "--force --seed 4").exit_code, 0);
+  EXPECT_EQ(run("out", "--resume --throws 7").exit_code, 2);
+  EXPECT_EQ(run("out", "--force --throws 7").exit_code, 0);
   EXPECT_NE(contents("out/throws.csv"), before);
 }
 
