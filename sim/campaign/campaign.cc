@@ -3,8 +3,10 @@
 #include <chrono>
 #include <optional>
 
+#include "sim/base/error.h"
 #include "sim/campaign/build_info.h"
 #include "sim/campaign/campaign_directory.h"
+#include "sim/campaign/early_stop.h"
 #include "sim/campaign/journal.h"
 #include "sim/campaign/manifest.h"
 #include "sim/campaign/progress.h"
@@ -38,9 +40,27 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+// Ends a campaign early when the scenario asks for it.
+std::optional<EarlyStop> early_stop(const Scenario& scenario, const CampaignOptions& options,
+                                    const std::optional<JournalIndex>& found) {
+  if (!scenario.stop) return std::nullopt;
+  if (options.shard.count > 1) {
+    throw ScenarioError(
+        "The scenario's key stop and --shard exclude each other: a part does not "
+        "know the results of the others.");
+  }
+  EarlyStop stop(scenario);
+  if (found) {
+    for_each_result(options.out / kJournalFile, *found,
+                    [&stop](const ThrowResult& result) { stop.add(result); });
+  }
+  return stop;
+}
+
 // Flies what the journal lacks.
 void fly_missing(const Scenario& scenario, const CampaignOptions& options, const FlyFunction& fly,
-                 const std::optional<JournalIndex>& found, CampaignSummary& summary) {
+                 const std::optional<JournalIndex>& found, std::optional<EarlyStop>& early_stop,
+                 CampaignSummary& summary) {
   const fs::path path = options.out / kJournalFile;
   std::optional<Journal> journal;
   if (found) {
@@ -56,15 +76,20 @@ void fly_missing(const Scenario& scenario, const CampaignOptions& options, const
   tasks.jobs = options.jobs;
   tasks.limits = options.limits;
   tasks.fly = fly;
-  tasks.stop = options.stop;
+  tasks.stop = [&] {
+    return (early_stop && early_stop->end()) || (options.stop && options.stop());
+  };
   tasks.blank = [&](int index) { return blank_result(scenario, index); };
   Progress progress(static_cast<std::int64_t>(tasks.throws.size()), options.show_progress);
   tasks.receive = [&](const ThrowResult& result) {
     journal->add(result);
+    if (early_stop) early_stop->add(result);
     progress.show(++summary.flown);
   };
+  if (early_stop && early_stop->end()) tasks.throws.clear();
   summary.memory = fly_in_workers(tasks);
   journal->sync();
+  if (early_stop && early_stop->end()) summary.wanted = *early_stop->end();
 }
 
 }  // namespace
@@ -93,16 +118,22 @@ CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& op
   make_directory(options.out);
   const DirectoryLock lock(options.out);
   const auto found = find_journal(options, identity_of(scenario, options));
+  std::optional<EarlyStop> stop = early_stop(scenario, options, found);
   remove_result_files(options.out);
   write_file(options.out / kScenarioFile, to_yaml(scenario));
 
   CampaignSummary summary;
-  fly_missing(scenario, options, fly, found, summary);
-  const JournalIndex index = read_journal(options.out / kJournalFile);
+  fly_missing(scenario, options, fly, found, stop, summary);
+  JournalIndex index = read_journal(options.out / kJournalFile);
+  // Throws beyond the early end may have been flown meanwhile: they do not count.
+  if (stop && stop->end()) {
+    index.throws.erase(index.throws.lower_bound(summary.wanted), index.throws.end());
+  }
   if (static_cast<int>(index.throws.size()) < summary.wanted) {
     summary.results.resize(index.throws.size());
     return summary;
   }
+  if (stop) summary.stop_text = stop->text();
   write_result_files(options.out, scenario, index, options.truth, summary);
   summary.wall_s = seconds_since(begin);
   write_file(options.out / "manifest.json", manifest_json(scenario, options, summary, started));

@@ -78,6 +78,10 @@ CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
     add_directory(directory, &directory == &directories.front(), sources);
   }
   const Scenario scenario = parse_scenario(sources.identity.scenario, kScenarioFile, "");
+  if (scenario.stop) {
+    throw ScenarioError(directories.front().string() +
+                        " holds a campaign with the key stop, which has no parts to be merged.");
+  }
   expect_all(scenario, sources);
 
   make_directory(options.out);

@@ -86,7 +86,8 @@ void write_result_files(const fs::path& out, const Scenario& scenario, const Jou
     summary.results.push_back(std::move(result));
   });
   if (computing_s > 0) summary.real_time_factor = simulated_s / computing_s;
-  const Tables tables = make_tables(summary.results, scenario.name, scenario.pilot);
+  Tables tables = make_tables(summary.results, scenario.name, scenario.pilot);
+  if (!summary.stop_text.empty()) tables.markdown += summary.stop_text + "\n";
   summary.table = tables.markdown;
   rows.commit();
   write_file(out / "table.md", tables.markdown);

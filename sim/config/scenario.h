@@ -115,11 +115,26 @@ struct ThrowSpec {
   }
 };
 
+struct StopSpec {
+  double half_width = 0.03;
+  double confidence = 0.95;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("half_width", half_width, 0.005, 0.5,
+      "Fly no more throws when the success rate is known to plus or minus this; the number of "
+      "throws is then at most the scenario's.");
+    v("confidence", confidence, 0.5, 0.999,
+      "Probability that the interval holds the true rate, whatever it is.");
+  }
+};
+
 struct Scenario {
   std::string name;
   std::string description;
   std::uint64_t seed = 1;
   int repeats = 1;
+  std::optional<StopSpec> stop;  // absent: all throws are flown
   std::string pilot = "falanga2020";
   bool fly_oracle = true;
   std::string room = "room";
@@ -145,6 +160,9 @@ struct Scenario {
     v("seed", seed, 0, UINT64_MAX,
       "Names the random numbers: the same seed and scenario give the same results.");
     v("repeats", repeats, 1, 1000000, "Number of throws (of quiet flights, when nobody throws).");
+    v("stop", stop,
+      "Sequential stopping, with an interval that stays valid; without this key all throws are "
+      "flown.");
     v("pilot", pilot, {"falanga2020", "oracle", "none"},
       "Who flies: the paper's dodger, one that is told the true obstacle, or one that never "
       "dodges.");

@@ -1,6 +1,7 @@
 // dodgesim gate: flies a baseline's throws and fails when they went worse.
 #include "sim/gate/gate.h"
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -59,12 +60,18 @@ void expect_same_throws(const Scenario& scenario, const Baseline& baseline, cons
 void list_changes(const std::string& heading, const std::vector<ChangedThrow>& changes,
                   const fs::path& out, std::ostream& text) {
   if (changes.empty()) return;
+  constexpr std::size_t kMost = 10;
   text << heading << ":\n";
-  for (const ChangedThrow& change : changes) {
+  for (std::size_t i = 0; i < std::min(changes.size(), kMost); ++i) {
+    const ChangedThrow& change = changes[i];
     text << "  throw " << change.number << " (" << change.label << "): " << change.before
          << ", now " << change.after << "\n    dodgesim replay " << out.string() << " --throw "
          << change.number << " --picture throw" << change.number << ".png\n";
   }
+  if (changes.size() <= kMost) return;
+  text << "  and throws";
+  for (std::size_t i = kMost; i < changes.size(); ++i) text << " " << changes[i].number;
+  text << "\n";
 }
 
 std::string verdict_text(const Arguments& arguments, const Scenario& scenario,

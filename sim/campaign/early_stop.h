@@ -1,0 +1,40 @@
+// Ends a campaign when its success rate is known well enough: `stop: {half_width: 0.03}`.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "sim/campaign/result.h"
+#include "sim/campaign/sequential.h"
+#include "sim/campaign/tables.h"
+#include "sim/config/scenario.h"
+
+namespace dodgesim {
+
+// Results may be added in any order, as workers finish: the end depends on the throws in the order
+// of their numbers alone.
+class EarlyStop {
+ public:
+  // Requires scenario.stop.
+  explicit EarlyStop(const Scenario& scenario);
+
+  void add(const ThrowResult& result);
+
+  // After how many throws the campaign ends; empty: not yet.
+  std::optional<int> end() const { return end_; }
+
+  // Of the throws so far or, after the end, of those before it: dodged of those that would have
+  // hit, with an interval that holds although the campaign chose when to stop. One sentence.
+  std::string text() const;
+
+ private:
+  StopSpec spec_;
+  FixedWidthRule rule_;
+  std::map<int, Tally> waiting_;  // throws that came before an earlier one
+  int next_ = 0;                  // number of the throw that is counted next
+  Tally sum_;
+  std::optional<int> end_;
+};
+
+}  // namespace dodgesim

@@ -1,0 +1,117 @@
+#include "sim/campaign/early_stop.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <random>
+
+#include "sim/base/error.h"
+#include "tests/sim/campaign/campaign_fixture.h"
+
+namespace dodgesim {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+// Every tenth ball would have missed; of the others, all but every fifth is dodged.
+ThrowResult nth_throw(int index) {
+  ThrowResult result = ball(index, 0.2, 3, 5);
+  result.none = flown(index % 10 != 0);
+  result.flown = flown(index % 5 == 1);
+  return result;
+}
+
+Scenario stopping(double half_width, int repeats) {
+  return parse_scenario("repeats: " + std::to_string(repeats) +
+                            "\nthrow: {}\nstop: {half_width: " + std::to_string(half_width) + "}\n",
+                        "s.yaml", "");
+}
+
+TEST(EarlyStop, comes_with_the_throw_at_which_the_rule_is_met) {
+  EarlyStop stop(stopping(0.1, 1000));
+  const FixedWidthRule rule(0.1, 0.95, 1000);
+  int dodged = 0, trials = 0, expected = 0;
+  while (!rule.done(dodged, trials)) {
+    trials += expected % 10 != 0 ? 1 : 0;
+    dodged += expected % 10 != 0 && expected % 5 != 1 ? 1 : 0;
+    ++expected;
+  }
+  for (int i = 0; i < 1000; ++i) stop.add(nth_throw(i));
+  EXPECT_EQ(stop.end(), expected);
+  EXPECT_THAT(stop.text(), HasSubstr("Stopped after " + std::to_string(expected) + " throws: " +
+                                     std::to_string(dodged) + " of " + std::to_string(trials)));
+}
+
+TEST(EarlyStop, does_not_depend_on_the_order_in_which_throws_finish) {
+  EarlyStop in_order(stopping(0.1, 1000));
+  for (int i = 0; i < 1000; ++i) in_order.add(nth_throw(i));
+  std::vector<int> order(1000);
+  for (int i = 0; i < 1000; ++i) order[static_cast<std::size_t>(i)] = i;
+  std::mt19937 random(1);
+  for (int run = 0; run < 5; ++run) {
+    for (auto first = order.begin(); first != order.end(); first += 8) {
+      std::shuffle(first, first + 8, random);
+    }
+    EarlyStop shuffled(stopping(0.1, 1000));
+    for (const int i : order) shuffled.add(nth_throw(i));
+    EXPECT_EQ(shuffled.end(), in_order.end());
+    EXPECT_EQ(shuffled.text(), in_order.text());
+  }
+}
+
+TEST(EarlyStop, states_a_wider_interval_when_it_has_not_come) {
+  EarlyStop stop(stopping(0.1, 1000));
+  for (int i = 0; i < 20; ++i) stop.add(nth_throw(i));
+  EXPECT_FALSE(stop.end());
+  EXPECT_THAT(stop.text(), HasSubstr("Not stopped after 20 throws: 14 of 18 dodged"));
+}
+
+class EarlyStopCampaignTest : public CampaignTest {
+ protected:
+  EarlyStopCampaignTest() { scenario_ = stopping(0.2, 200); }
+  FlyFunction fly_nth() const {
+    return [](int index) { return nth_throw(index); };
+  }
+};
+
+TEST_F(EarlyStopCampaignTest, FliesNoMoreThanItNeedsWhateverTheWorkers) {
+  const CampaignSummary one = run_campaign(scenario_, options("one", 1), fly_nth());
+  const CampaignSummary three = run_campaign(scenario_, options("three", 3), fly_nth());
+  EXPECT_TRUE(one.complete());
+  EXPECT_LT(one.wanted, 200);
+  EXPECT_EQ(static_cast<int>(one.results.size()), one.wanted);
+  EXPECT_EQ(one.wanted, three.wanted);
+  for (const char* file : kReproducible) {
+    EXPECT_EQ(read(root_ / "one" / file), read(root_ / "three" / file)) << file;
+  }
+  EXPECT_THAT(read(root_ / "one/table.md"), HasSubstr("Stopped after"));
+}
+
+TEST_F(EarlyStopCampaignTest, GoesOnWhereItWasInterrupted) {
+  run_campaign(scenario_, options("whole"), fly_nth());
+  CampaignOptions part = options("part");
+  int flown_so_far = 0;
+  part.stop = [&flown_so_far] { return ++flown_so_far > 3; };
+  run_campaign(scenario_, part, fly_nth());
+  part.stop = nullptr;
+  part.resume = true;
+  EXPECT_TRUE(run_campaign(scenario_, part, fly_nth()).complete());
+  for (const char* file : kReproducible) {
+    EXPECT_EQ(read(root_ / "whole" / file), read(root_ / "part" / file)) << file;
+  }
+  const CampaignSummary again = run_campaign(scenario_, part, fly_nth());
+  EXPECT_EQ(again.flown, 0) << "nothing is left to fly";
+}
+
+TEST_F(EarlyStopCampaignTest, HasNoShards) {
+  CampaignOptions shard = options("shard");
+  shard.shard = {0, 2};
+  EXPECT_THAT([&] { run_campaign(scenario_, shard, fly_nth()); },
+              ThrowsMessage<ScenarioError>(HasSubstr("stop and --shard exclude each other")));
+  run_campaign(scenario_, options("whole"), fly_nth());
+  EXPECT_THROW(merge_campaigns({root_ / "whole"}, options("merged")), ScenarioError);
+}
+
+}  // namespace
+}  // namespace dodgesim
