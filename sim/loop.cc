@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/campaign/campaign.h"
 #include "sim/config/resolve_throw.h"
 #include "sim/world/room_ray.h"
 
@@ -83,18 +84,6 @@ FlightResult attempt(const Scenario& scenario, FlightPlan plan, const std::strin
   }
 }
 
-void copy_throw(const Throw& toss, ThrowResult& result) {
-  result.object = toss.object.kind;
-  result.size_m = toss.object.size_m;
-  result.speed_mps = toss.speed_mps;
-  result.distance_m = toss.distance_m;
-  result.bearing_deg = toss.bearing_deg;
-  result.aim_offset_m = {toss.aim_offset_m.x(), toss.aim_offset_m.y()};
-  result.spin_radps = {toss.spin_radps.x(), toss.spin_radps.y(), toss.spin_radps.z()};
-  result.launch_height_m = toss.launch_height_m;
-  result.launch_us = toss.launch_us;
-}
-
 void copy_record(FlightRecord&& record, ThrowResult& result) {
   result.first_detection_us = record.first_detection_us;
   result.first_detection_distance_m = record.first_detection_distance_m;
@@ -132,19 +121,19 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
   return plan;
 }
 
-ThrowResult fly_throw(const Scenario& scenario, int throw_index, FlightObserver* observer) {
-  ThrowResult result;
-  result.index = throw_index;
-  const FlightPlan plan = plan_throw(scenario, throw_index);
+ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* observer) {
+  const ThrowCase thrown = case_of(campaign, index);
+  const Scenario& scenario = thrown.scenario;
+  ThrowResult result = blank_result(thrown);
+  const FlightPlan plan = plan_throw(scenario, thrown.stream);
   if (!plan.launches.empty()) {
-    copy_throw(plan.launches.front().toss, result);
     result.none = attempt(scenario, plan, "none");
     if (scenario.fly_oracle) result.oracle = attempt(scenario, plan, "oracle");
   }
   FlightRecord record;
   FlightTiming timing;
   result.flown = attempt(scenario, plan, scenario.pilot, observer, &record, &timing);
-  for (DetectionRow& row : record.rows) row.throw_index = throw_index;
+  for (DetectionRow& row : record.rows) row.throw_index = index;
   copy_record(std::move(record), result);
   result.wall_s = timing.total_s;
   return result;

@@ -32,7 +32,8 @@ CampaignIdentity identity_of(const Scenario& scenario, const CampaignOptions& op
 // Numbers of the shard's throws.
 std::vector<int> throws_of(const Scenario& scenario, const Shard& shard) {
   std::vector<int> throws;
-  for (int i = shard.index; i < scenario.repeats; i += shard.count) throws.push_back(i);
+  const int count = throw_count(scenario);
+  for (int i = shard.index; i < count; i += shard.count) throws.push_back(i);
   return throws;
 }
 
@@ -79,7 +80,7 @@ void fly_missing(const Scenario& scenario, const CampaignOptions& options, const
   tasks.stop = [&] {
     return (early_stop && early_stop->end()) || (options.stop && options.stop());
   };
-  tasks.blank = [&](int index) { return blank_result(scenario, index); };
+  tasks.blank = [&](int index) { return blank_result(case_of(scenario, index)); };
   Progress progress(static_cast<std::int64_t>(tasks.throws.size()), options.show_progress);
   tasks.receive = [&](const ThrowResult& result) {
     journal->add(result);
@@ -94,11 +95,15 @@ void fly_missing(const Scenario& scenario, const CampaignOptions& options, const
 
 }  // namespace
 
-ThrowResult blank_result(const Scenario& scenario, int index) {
+ThrowResult blank_result(const ThrowCase& thrown) {
   ThrowResult result;
-  result.index = index;
-  if (!scenario.toss) return result;
-  const Throw toss = resolve_throw(scenario, index);
+  result.index = thrown.index;
+  result.cell = thrown.cell;
+  result.sweep = thrown.sweep;
+  result.cell_values = thrown.cell_values;
+  result.sweep_values = thrown.sweep_values;
+  if (!thrown.scenario.toss) return result;
+  const Throw toss = resolve_throw(thrown.scenario, thrown.stream);
   result.object = toss.object.kind;
   result.size_m = toss.object.size_m;
   result.speed_mps = toss.speed_mps;

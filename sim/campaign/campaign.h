@@ -18,7 +18,7 @@
 #include "sim/campaign/result.h"
 #include "sim/campaign/shard.h"
 #include "sim/campaign/workers.h"
-#include "sim/config/scenario.h"
+#include "sim/config/expand.h"
 
 namespace dodgesim {
 
@@ -53,8 +53,8 @@ struct CampaignSummary {
   bool complete() const { return static_cast<int>(results.size()) == wanted; }
 };
 
-// The result of throw `index` before any flight: its numbers as drawn. Requires a valid scenario.
-ThrowResult blank_result(const Scenario& scenario, int index);
+// The result of a throw before any flight: its numbers as drawn.
+ThrowResult blank_result(const ThrowCase& thrown);
 
 // Flies the throws with `fly`. If it is stopped, nothing but the journal is written. Throws
 // ScenarioError, also if `out` holds something else or another process is writing there, and

@@ -2,10 +2,13 @@
 
 #include <cstdio>
 
+#include "sim/config/expand.h"
+
 namespace dodgesim {
 
 EarlyStop::EarlyStop(const Scenario& scenario)
-    : spec_(scenario.stop.value()), rule_(spec_.half_width, spec_.confidence, scenario.repeats) {}
+    : spec_(scenario.stop.value()),
+      rule_(spec_.half_width, spec_.confidence, throw_count(scenario)) {}
 
 void EarlyStop::add(const ThrowResult& result) {
   if (end_) return;

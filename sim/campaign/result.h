@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/base/time.h"
+#include "sim/config/varied_key.h"
 
 namespace dodgesim {
 
@@ -137,6 +138,13 @@ struct EventTruthSums {
 struct ThrowResult {
   int index = 0;
 
+  // Where the throw stands in the campaign; see sim/config/expand.h. Results of different sweep
+  // values are of the same throws and must never be pooled.
+  int cell = 0;
+  int sweep = 0;
+  std::vector<AxisValue> cell_values;   // the keys of the grid and their values in this cell
+  std::vector<AxisValue> sweep_values;  // likewise of the sweep
+
   // The throw, as drawn. Without an object nobody threw.
   std::string object;
   double size_m = 0;
@@ -172,6 +180,10 @@ struct ThrowResult {
   template <class Visitor>
   void visit(Visitor& v) {
     v("throw", index);
+    v("cell", cell);
+    v("sweep", sweep);
+    v("", cell_values);
+    v("", sweep_values);
     v("object", object);
     v("size_m", size_m);
     v("speed_mps", speed_mps);

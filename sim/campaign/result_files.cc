@@ -20,11 +20,11 @@ constexpr const char* kResultFiles[] = {"manifest.json", "throws.csv", "detectio
 // The files with rows of throws.
 class RowFiles {
  public:
-  RowFiles(const fs::path& out, bool truth)
+  RowFiles(const fs::path& out, const Scenario& scenario, bool truth)
       : throws_(out / "throws.csv"),
         detections_(out / "detections.csv"),
         timing_(out / "timing.csv") {
-    throws_.write(csv_header<ThrowResult>());
+    throws_.write(csv_header(blank_result(case_of(scenario, 0))));
     detections_.write(csv_header<DetectionRow>());
     timing_.write("throw,simulated_s,wall_s,real_time_factor\n");
     if (!truth) return;
@@ -73,7 +73,7 @@ void remove_result_files(const fs::path& out) {
 
 void write_result_files(const fs::path& out, const Scenario& scenario, const JournalIndex& index,
                         bool truth, CampaignSummary& summary) {
-  RowFiles rows(out, truth);
+  RowFiles rows(out, scenario, truth);
   double simulated_s = 0, computing_s = 0;
   for_each_result(out / kJournalFile, index, [&](ThrowResult result) {
     rows.add(result);

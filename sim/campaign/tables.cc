@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <set>
 
 #include "sim/campaign/csv.h"
 #include "sim/campaign/statistics.h"
+#include "sim/config/expand.h"
 
 namespace dodgesim {
 
@@ -59,7 +61,7 @@ class TableWriter {
   TableWriter(const std::vector<ThrowResult>& results, std::vector<Column> columns)
       : results_(results), columns_(std::move(columns)) {
     csv_ =
-        "size_m,distance_m,speed_mps,pilot,throws,would_have_hit,dodged,rate,rate_lo,rate_hi,"
+        "sweep,size_m,distance_m,speed_mps,pilot,throws,would_have_hit,dodged,rate,rate_lo,rate_hi,"
         "errors\n";
   }
 
@@ -136,9 +138,9 @@ class TableWriter {
                const Column& column, const Tally& sum) {
     const Interval interval = wilson(sum.dodged, sum.would_have_hit);
     const double rate = sum.would_have_hit == 0 ? 0 : double(sum.dodged) / sum.would_have_hit;
-    csv_ += size + "," + distance + "," + speed + "," + column.pilot + "," +
-            std::to_string(sum.throws) + "," + std::to_string(sum.would_have_hit) + "," +
-            std::to_string(sum.dodged) + ",";
+    csv_ += std::to_string(results_.front().sweep) + "," + size + "," + distance + "," + speed +
+            "," + column.pilot + "," + std::to_string(sum.throws) + "," +
+            std::to_string(sum.would_have_hit) + "," + std::to_string(sum.dodged) + ",";
     if (sum.would_have_hit > 0) csv_ += to_text(rate);
     csv_ += "," + to_text(interval.lo) + "," + to_text(interval.hi) + "," +
             std::to_string(sum.errors) + "\n";
@@ -246,30 +248,55 @@ std::string rate_text(int successes, int trials) {
          fixed(interval.hi) + ")";
 }
 
-Tables make_tables(const std::vector<ThrowResult>& results, const std::string& title,
-                   const std::string& pilot) {
+namespace {
+
+std::string pilot_of(const std::vector<AxisValue>& sweep_values, const std::string& otherwise) {
+  for (const AxisValue& value : sweep_values) {
+    if (value.key == "pilot") return value.value;
+  }
+  return otherwise;
+}
+
+// The tables of one value of the sweep, whose results may be pooled.
+Tables pooled_tables(const std::vector<ThrowResult>& results, const std::string& pilot) {
   std::vector<Column> columns = {{pilot, &flown}};
   const bool with_oracle = std::any_of(results.begin(), results.end(), [](const ThrowResult& r) {
     return r.oracle.status != "not flown";
   });
   if (with_oracle) columns.push_back({"oracle", &oracle});
   columns.push_back({"none", &none});
-
   TableWriter writer(results, columns);
-  const Tally all = tally(results, columns[0], [](const ThrowResult&) { return true; });
-  std::string head = "# " + title + "\n\n" + count_text(static_cast<int>(results.size()), "throw") +
-                     ", pilot " + pilot + ". Cells: dodged / would have hit (rate, 95 % Wilson " +
-                     "interval); for the pilot none: would have hit / throws.\n\n";
   const bool anything_thrown =
       std::any_of(results.begin(), results.end(), [](const ThrowResult& r) { return r.thrown(); });
-  Tables tables;
+  std::string head;
   if (anything_thrown) {
-    head += "Dodged: " + rate_text(all.dodged, all.would_have_hit) + "\n\n";
+    const Tally all = tally(results, columns[0], [](const ThrowResult&) { return true; });
+    head = "Dodged: " + rate_text(all.dodged, all.would_have_hit) + "\n\n";
     writer.by_size_and_distance();
     writer.by_speed();
   }
-  tables = writer.take();
+  Tables tables = writer.take();
   tables.markdown = head + tables.markdown + asides(results, pilot);
+  return tables;
+}
+
+}  // namespace
+
+Tables make_tables(const std::vector<ThrowResult>& results, const std::string& title,
+                   const std::string& pilot) {
+  std::map<int, std::vector<ThrowResult>> of_sweep;
+  for (const ThrowResult& result : results) of_sweep[result.sweep].push_back(result);
+  Tables tables;
+  tables.markdown = "# " + title + "\n\n" + count_text(static_cast<int>(results.size()), "throw") +
+                    ", pilot " + pilot + ". Cells: dodged / would have hit (rate, 95 % Wilson " +
+                    "interval); for the pilot none: would have hit / throws.\n\n";
+  for (const auto& [sweep, of_value] : of_sweep) {
+    const std::vector<AxisValue>& values = of_value[0].sweep_values;
+    if (!values.empty()) tables.markdown += "# " + label(values) + "\n\n";
+    const Tables block = pooled_tables(of_value, pilot_of(values, pilot));
+    tables.markdown += block.markdown;
+    tables.csv += tables.csv.empty() ? block.csv : block.csv.substr(block.csv.find('\n') + 1);
+  }
   return tables;
 }
 

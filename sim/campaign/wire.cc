@@ -18,6 +18,14 @@ class ByteWriter {
     bytes_ += text;
   }
 
+  void operator()(const char*, std::vector<AxisValue>& values) {
+    number(static_cast<std::uint64_t>(values.size()));
+    for (AxisValue& value : values) {
+      (*this)("", value.key);
+      (*this)("", value.value);
+    }
+  }
+
   template <class T>
   void operator()(const char*, std::optional<T>& value) {
     number(static_cast<char>(value.has_value()));
@@ -59,6 +67,16 @@ class ByteReader {
     std::uint64_t size = 0;
     number(size);
     text = std::string(take(size));
+  }
+
+  void operator()(const char*, std::vector<AxisValue>& values) {
+    std::uint64_t count = 0;
+    number(count);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      AxisValue& value = values.emplace_back();
+      (*this)("", value.key);
+      (*this)("", value.value);
+    }
   }
 
   template <class T>

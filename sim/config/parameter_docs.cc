@@ -122,6 +122,12 @@ void Documenter::model(const char* key, const NameChoice& value, const char* fol
       to_yaml(value), doc);
 }
 
+void Documenter::axes(const char* key, const VariedKeys&, const char* doc) {
+  add(key, "map of keys to lists of values", "", "", doc);
+}
+
+void Documenter::file(const char* key, const char* doc) { add(key, "file", "", "", doc); }
+
 std::string to_markdown(const std::vector<ParameterDoc>& docs) {
   std::vector<ParameterDoc> groups = {{"", "", "", "", "Keys at the top level."}};
   for (const ParameterDoc& doc : docs) {

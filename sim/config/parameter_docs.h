@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/config/distribution.h"
+#include "sim/config/varied_key.h"
 
 namespace dodgesim {
 
@@ -46,6 +47,8 @@ class Documenter {
   void text(const char* key, const std::string& value, const char* doc);
   void model(const char* key, const std::string& value, const char* folder, const char* doc);
   void model(const char* key, const NameChoice& value, const char* folder, const char* doc);
+  void axes(const char* key, const VariedKeys& axes, const char* doc);
+  void file(const char* key, const char* doc);
 
   template <class T>
   void operator()(const char* key, T& value, const char* doc) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/config/distribution.h"
+#include "sim/config/varied_key.h"
 #include "sim/config/yaml_tree.h"
 
 namespace dodgesim {
@@ -22,6 +23,7 @@ struct ReadContext {
   Problems problems;
   std::map<std::string, Position> where;  // of the value of every key given, by its dotted path
   std::vector<std::string> all_keys;      // dotted paths of all keys there are, for suggestions
+  std::vector<std::string> axis_keys;     // of those that grid and sweep may have
   std::string models_dir;                 // when set, named models must exist below it
 };
 
@@ -57,6 +59,11 @@ class Reader {
   // The name of the model file models/<folder>/<name>.xml; several: !choice [a, b].
   void model(const char* key, std::string& value, const char* folder, const char*);
   void model(const char* key, NameChoice& value, const char* folder, const char*);
+  // Keys with a list of values each. A key of `throw` may stand without that word. Values are not
+  // checked (see check_scenario.h).
+  void axes(const char* key, VariedKeys& axes, const char*);
+  // The name of another file, which is read before (see scenario_tree.h).
+  void file(const char* key, const char*) { known_.emplace_back(key); }
 
   template <class T>
   void operator()(const char* key, T& value, const char*) {
@@ -68,7 +75,7 @@ class Reader {
   void operator()(const char* key, std::optional<T>& value, const char*) {
     const YamlNode* map = take_map(key);
     if (map == nullptr) return;
-    value.emplace();
+    if (!value) value.emplace();
     read_nested(key, *map, *value);
   }
 
@@ -95,6 +102,8 @@ class Reader {
                    double min, double max);
   bool read_model(const YamlNode& node, const std::string& name, const char* folder,
                   std::string& value);
+  bool read_axis(const YamlNode& node, const YamlNode::Key& key, const VariedKeys& before,
+                 VariedKey& axis);
 
   const YamlNode& map_;
   std::string path_;

@@ -14,6 +14,7 @@
 #include "sim/bridge/oracle_spec.h"
 #include "sim/config/distribution.h"
 #include "sim/config/parameter_docs.h"
+#include "sim/config/varied_key.h"
 #include "sim/control/flight_controller.h"
 #include "sim/control/velocity_controller.h"
 #include "sim/events/spec.h"
@@ -129,12 +130,15 @@ struct StopSpec {
   }
 };
 
+// What a campaign flies; expand.h has what one of its throws needs.
 struct Scenario {
   std::string name;
   std::string description;
   std::uint64_t seed = 1;
   int repeats = 1;
   std::optional<StopSpec> stop;  // absent: all throws are flown
+  VariedKeys grid;
+  VariedKeys sweep;
   std::string pilot = "falanga2020";
   bool fly_oracle = true;
   std::string room = "room";
@@ -155,11 +159,20 @@ struct Scenario {
 
   template <class Visitor>
   void visit(Visitor& v) {
+    v.file("extends",
+           "Another scenario, relative to this file, whose keys hold where this file has none.");
     v.text("name", name, "Title of the campaign in tables; the file's name when empty.");
     v.text("description", description, "What the scenario is for.");
     v("seed", seed, 0, UINT64_MAX,
       "Names the random numbers: the same seed and scenario give the same results.");
-    v("repeats", repeats, 1, 1000000, "Number of throws (of quiet flights, when nobody throws).");
+    v("repeats", repeats, 1, 1000000,
+      "Number of throws (of quiet flights, when nobody throws); with a grid, of each cell.");
+    v.axes("grid", grid,
+           "Keys to lists of values, such as {size_m: [0.1, 0.2]}; every combination is a cell of "
+           "throws of its own. Keys of throw may stand without that word.");
+    v.axes("sweep", sweep,
+           "Likewise; but every combination flies the same throws again, with the same noise, so "
+           "that its values can be compared throw by throw. They are never pooled.");
     v("stop", stop,
       "Sequential stopping, with an interval that stays valid; without this key all throws are "
       "flown.");

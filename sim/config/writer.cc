@@ -21,6 +21,15 @@ std::string list(const std::vector<double>& values) {
   return list(items);
 }
 
+// Names of models are letters, digits, _ and -, but YAML reads some of those as something else.
+std::string name_text(const std::string& name) {
+  const bool letter = (name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z');
+  const bool null = name == "null" || name == "Null" || name == "NULL";
+  return letter && !null ? name : in_quotes(name);
+}
+
+}  // namespace
+
 std::string in_quotes(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -45,15 +54,6 @@ std::string in_quotes(const std::string& text) {
   }
   return quoted + "\"";
 }
-
-// Names of models are letters, digits, _ and -, but YAML reads some of those as something else.
-std::string name_text(const std::string& name) {
-  const bool letter = (name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z');
-  const bool null = name == "null" || name == "Null" || name == "NULL";
-  return letter && !null ? name : in_quotes(name);
-}
-
-}  // namespace
 
 std::string to_yaml(const Distribution& distribution) {
   const std::vector<double>& values = distribution.values;
@@ -152,6 +152,18 @@ void Writer::model(const char* key, const std::string& value, const char*, const
 
 void Writer::model(const char* key, const NameChoice& value, const char*, const char*) {
   line(key, to_yaml(value));
+}
+
+void Writer::axes(const char* key, const VariedKeys& axes, const char*) {
+  if (axes.empty()) return;
+  line(key, "");
+  ++level_;
+  for (const VariedKey& axis : axes) {
+    std::vector<std::string> values;
+    for (const YamlNode& value : axis.values) values.push_back(to_text(value));
+    line(axis.key.c_str(), list(values));
+  }
+  --level_;
 }
 
 }  // namespace dodgesim

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sim/config/distribution.h"
+#include "sim/config/varied_key.h"
 
 namespace dodgesim {
 
@@ -32,6 +33,8 @@ class Writer {
   void text(const char* key, const std::string& value, const char*);
   void model(const char* key, const std::string& value, const char*, const char*);
   void model(const char* key, const NameChoice& value, const char*, const char*);
+  void axes(const char* key, const VariedKeys& axes, const char*);
+  void file(const char*, const char*) {}  // its contents are written
 
   template <class T>
   void operator()(const char* key, T& value, const char*) {
@@ -52,6 +55,9 @@ class Writer {
   std::string yaml_;
   int level_ = 0;
 };
+
+// Text as a YAML scalar in double quotes.
+std::string in_quotes(const std::string& text);
 
 // As they stand in YAML: "0.3", "!uniform [0.1, 0.3]", "[0.1, 0, !normal {...}]".
 std::string to_yaml(const Distribution& distribution);

@@ -9,6 +9,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/csv.h"
+#include "sim/config/expand.h"
 #include "sim/files/output_file.h"
 #include "sim/gate/scenario_changes.h"
 #include "tools/commands/campaign_options.h"
@@ -41,8 +42,10 @@ GateRules rules_of(const Arguments& arguments, const std::optional<Baseline>& ba
 
 // Other throws cannot be compared one by one: found out before hours of flying.
 void expect_same_throws(const Scenario& scenario, const Baseline& baseline, const fs::path& where) {
-  std::string text = csv_header<ThrowResult>();
-  for (int i = 0; i < scenario.repeats; ++i) text += csv_row(blank_result(scenario, i));
+  std::string text = csv_header(blank_result(case_of(scenario, 0)));
+  for (int i = 0; i < throw_count(scenario); ++i) {
+    text += csv_row(blank_result(case_of(scenario, i)));
+  }
   const auto drawn = outcomes(CsvTable(text, "the scenario's throws"));
   const auto before = outcomes(baseline.throws);
   const std::string remedy = "; to make a new baseline of this scenario, add --update.";
@@ -114,6 +117,11 @@ int gate(const Arguments& arguments) {
   } else if (!arguments.update) {
     throw ScenarioError("There is no baseline " + arguments.baseline.string() +
                         "; add --update to make it.");
+  }
+  if (sweep_count(scenario) > 1) {
+    throw ScenarioError(arguments.scenario +
+                        ": a gate's scenario has no sweep, of which every "
+                        "value flies the same throws.");
   }
   const GateRules rules = rules_of(arguments, baseline);
   if (!arguments.update) expect_same_throws(scenario, *baseline, arguments.baseline);

@@ -80,7 +80,7 @@ TEST_F(CampaignTest, ACrashCostsItsThrowOnlyAndIsRecorded) {
     const ThrowResult& result = summary.results[static_cast<std::size_t>(i)];
     EXPECT_EQ(result.index, i);
     EXPECT_EQ(result.flown.failed(), i == 4 || i == 7) << i;
-    EXPECT_EQ(result.size_m, blank_result(scenario_, i).size_m) << i;
+    EXPECT_EQ(result.size_m, blank_result(case_of(scenario_, i)).size_m) << i;
   }
   EXPECT_EQ(summary.results[4].flown.error, "The worker process was killed by signal 9 (Killed).");
   EXPECT_EQ(summary.results[7].flown.error, "The worker process ended with exit code 9.");

@@ -117,11 +117,11 @@ Dodged: 1 / 2 (0.500, 0.095 to 0.905)
 Of 1 throw that would have missed, falanga2020 evaded 1 and was hit by 0.
 
 )");
-  EXPECT_THAT(made.csv, testing::StartsWith("size_m,distance_m,speed_mps,pilot,throws,"
+  EXPECT_THAT(made.csv, testing::StartsWith("sweep,size_m,distance_m,speed_mps,pilot,throws,"
                                             "would_have_hit,dodged,rate,rate_lo,rate_hi,errors\n"
-                                            "0.1,2,all,falanga2020,2,1,1,1,"));
-  EXPECT_THAT(made.csv, HasSubstr("\nall,all,all,falanga2020,3,2,1,0.5,"));
-  EXPECT_THAT(made.csv, HasSubstr("\nall,all,4,none,3,2,0,0,"));
+                                            "0,0.1,2,all,falanga2020,2,1,1,1,"));
+  EXPECT_THAT(made.csv, HasSubstr("\n0,all,all,all,falanga2020,3,2,1,0.5,"));
+  EXPECT_THAT(made.csv, HasSubstr("\n0,all,all,4,none,3,2,0,0,"));
 }
 
 TEST(Tables, WithoutOracleThereIsNoRowOfIt) {

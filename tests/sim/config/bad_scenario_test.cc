@@ -108,7 +108,7 @@ const BadScenario kBadScenarios[] = {
     {"MergeKey", "throw:\n  <<: {size_m: 0.1}\n",
      "bad.yaml:2:3: Merge keys (<<) are not supported"},
     {"Anchor", "throw: &t {size_m: 0.1}\n", "bad.yaml:1:8: Anchors (&name) are not supported"},
-    {"TwoDocuments", "seed: 1\n---\nseed: 2\n", "bad.yaml:3:1: The file holds more than one YAML"},
+    {"TwoDocuments", "seed: 1\n---\nseed: 2\n", "bad.yaml:3:1: This is more than one YAML"},
     // Not a scenario at all.
     {"Empty", "", "bad.yaml: The file is empty."},
     {"OnlyComments", "# nothing\n", "bad.yaml: The file is empty."},
@@ -116,10 +116,10 @@ const BadScenario kBadScenarios[] = {
     {"Text", "hello\n", "bad.yaml:1:1: The file must be a map of keys"},
     {"Syntax", "throw: {size_m: 0.1\nseed: 1\n", "bad.yaml:2:"},
     {"Tab", "throw:\n\tsize_m: 0.1\n", "bad.yaml:2:"},
-    {"NotUtf8", "name: \"\xff\"\n", "bad.yaml:1:8: The file is not UTF-8 text (byte 255)."},
-    {"Overlong", "name: \"\xc0\xaf\"\n", "bad.yaml:1:8: The file is not UTF-8 text"},
-    {"Zero", std::string("name: a\0b\n", 10), "bad.yaml:1:8: The file is not UTF-8 text (byte 0)."},
-    {"Utf16", std::string("\xff\xfes\0e\0e\0d\0", 10), "bad.yaml:1:1: The file is not UTF-8 text"},
+    {"NotUtf8", "name: \"\xff\"\n", "bad.yaml:1:8: This is not UTF-8 text (byte 255)."},
+    {"Overlong", "name: \"\xc0\xaf\"\n", "bad.yaml:1:8: This is not UTF-8 text"},
+    {"Zero", std::string("name: a\0b\n", 10), "bad.yaml:1:8: This is not UTF-8 text (byte 0)."},
+    {"Utf16", std::string("\xff\xfes\0e\0e\0d\0", 10), "bad.yaml:1:1: This is not UTF-8 text"},
     // Bounded time and memory.
     {"DeepFlow", "throw: " + repeat("[", 100000), "bad.yaml:1:"},
     {"DeepBlock", repeat("a: \n ", 1) + "b: " + repeat("{a: ", 1000) + repeat("}", 1000),
