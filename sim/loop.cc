@@ -1,5 +1,6 @@
 #include "sim/loop.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "sim/base/error.h"
@@ -84,6 +85,26 @@ FlightResult attempt(const Scenario& scenario, FlightPlan plan, const std::strin
   }
 }
 
+// What the referee says of an object; nothing if the flight failed.
+Approach approach(const FlightRecord& record, int object) {
+  const auto i = static_cast<std::size_t>(object);
+  return i < record.verdict.objects.size() ? record.verdict.objects[i] : Approach{};
+}
+
+void copy_object(const FlightRecord& record, ObjectRow& row) {
+  const Approach found = approach(record, row.object);
+  row.hit = found.hit;
+  if (found.hit) row.hit_us = found.hit_us;
+  if (found.closest_us >= 0) {
+    row.closest_us = found.closest_us;
+    row.clearance_m = found.clearance_m;
+  }
+  const auto i = static_cast<std::size_t>(row.object);
+  if (i >= record.sightings.size()) return;
+  row.first_detection_us = record.sightings[i].first_us;
+  row.first_detection_distance_m = record.sightings[i].distance_m;
+}
+
 void copy_record(FlightRecord&& record, ThrowResult& result) {
   result.first_detection_us = record.first_detection_us;
   result.first_detection_distance_m = record.first_detection_distance_m;
@@ -103,21 +124,26 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
   FlightPlan plan;
   plan.throw_index = throw_index;
   plan.pilot = scenario.pilot;
-  if (!scenario.toss) {
+  if (!scenario.anyone_throws()) {
     plan.end_us = round_to_tick(microseconds(scenario.duration_s));
     return plan;
   }
-  Throw toss = resolve_throw(scenario, throw_index);
-  toss.launch_us = round_to_tick(toss.launch_us);
-  const BodyState vehicle = undisturbed_vehicle(scenario, throw_index, toss.arrival_us());
-  World world({scenario.models_dir, scenario.room, scenario.vehicle, {toss.object}});
+  for (const Throw& toss : resolve_throws(scenario, throw_index)) {
+    plan.launches.push_back({toss, {}});
+  }
+  World world(world_spec(scenario, plan.launches));
   world.reset(scenario.mission.start_m, 0, Eigen::Vector3d::Zero());
-  const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
-  const double heading_rad = std::atan2(x_W.y(), x_W.x());
-  const BodyState launch = solve_throw(toss, world.object(0), vehicle.p_W, heading_rad);
-  check_launch_in_sight(world, vehicle.p_W, launch.p_W, throw_index);
-  plan.launches.push_back({toss, launch});
-  plan.end_us = round_to_tick(toss.arrival_us() + microseconds(scenario.after_s));
+  int object = 0;
+  for (FlightPlan::Launch& launch : plan.launches) {
+    const Throw& toss = launch.toss;
+    const BodyState vehicle = undisturbed_vehicle(scenario, throw_index, toss.arrival_us());
+    const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
+    const double heading_rad = std::atan2(x_W.y(), x_W.x());
+    launch.state = solve_throw(toss, world.object(object++), vehicle.p_W, heading_rad);
+    check_launch_in_sight(world, vehicle.p_W, launch.state.p_W, throw_index);
+    plan.end_us =
+        std::max(plan.end_us, round_to_tick(toss.arrival_us() + microseconds(scenario.after_s)));
+  }
   return plan;
 }
 
@@ -127,12 +153,15 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
   ThrowResult result = blank_result(thrown);
   const FlightPlan plan = plan_throw(scenario, thrown.stream);
   if (!plan.launches.empty()) {
-    result.none = attempt(scenario, plan, "none");
+    FlightRecord none;
+    result.none = attempt(scenario, plan, "none", nullptr, &none);
+    for (ObjectRow& row : result.object_rows) row.none_hit = approach(none, row.object).hit;
     if (scenario.fly_oracle) result.oracle = attempt(scenario, plan, "oracle");
   }
   FlightRecord record;
   FlightTiming timing;
   result.flown = attempt(scenario, plan, scenario.pilot, observer, &record, &timing);
+  for (ObjectRow& row : result.object_rows) copy_object(record, row);
   for (DetectionRow& row : record.rows) row.throw_index = index;
   copy_record(std::move(record), result);
   result.wall_s = timing.total_s;

@@ -93,6 +93,22 @@ void fly_missing(const Scenario& scenario, const CampaignOptions& options, const
   if (early_stop && early_stop->end()) summary.wanted = *early_stop->end();
 }
 
+ObjectRow as_drawn(const Throw& toss, int throw_index, int object) {
+  ObjectRow row;
+  row.throw_index = throw_index;
+  row.object = object;
+  row.kind = toss.object.kind;
+  row.size_m = toss.object.size_m;
+  row.speed_mps = toss.speed_mps;
+  row.distance_m = toss.distance_m;
+  row.bearing_deg = toss.bearing_deg;
+  row.aim_offset_m = {toss.aim_offset_m.x(), toss.aim_offset_m.y()};
+  row.spin_radps = {toss.spin_radps.x(), toss.spin_radps.y(), toss.spin_radps.z()};
+  row.launch_height_m = toss.launch_height_m;
+  row.launch_us = toss.launch_us;
+  return row;
+}
+
 }  // namespace
 
 ThrowResult blank_result(const ThrowCase& thrown) {
@@ -102,17 +118,20 @@ ThrowResult blank_result(const ThrowCase& thrown) {
   result.sweep = thrown.sweep;
   result.cell_values = thrown.cell_values;
   result.sweep_values = thrown.sweep_values;
-  if (!thrown.scenario.toss) return result;
-  const Throw toss = resolve_throw(thrown.scenario, thrown.stream);
-  result.object = toss.object.kind;
-  result.size_m = toss.object.size_m;
-  result.speed_mps = toss.speed_mps;
-  result.distance_m = toss.distance_m;
-  result.bearing_deg = toss.bearing_deg;
-  result.aim_offset_m = {toss.aim_offset_m.x(), toss.aim_offset_m.y()};
-  result.spin_radps = {toss.spin_radps.x(), toss.spin_radps.y(), toss.spin_radps.z()};
-  result.launch_height_m = toss.launch_height_m;
-  result.launch_us = toss.launch_us;
+  for (const Throw& toss : resolve_throws(thrown.scenario, thrown.stream)) {
+    result.object_rows.push_back(as_drawn(toss, thrown.index, result.objects++));
+  }
+  if (result.objects == 0) return result;
+  const ObjectRow& first = result.object_rows.front();
+  result.object = first.kind;
+  result.size_m = first.size_m;
+  result.speed_mps = first.speed_mps;
+  result.distance_m = first.distance_m;
+  result.bearing_deg = first.bearing_deg;
+  result.aim_offset_m = first.aim_offset_m;
+  result.spin_radps = first.spin_radps;
+  result.launch_height_m = first.launch_height_m;
+  result.launch_us = first.launch_us;
   return result;
 }
 

@@ -2,7 +2,8 @@
 //
 //   scenario.resolved.yaml  every value spelled out
 //   results.bin             every result as it came (journal.h): what --resume and merge go on with
-//   throws.csv, detections.csv, table.md, table.csv, and truth.csv on request (result_files.h):
+//   throws.csv, objects.csv, detections.csv, table.md, table.csv, and truth.csv on request
+//   (result_files.h):
 //                           byte-identical for any number of workers, shards and resumes
 //   timing.csv              computing time of each throw
 //   manifest.json           commit, versions, machine, command line, throughput; written last, so a

@@ -139,6 +139,7 @@ std::string to_bytes(const ThrowResult& result) {
   ByteWriter writer;
   copy.visit(writer);
   writer("", copy.wall_s);
+  write_rows(writer, copy.object_rows);
   write_rows(writer, copy.detection_rows);
   write_rows(writer, copy.truth_rows);
   return writer.take();
@@ -149,6 +150,7 @@ ThrowResult result_from_bytes(std::string_view bytes) {
   ByteReader reader(bytes);
   result.visit(reader);
   reader("", result.wall_s);
+  read_rows(reader, result.object_rows);
   read_rows(reader, result.detection_rows);
   read_rows(reader, result.truth_rows);
   if (!reader.at_end()) throw IoError("A result is longer than one.");

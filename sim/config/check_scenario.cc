@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::int64_t kMostCombinations = 10000;
 constexpr std::int64_t kMostThrows = 10000000;
+constexpr int kMostObjects = 16;
 
 Position position_of(const ReadContext& context, const std::string& key) {
   const auto found = context.where.find(key);
@@ -23,15 +24,31 @@ Eigen::Matrix3d looking_forward() {
   return R_BC;
 }
 
-// What a single range per key cannot say.
-void check_consistency(const Scenario& scenario, ReadContext& context) {
-  if (scenario.mission.type == "goal" && !scenario.mission.goal_m) {
+// A key that one type of mission needs, and the others must not have.
+void check_mission_key(const Scenario& scenario, const std::string& type, const std::string& key,
+                       bool given, ReadContext& context) {
+  const std::string& mission = scenario.mission.type;
+  if (mission == type && !given) {
     context.problems.add(position_of(context, "mission.type"),
-                         "mission.goal_m is missing, but mission.type goal needs it.");
+                         key + " is missing, but mission.type " + type + " needs it.");
   }
-  if (scenario.mission.type == "hover" && scenario.mission.goal_m) {
-    context.problems.add(position_of(context, "mission.goal_m"),
-                         "mission.goal_m is given, but mission.type hover does not fly to a goal.");
+  if (mission != type && given) {
+    context.problems.add(position_of(context, key),
+                         key + " is given, but mission.type " + mission + " does not fly there.");
+  }
+}
+
+void check_throws(const Scenario& scenario, ReadContext& context) {
+  if (scenario.toss && !scenario.throws.empty()) {
+    context.problems.add(position_of(context, "throws"),
+                         "throws and throw are both given; one of them is enough.");
+  }
+  int objects = 0;
+  for (const ThrowSpec& spec : scenario.throw_specs()) objects += spec.count;
+  if (objects > kMostObjects) {
+    context.problems.add(position_of(context, "throws"),
+                         "throws has " + std::to_string(objects) + " objects; at most " +
+                             std::to_string(kMostObjects) + " can fly.");
   }
 }
 
@@ -51,7 +68,11 @@ void check_dodger(const Scenario& scenario, ReadContext& context) {
 }
 
 void check_keys_together(const Scenario& scenario, ReadContext& context) {
-  check_consistency(scenario, context);
+  const MissionSpec& mission = scenario.mission;
+  check_mission_key(scenario, "goal", "mission.goal_m", mission.goal_m.has_value(), context);
+  check_mission_key(scenario, "waypoints", "mission.waypoints_m", !mission.waypoints_m.empty(),
+                    context);
+  check_throws(scenario, context);
   check_dodger(scenario, context);
 }
 
@@ -83,7 +104,7 @@ bool check_counts(const Scenario& scenario, ReadContext& context) {
 
 void check_axis(const Scenario& scenario, const VariedKey& axis, bool in_grid,
                 ReadContext& context) {
-  if (axis.key.starts_with("throw.") && !scenario.toss) {
+  if (axis.key.starts_with("throw.") && !scenario.anyone_throws()) {
     context.problems.add(axis.at,
                          axis.key + " has several values, but nobody throws; add throw: {}.");
     return;
@@ -114,8 +135,8 @@ void check_scenario(const Scenario& scenario, ReadContext& context) {
       check_keys_together(with_values(scenario, values, context), context);
       if (context.problems.empty()) continue;
       if (!values.empty()) {
-        const VariedKey& axis = scenario.grid.empty() ? scenario.sweep[0] : scenario.grid[0];
-        context.problems.add(axis.at, "That is so with " + label(as_text(values)) + ".");
+        context.problems.add(values.back().second->at,
+                             "That is so with " + label(as_text(values)) + ".");
       }
       return;  // others would say the same
     }

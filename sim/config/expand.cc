@@ -42,9 +42,19 @@ Scenario with_values(Scenario scenario, const Assignments& values, ReadContext& 
   YamlNode patch;
   patch.kind = YamlNode::Kind::kMap;
   for (const auto& [key, value] : values) set_value(patch, key, *value);
-  Reader reader(patch, "", context);
-  scenario.visit(reader);
-  reader.finish();
+  const auto read = [&context](const YamlNode& map, const std::string& path, auto& part) {
+    Reader reader(map, path, context);
+    part.visit(reader);
+    reader.finish();
+  };
+  for (std::size_t i = 0; i < patch.keys.size() && !scenario.throws.empty(); ++i) {
+    if (patch.keys[i].name != "throw") continue;
+    for (ThrowSpec& spec : scenario.throws) read(patch.items[i], "throw", spec);
+    patch.keys.erase(patch.keys.begin() + static_cast<std::ptrdiff_t>(i));
+    patch.items.erase(patch.items.begin() + static_cast<std::ptrdiff_t>(i));
+    break;
+  }
+  read(patch, "", scenario);
   return scenario;
 }
 

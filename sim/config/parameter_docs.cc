@@ -96,6 +96,11 @@ void Documenter::operator()(const char* key, const std::optional<Eigen::Vector3d
   add(key, "[x, y, z]", range_text(min, max), value ? to_yaml(*value) : "", doc);
 }
 
+void Documenter::operator()(const char* key, const std::vector<Eigen::Vector3d>&, double min,
+                            double max, const char* doc) {
+  add(key, "list of [x, y, z]", range_text(min, max), "", doc);
+}
+
 void Documenter::operator()(const char* key, const Distribution& value, double min, double max,
                             const char* doc) {
   add(key, "number or distribution", range_text(min, max), to_yaml(value), doc);
@@ -122,7 +127,7 @@ void Documenter::model(const char* key, const NameChoice& value, const char* fol
       to_yaml(value), doc);
 }
 
-void Documenter::axes(const char* key, const VariedKeys&, const char* doc) {
+void Documenter::varied(const char* key, const VariedKeys&, const char* doc) {
   add(key, "map of keys to lists of values", "", "", doc);
 }
 

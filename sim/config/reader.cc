@@ -102,9 +102,25 @@ const YamlNode* Reader::take(const char* key) {
 
 const YamlNode* Reader::take_map(const char* key) {
   const YamlNode* node = take(key);
+  return node != nullptr && is_map(*node, full(key)) ? node : nullptr;
+}
+
+bool Reader::is_map(const YamlNode& node, const std::string& name) {
+  if (node.kind == Kind::kMap && node.tag.empty()) return true;
+  problem(node, name, "must be a map of keys");
+  return false;
+}
+
+const YamlNode* Reader::take_list(const char* key, const char* wanted) {
+  constexpr std::size_t kMostItems = 100;
+  const YamlNode* node = take(key);
   if (node == nullptr) return nullptr;
-  if (node->kind == Kind::kMap && node->tag.empty()) return node;
-  problem(*node, full(key), "must be a map of keys");
+  if (node->kind == Kind::kSequence && node->tag.empty() && !node->items.empty() &&
+      node->items.size() <= kMostItems) {
+    return node;
+  }
+  problem(*node, full(key),
+          std::string("must be ") + wanted + ", 1 to " + std::to_string(kMostItems) + " of them");
   return nullptr;
 }
 
@@ -218,6 +234,16 @@ void Reader::operator()(const char* key, std::optional<Eigen::Vector3d>& value, 
   if (read_vector(*node, full(key), vector, min, max)) value = vector;
 }
 
+void Reader::operator()(const char* key, std::vector<Eigen::Vector3d>& value, double min,
+                        double max, const char*) {
+  const YamlNode* list = take_list(key, "a list of [x, y, z]");
+  if (list == nullptr) return;
+  value.assign(list->items.size(), Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    read_vector(list->items[i], full(key) + "[" + std::to_string(i) + "]", value[i], min, max);
+  }
+}
+
 namespace {
 
 // The keys of !normal.
@@ -275,7 +301,7 @@ bool Reader::read_distribution(const YamlNode& node, const std::string& name, Di
       return false;
     }
     NormalKeys keys{min, 1, min, max, min, max};
-    read_nested(last_part(name).c_str(), node, keys);
+    read_nested(last_part(name), node, keys);
     if (keys.min >= keys.max || keys.mean < keys.min || keys.mean > keys.max) {
       problem(node, name, "must have min < max and its mean between them");
       return false;
@@ -371,9 +397,9 @@ void Reader::model(const char* key, NameChoice& value, const char* folder, const
   value.names = names;
 }
 
-bool Reader::read_axis(const YamlNode& node, const YamlNode::Key& key, const VariedKeys& before,
-                       VariedKey& axis) {
-  const std::vector<std::string>& keys = context_.axis_keys;
+bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const VariedKeys& before,
+                         VariedKey& axis) {
+  const std::vector<std::string>& keys = context_.variable_keys;
   axis.at = key.at;
   for (const std::string& path : {key.name, "throw." + key.name}) {
     if (std::find(keys.begin(), keys.end(), path) != keys.end()) axis.key = path;
@@ -407,13 +433,13 @@ bool Reader::read_axis(const YamlNode& node, const YamlNode::Key& key, const Var
   return true;
 }
 
-void Reader::axes(const char* key, VariedKeys& axes, const char*) {
+void Reader::varied(const char* key, VariedKeys& list, const char*) {
   const YamlNode* map = take_map(key);
   if (map == nullptr) return;
   Reader inside(*map, full(key), context_);
   for (std::size_t i = 0; i < map->keys.size(); ++i) {
-    VariedKey axis;
-    if (inside.read_axis(map->items[i], map->keys[i], axes, axis)) axes.push_back(axis);
+    VariedKey varied;
+    if (inside.read_varied(map->items[i], map->keys[i], list, varied)) list.push_back(varied);
   }
 }
 

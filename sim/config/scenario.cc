@@ -13,24 +13,26 @@ namespace dodgesim {
 namespace {
 
 // Neither what names the campaign or its throws can have several values, nor what is no value.
-bool may_be_axis(const ParameterDoc& doc) {
+bool may_vary(const ParameterDoc& doc) {
   constexpr const char* kSingle[] = {"extends", "name", "description", "seed",
-                                     "repeats", "grid", "sweep"};
+                                     "repeats", "grid", "sweep",       "throws"};
   return !doc.is_group() &&
          std::find(std::begin(kSingle), std::end(kSingle), doc.path) == std::end(kSingle);
 }
 
 }  // namespace
 
-Scenario parse_scenario(const std::string& text, const std::string& file,
-                        const std::string& models_dir) {
+namespace {
+
+Scenario read(const std::string& text, const std::string& file, const std::string& models_dir,
+              const std::vector<Setting>& settings) {
   ReadContext context(file);
   context.models_dir = models_dir;
   for (const ParameterDoc& doc : scenario_docs()) {
     context.all_keys.push_back(doc.path);
-    if (may_be_axis(doc)) context.axis_keys.push_back(doc.path);
+    if (may_vary(doc)) context.variable_keys.push_back(doc.path);
   }
-  const YamlNode root = parse_yaml(text, context.problems);
+  const YamlNode root = scenario_tree(text, file, settings, context.problems);
   Scenario scenario;
   scenario.models_dir = models_dir;
   Reader reader(root, "", context);
@@ -43,8 +45,16 @@ Scenario parse_scenario(const std::string& text, const std::string& file,
   return scenario;
 }
 
-Scenario load_scenario(const std::string& path, const std::string& models_dir) {
-  return parse_scenario(read_scenario_text(path), path, models_dir);
+}  // namespace
+
+Scenario parse_scenario(const std::string& text, const std::string& file,
+                        const std::string& models_dir) {
+  return read(text, file, models_dir, {});
+}
+
+Scenario load_scenario(const std::string& path, const std::string& models_dir,
+                       const std::vector<Setting>& settings) {
+  return read(read_scenario_text(path), path, models_dir, settings);
 }
 
 std::string to_yaml(const Scenario& scenario) {

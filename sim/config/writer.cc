@@ -91,6 +91,8 @@ std::string to_yaml(const Eigen::Vector3d& vector) {
 
 void Writer::line(const char* key, const std::string& value) {
   yaml_.append(kIndent * static_cast<std::size_t>(level_), ' ');
+  if (item_) yaml_.replace(yaml_.size() - kIndent, kIndent, "- ");
+  item_ = false;
   yaml_ += key;
   yaml_ += ":";
   if (!value.empty()) yaml_ += " " + value;
@@ -134,6 +136,14 @@ void Writer::operator()(const char* key, const std::optional<Eigen::Vector3d>& v
   if (value) line(key, to_yaml(*value));
 }
 
+void Writer::operator()(const char* key, const std::vector<Eigen::Vector3d>& value, double, double,
+                        const char*) {
+  if (value.empty()) return;
+  std::vector<std::string> items;
+  for (const Eigen::Vector3d& vector : value) items.push_back(to_yaml(vector));
+  line(key, list(items));
+}
+
 void Writer::operator()(const char* key, const Distribution& value, double, double, const char*) {
   line(key, to_yaml(value));
 }
@@ -154,7 +164,7 @@ void Writer::model(const char* key, const NameChoice& value, const char*, const 
   line(key, to_yaml(value));
 }
 
-void Writer::axes(const char* key, const VariedKeys& axes, const char*) {
+void Writer::varied(const char* key, const VariedKeys& axes, const char*) {
   if (axes.empty()) return;
   line(key, "");
   ++level_;

@@ -28,12 +28,14 @@ class Writer {
   void operator()(const char* key, const Eigen::Vector3d& value, double, double, const char*);
   void operator()(const char* key, const std::optional<Eigen::Vector3d>& value, double, double,
                   const char*);
+  void operator()(const char* key, const std::vector<Eigen::Vector3d>& value, double, double,
+                  const char*);
   void operator()(const char* key, const Distribution& value, double, double, const char*);
   void operator()(const char* key, const Components& value, double, double, const char*);
   void text(const char* key, const std::string& value, const char*);
   void model(const char* key, const std::string& value, const char*, const char*);
   void model(const char* key, const NameChoice& value, const char*, const char*);
-  void axes(const char* key, const VariedKeys& axes, const char*);
+  void varied(const char* key, const VariedKeys& axes, const char*);
   void file(const char*, const char*) {}  // its contents are written
 
   template <class T>
@@ -42,6 +44,18 @@ class Writer {
     ++level_;
     value.visit(*this);
     --level_;
+  }
+
+  template <class T>
+  void operator()(const char* key, std::vector<T>& values, const char*) {
+    if (values.empty()) return;
+    line(key, "");
+    level_ += 2;
+    for (T& value : values) {
+      item_ = true;
+      value.visit(*this);
+    }
+    level_ -= 2;
   }
 
   template <class T>
@@ -54,6 +68,7 @@ class Writer {
 
   std::string yaml_;
   int level_ = 0;
+  bool item_ = false;  // the next line begins an item of a list
 };
 
 // Text as a YAML scalar in double quotes.

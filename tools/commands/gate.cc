@@ -12,6 +12,7 @@
 #include "sim/config/expand.h"
 #include "sim/files/output_file.h"
 #include "sim/gate/scenario_changes.h"
+#include "sim/try_models.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -24,6 +25,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::string scenario;
   std::string models_dir;
+  std::vector<std::string> set;
   fs::path baseline;
   fs::path junit;
   bool update = false;
@@ -110,7 +112,10 @@ int update(const Arguments& arguments, const GateRules& rules, const CampaignSum
 }
 
 int gate(const Arguments& arguments) {
-  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir);
+  std::vector<Setting> settings;
+  for (const std::string& text : arguments.set) settings.push_back(parse_setting("--set", text));
+  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir, settings);
+  try_models(scenario);
   std::optional<Baseline> baseline;
   if (fs::exists(arguments.baseline)) {
     baseline.emplace(read_baseline(arguments.baseline));
@@ -148,6 +153,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
       ->required()
       ->type_name("DIR");
   add_campaign_options(command, arguments.options);
+  add_set_option(command, arguments.set);
   command.add_flag("--update", arguments.update,
                    "Make this campaign the baseline, with the rules below");
   command

@@ -13,6 +13,7 @@
 #include "sim/film.h"
 #include "sim/loop.h"
 #include "sim/poster.h"
+#include "sim/try_models.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -100,6 +101,7 @@ int replay(const Arguments& arguments) {
   if (arguments.throw_index >= throw_count(campaign)) {
     throw ScenarioError(directory + " has no throw " + std::to_string(arguments.throw_index) + ".");
   }
+  try_models(campaign);
   const Scenario scenario = case_of(campaign, arguments.throw_index).scenario;
   const std::string recorded = recorded_row(directory + "/throws.csv", arguments.throw_index);
 

@@ -63,7 +63,7 @@ class CampaignTest : public testing::Test {
 };
 
 // The files that are the same for the same results.
-inline const char* const kReproducible[] = {"scenario.resolved.yaml", "throws.csv",
-                                            "detections.csv", "table.md", "table.csv"};
+inline const char* const kReproducible[] = {"scenario.resolved.yaml", "throws.csv", "objects.csv",
+                                            "detections.csv",         "table.md",   "table.csv"};
 
 }  // namespace dodgesim

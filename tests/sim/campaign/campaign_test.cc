@@ -119,8 +119,8 @@ TEST_F(CampaignTest, AScenarioErrorEndsTheCampaignAndNoWorkerSurvives) {
 TEST_F(CampaignTest, AFullDiskIsReportedAndNothingIsClaimed) {
   const fs::path out = root_ / "full";
   fs::create_directories(out);
-  for (const char* name : {"throws.csv", "detections.csv", "timing.csv", "table.md", "table.csv",
-                           "manifest.json", "scenario.resolved.yaml"}) {
+  for (const char* name : {"throws.csv", "objects.csv", "detections.csv", "timing.csv", "table.md",
+                           "table.csv", "manifest.json", "scenario.resolved.yaml"}) {
     fs::remove(out / name);  // what the case before left
     const fs::path link = out / (std::string(name) + ".partial");
     fs::create_symlink("/dev/full", link);
