@@ -161,7 +161,7 @@ TEST_F(DodgesimTest, WritesTheTruthAboutEvents) {
   }
   EXPECT_GT(causes[1], 100);    // the ball
   EXPECT_GT(causes[254], 100);  // shot noise
-  EXPECT_EQ(dodgesim("replay " + out + " --throw 0 --events e.h5").exit_code, 2);
+  EXPECT_EQ(dodgesim("replay " + out + " --throw 0 --events e.csv").exit_code, 2);
 }
 
 TEST_F(DodgesimTest, ReportsOutputThatCannotBeWritten) {

@@ -8,7 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/campaign/csv.h"
 #include "sim/event_truth.h"
-#include "sim/files/labelled_event_file.h"
+#include "sim/files/event_writer.h"
 #include "sim/film.h"
 #include "sim/loop.h"
 #include "sim/poster.h"
@@ -66,17 +66,21 @@ class Observers : public FlightObserver {
 // Writes a camera's events with their causes.
 class EventRecorder : public FlightObserver {
  public:
-  EventRecorder(const std::string& path, int camera) : file_(path), camera_(camera) {}
+  EventRecorder(const std::string& path, const Recording& recording, int camera)
+      : writer_(make_event_writer(path, recording)), camera_(camera) {}
   bool wants_causes() const override { return true; }
   void on_events(int camera, const Packet& packet) override {
-    if (camera == camera_) file_.add(packet.events, packet.causes);
+    if (camera != camera_) return;
+    writer_->add(packet.events, packet.causes);
+    count_ += packet.events.size();
   }
-  void finish() { file_.finish(); }
-  std::uint64_t count() const { return file_.count(); }
+  void finish() { writer_->finish(); }
+  std::size_t count() const { return count_; }
 
  private:
-  LabelledEventFile file_;
+  std::unique_ptr<EventWriter> writer_;
   int camera_;
+  std::size_t count_ = 0;
 };
 
 // Line of throws.csv for this throw, with its line end.
@@ -90,6 +94,15 @@ std::string recorded_row(const std::string& path, int throw_index) {
     }
   }
   return line + "\n";
+}
+
+std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
+                                                   const Arguments& arguments) {
+  constexpr TimeUs kLongestFlightUs = 3600'000'000;  // of all that scenarios can ask for
+  const CameraSpec& camera = scenario.sensors.camera;
+  return std::make_unique<EventRecorder>(
+      arguments.events, Recording{camera.width, camera.height, 0, kLongestFlightUs, true},
+      arguments.camera == "top" ? 0 : 1);
 }
 
 int replay(const Arguments& arguments) {
@@ -114,7 +127,7 @@ int replay(const Arguments& arguments) {
   EventTruth truth;
   std::unique_ptr<EventRecorder> recorder;
   if (!arguments.events.empty()) {
-    recorder = std::make_unique<EventRecorder>(arguments.events, arguments.camera == "top" ? 0 : 1);
+    recorder = make_event_recorder(scenario, arguments);
     observers.add(recorder.get());
     observers.add(&truth);
   }
@@ -175,7 +188,7 @@ void add_replay_command(CLI::App& program, int& exit_code) {
                    "Write a camera's events with their causes (t, x, y, p, cause), and print how\n"
                    "well the pilot finds an object's events. Causes: 0 the static scene, moved by\n"
                    "ego-motion; 1 + i object i; 253 leak; 254 shot noise; 255 a hot pixel")
-      ->type_name("FILE.npy|.txt");
+      ->type_name("FILE.h5|.npy|.txt");
   command->add_option("--camera", arguments->camera, "Whose events: top or bottom")
       ->check(CLI::IsMember({"top", "bottom"}))
       ->capture_default_str();
