@@ -23,6 +23,7 @@ struct Arguments {
   std::string models_dir;
   int throw_index = 0;
   std::string video;    // empty: none
+  double slow = 10;     // of the video
   std::string stages;   // empty: none
   std::string picture;  // empty: none
   std::string events;   // empty: none
@@ -114,7 +115,8 @@ int replay(const Arguments& arguments) {
   Observers observers;
   std::unique_ptr<Film> film;
   if (!arguments.video.empty()) {
-    film = std::make_unique<Film>(arguments.video, intrinsics(scenario.sensors.camera));
+    film = std::make_unique<Film>(arguments.video, intrinsics(scenario.sensors.camera),
+                                  arguments.slow);
     observers.add(film.get());
   }
   std::unique_ptr<StageFilm> stages;
@@ -173,8 +175,11 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--video", arguments->video,
-                   "Write a video: the scene and both event streams, ten times slower")
+                   "Write a video (H.264): the scene and both event streams")
       ->type_name("FILE.mp4");
+  command->add_option("--slow", arguments->slow, "How many times slower than real the video is")
+      ->check(CLI::Range(1.0, Film::kSlowest))
+      ->capture_default_str();
   command
       ->add_option("--stages", arguments->stages,
                    "Write the pilot's stages, a PNG for each of its cycles")
