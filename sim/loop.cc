@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/campaign/campaign.h"
 #include "sim/config/resolve_throw.h"
 #include "sim/world/room_ray.h"
 
@@ -66,6 +67,13 @@ FlightResult summary(const FlightRecord& record, bool thrown) {
   return result;
 }
 
+FlightResult failure(const SimulationError& error) {
+  FlightResult result;
+  result.status = "error";
+  result.error = error.what();
+  return result;
+}
+
 // Flies one pilot; a failed simulation costs this flight only and is recorded with its reason.
 FlightResult attempt(const Scenario& scenario, FlightPlan plan, const std::string& pilot,
                      FlightObserver* observer = nullptr, FlightRecord* record = nullptr,
@@ -76,10 +84,7 @@ FlightResult attempt(const Scenario& scenario, FlightPlan plan, const std::strin
     if (record != nullptr) *record = flown;
     return summary(flown, !plan.launches.empty());
   } catch (const SimulationError& error) {
-    FlightResult result;
-    result.status = "error";
-    result.error = error.what();
-    return result;
+    return failure(error);
   }
 }
 
@@ -133,9 +138,14 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
 }
 
 ThrowResult fly_throw(const Scenario& scenario, int throw_index, FlightObserver* observer) {
-  ThrowResult result;
-  result.index = throw_index;
-  const FlightPlan plan = plan_throw(scenario, throw_index);
+  ThrowResult result = blank_result(scenario, throw_index);
+  FlightPlan plan;
+  try {
+    plan = plan_throw(scenario, throw_index);
+  } catch (const SimulationError& error) {
+    result.flown = failure(error);
+    return result;
+  }
   if (!plan.launches.empty()) {
     copy_throw(plan.launches.front().toss, result);
     result.none = attempt(scenario, plan, "none");
