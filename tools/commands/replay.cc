@@ -11,6 +11,7 @@
 #include "sim/files/event_writer.h"
 #include "sim/film.h"
 #include "sim/loop.h"
+#include "sim/mcap_recorder.h"
 #include "sim/poster.h"
 #include "tools/commands/command.h"
 
@@ -26,6 +27,7 @@ struct Arguments {
   double slow = 10;     // of the video
   std::string stages;   // empty: none
   std::string picture;  // empty: none
+  std::string mcap;     // empty: none
   std::string events;   // empty: none
   std::string camera = "top";
 };
@@ -55,6 +57,9 @@ class Observers : public FlightObserver {
   }
   void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override {
     for (FlightObserver* o : observers_) o->on_cycle(now_us, pilot);
+  }
+  void on_velocity(TimeUs now_us, const dodge::VelocityCommand& command) override {
+    for (FlightObserver* o : observers_) o->on_velocity(now_us, command);
   }
   void on_command(TimeUs now_us, bool evading) override {
     for (FlightObserver* o : observers_) o->on_command(now_us, evading);
@@ -124,6 +129,11 @@ int replay(const Arguments& arguments) {
     stages = std::make_unique<StageFilm>(arguments.stages);
     observers.add(stages.get());
   }
+  std::unique_ptr<McapRecorder> mcap;
+  if (!arguments.mcap.empty()) {
+    mcap = std::make_unique<McapRecorder>(arguments.mcap, intrinsics(scenario.sensors.camera));
+    observers.add(mcap.get());
+  }
   Poster poster(intrinsics(scenario.sensors.camera));
   if (!arguments.picture.empty()) observers.add(&poster);
   EventTruth truth;
@@ -142,6 +152,10 @@ int replay(const Arguments& arguments) {
     std::cout << recorder->count() << " events of the " << arguments.camera
               << " camera: " << arguments.events << "\n"
               << truth_text(sums) << "\n";
+  }
+  if (mcap) {
+    mcap->finish(result);
+    std::cout << "Recording for Foxglove or Lichtblick: " << arguments.mcap << "\n";
   }
   if (film) {
     film->close();
@@ -180,6 +194,11 @@ void add_replay_command(CLI::App& program, int& exit_code) {
   command->add_option("--slow", arguments->slow, "How many times slower than real the video is")
       ->check(CLI::Range(1.0, Film::kSlowest))
       ->capture_default_str();
+  command
+      ->add_option("--mcap", arguments->mcap,
+                   "Write a recording for Foxglove or Lichtblick: scene, both event cameras,\n"
+                   "sensors, detections, commands, and what became of it")
+      ->type_name("FILE.mcap");
   command
       ->add_option("--stages", arguments->stages,
                    "Write the pilot's stages, a PNG for each of its cycles")
