@@ -1,5 +1,6 @@
 #include "sim/film.h"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
@@ -13,6 +14,9 @@ namespace {
 
 constexpr int kSceneWidth = 640, kSceneHeight = 480;
 constexpr std::size_t kMaxTrail = 2000;
+constexpr TimeUs kTrailEveryUs = 4000;
+constexpr TimeUs kShownEveryUs = 40000;  // 25 pictures a second
+static_assert(Film::kSlowest * kTickUs <= kShownEveryUs);
 
 const cv::Vec3b kGrey(110, 110, 110), kWhite(255, 255, 255), kBlack(0, 0, 0);
 const cv::Vec3b kGreen(90, 160, 60), kPurple(170, 60, 130);  // as in the paper's Fig. 4
@@ -38,13 +42,16 @@ void EventPicture::add(std::span<const Event> events) {
 
 void EventPicture::clear() { image_.setTo(kGrey); }
 
-Film::Film(std::string path, const Intrinsics& intrinsics)
+Film::Film(std::string path, const Intrinsics& intrinsics, double slow)
     : path_(std::move(path)),
+      picture_every_us_(std::lround(static_cast<double>(kShownEveryUs) / slow / kTickUs) * kTickUs),
       picture_(kSceneHeight,
                kSceneWidth + intrinsics.width * (kSceneHeight / 2) / intrinsics.height, kBlack) {
   // One by one: copies would share their pixels.
   for (int i = 0; i < 2; ++i) eyes_.emplace_back(intrinsics.width, intrinsics.height);
-  writer_.open(path_, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), kShownPerSecond,
+  // Exactly `slow` times slower, whatever became of the interval in whole ticks.
+  const double shown_per_second = 1e6 / (slow * static_cast<double>(picture_every_us_));
+  writer_.open(path_, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'), shown_per_second,
                picture_.size());
   if (!writer_.isOpened())
     throw IoError("The video " + path_ + " could not be opened for writing.");
@@ -52,14 +59,9 @@ Film::Film(std::string path, const Intrinsics& intrinsics)
 
 void Film::on_tick(const World& world) {
   const Snapshot& now = world.snapshot();
-  if (now.t_us % kPictureEveryUs != 0) return;
+  if (now.t_us % kTrailEveryUs == 0) extend_trail(now);
+  if (now.t_us % picture_every_us_ != 0) return;
   if (!scene_) scene_ = std::make_unique<ScenePictures>(world, kSceneWidth, kSceneHeight);
-  if (trail_.size() + 2 < kMaxTrail) {
-    trail_.push_back({now.vehicle.p_W, 0.012, {0.1F, 0.7F, 1.0F, 1.0F}});
-    for (std::size_t i = 0; i < now.objects.size(); ++i) {
-      if (now.launched[i]) trail_.push_back({now.objects[i].p_W, 0.012, {1.0F, 0.3F, 0.1F, 1.0F}});
-    }
-  }
   compose(now);
   writer_.write(picture_);
   ++pictures_;
@@ -75,6 +77,14 @@ void Film::on_cycle(TimeUs /*now_us*/, const dodge::Pilot& pilot) {
 }
 
 void Film::on_command(TimeUs /*now_us*/, bool evading) { evading_ = evading; }
+
+void Film::extend_trail(const Snapshot& now) {
+  if (trail_.size() + 1 + now.objects.size() > kMaxTrail) return;
+  trail_.push_back({now.vehicle.p_W, 0.012, {0.1F, 0.7F, 1.0F, 1.0F}});
+  for (std::size_t i = 0; i < now.objects.size(); ++i) {
+    if (now.launched[i]) trail_.push_back({now.objects[i].p_W, 0.012, {1.0F, 0.3F, 0.1F, 1.0F}});
+  }
+}
 
 void Film::compose(const Snapshot& snapshot) {
   // From behind and beside, a little above, far enough to see where throws come from.

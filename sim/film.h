@@ -30,12 +30,12 @@ class EventPicture {
 // Writes the video: outside view on the left, the event pictures of the two cameras on the right.
 class Film : public FlightObserver {
  public:
-  // Slow motion: a picture every 4 ms of flight, shown at 25 pictures a second.
-  static constexpr TimeUs kPictureEveryUs = 4000;
-  static constexpr double kShownPerSecond = 25;
+  // How many times slower than real a flight may be shown: up to a picture a tick.
+  static constexpr double kSlowest = 160;
 
-  // Throws IoError if the file cannot be opened for writing.
-  Film(std::string path, const Intrinsics& intrinsics);
+  // MPEG-4 with H.264, which browsers open, of about 25 pictures a second, `slow` (1 to kSlowest)
+  // times slower than real. Throws IoError if the file cannot be opened for writing.
+  Film(std::string path, const Intrinsics& intrinsics, double slow = 10);
 
   void on_tick(const World& world) override;
   void on_events(int camera, const Packet& packet) override;
@@ -49,10 +49,12 @@ class Film : public FlightObserver {
   const cv::Mat3b& picture() const { return picture_; }
 
  private:
+  void extend_trail(const Snapshot& now);
   void compose(const Snapshot& snapshot);
   void caption(const Snapshot& snapshot);
 
   std::string path_;
+  TimeUs picture_every_us_;  // of flight
   cv::VideoWriter writer_;
   int pictures_ = 0;
   std::unique_ptr<ScenePictures> scene_;

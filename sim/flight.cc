@@ -207,6 +207,7 @@ void Flight::decide() {
   }
   if (const auto command = computer_.take_command(now_us())) {
     reference_ = {command->v_W, command->evading};
+    if (observer_ != nullptr) observer_->on_velocity(now_us(), *command);
   }
   timing_.pilot_s += seconds_since(start);
 }

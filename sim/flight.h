@@ -50,6 +50,8 @@ class FlightObserver {
   virtual void on_state(const StateReading& /*reading*/) {}
   virtual void on_events(int /*camera*/, const Packet& /*packet*/) {}
   virtual void on_cycle(TimeUs /*now_us*/, const dodge::Pilot& /*pilot*/) {}
+  // A command of the pilot arrives at the controller.
+  virtual void on_velocity(TimeUs /*now_us*/, const dodge::VelocityCommand& /*command*/) {}
   // A command of the controller arrives at the flight controller.
   virtual void on_command(TimeUs /*now_us*/, bool /*evading*/) {}
 };

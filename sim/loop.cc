@@ -68,6 +68,13 @@ FlightResult summary(const FlightRecord& record, bool thrown) {
   return result;
 }
 
+FlightResult failure(const SimulationError& error) {
+  FlightResult result;
+  result.status = "error";
+  result.error = error.what();
+  return result;
+}
+
 // Flies one pilot; a failed simulation costs this flight only and is recorded with its reason.
 FlightResult attempt(const Scenario& scenario, FlightPlan plan, const std::string& pilot,
                      FlightObserver* observer = nullptr, FlightRecord* record = nullptr,
@@ -78,10 +85,7 @@ FlightResult attempt(const Scenario& scenario, FlightPlan plan, const std::strin
     if (record != nullptr) *record = flown;
     return summary(flown, !plan.launches.empty());
   } catch (const SimulationError& error) {
-    FlightResult result;
-    result.status = "error";
-    result.error = error.what();
-    return result;
+    return failure(error);
   }
 }
 
@@ -151,7 +155,13 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
   const ThrowCase thrown = case_of(campaign, index);
   const Scenario& scenario = thrown.scenario;
   ThrowResult result = blank_result(thrown);
-  const FlightPlan plan = plan_throw(scenario, thrown.stream);
+  FlightPlan plan;
+  try {
+    plan = plan_throw(scenario, thrown.stream);
+  } catch (const SimulationError& error) {
+    result.flown = failure(error);
+    return result;
+  }
   if (!plan.launches.empty()) {
     FlightRecord none;
     result.none = attempt(scenario, plan, "none", nullptr, &none);

@@ -21,11 +21,14 @@ class TextWriter : public EventWriter {
   TextWriter(const std::filesystem::path& path, TimeUs t_offset_us)
       : file_(path), t_offset_us_(t_offset_us) {}
 
-  void add(std::span<const Event> events) override {
-    for (Event event : events) {
+  void add(std::span<const Event> events, std::span<const Cause> causes) override {
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      Event event = events[i];
       event.t_us += t_offset_us_;
       line_.clear();
       append_line(line_, event);
+      if (!causes.empty())
+        line_.replace(line_.size() - 1, 1, " " + std::to_string(causes[i]) + "\n");
       file_.write(line_);
     }
   }
@@ -40,20 +43,22 @@ class TextWriter : public EventWriter {
 
 class NpyWriter : public EventWriter {
  public:
-  NpyWriter(const std::filesystem::path& path, TimeUs t_offset_us)
-      : file_(path), t_offset_us_(t_offset_us) {
+  NpyWriter(const std::filesystem::path& path, const Recording& recording)
+      : file_(path), t_offset_us_(recording.t_offset_us), has_causes_(recording.has_causes) {
     file_.write(front());
   }
 
-  void add(std::span<const Event> events) override {
-    for (const Event& event : events) {
-      std::array<char, 13> record{};
+  void add(std::span<const Event> events, std::span<const Cause> causes) override {
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      const Event& event = events[i];
+      std::array<char, 14> record{};
       const TimeUs t_us = t_offset_us_ + event.t_us;
       std::memcpy(record.data(), &t_us, 8);
       std::memcpy(record.data() + 8, &event.x, 2);
       std::memcpy(record.data() + 10, &event.y, 2);
       std::memcpy(record.data() + 12, &event.polarity, 1);
-      file_.write({record.data(), record.size()});
+      if (has_causes_) std::memcpy(record.data() + 13, &causes[i], 1);
+      file_.write({record.data(), record.size() - (has_causes_ ? 0 : 1)});
     }
     count_ += events.size();
   }
@@ -67,11 +72,13 @@ class NpyWriter : public EventWriter {
   // Of the same length for any count, so that it can be replaced once the count is known.
   std::string front() const {
     constexpr std::size_t kBytes = 192;  // enough for 20 digits
-    return npy_front("[('t', '<i8'), ('x', '<u2'), ('y', '<u2'), ('p', '|i1')]", {count_}, kBytes);
+    const std::string fields = "('t', '<i8'), ('x', '<u2'), ('y', '<u2'), ('p', '|i1')";
+    return npy_front("[" + fields + (has_causes_ ? ", ('cause', '|u1')]" : "]"), {count_}, kBytes);
   }
 
   OutputFile file_;
   TimeUs t_offset_us_;
+  bool has_causes_;
   std::uint64_t count_ = 0;
 };
 
@@ -81,7 +88,7 @@ std::unique_ptr<EventWriter> make_event_writer(const std::filesystem::path& path
                                                const Recording& recording) {
   const std::string end = path.extension().string();
   if (end == ".txt") return std::make_unique<TextWriter>(path, recording.t_offset_us);
-  if (end == ".npy") return std::make_unique<NpyWriter>(path, recording.t_offset_us);
+  if (end == ".npy") return std::make_unique<NpyWriter>(path, recording);
   if (end == ".h5" || end == ".hdf5") return make_hdf5_event_writer(path, recording);
   throw ScenarioError(path.string() +
                       " must end in .h5 (or .hdf5), .npy or .txt, which decides on " +

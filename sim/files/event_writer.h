@@ -9,6 +9,9 @@
 //       those of events.txt in the rpg data sets, where t is in seconds.
 //
 // t is the absolute time in .npy and .txt. A file appears only when it is whole (staged_file.h).
+//
+// A recording with causes (sim/events/cause.h) says why each event happened: in events/cause u8
+// (.h5), in a fifth field cause |u1 (.npy), in a fifth column (.txt).
 #pragma once
 
 #include <filesystem>
@@ -16,6 +19,7 @@
 #include <span>
 
 #include "sim/base/time.h"
+#include "sim/events/cause.h"
 #include "sim/events/event.h"
 
 namespace dodgesim {
@@ -25,6 +29,7 @@ struct Recording {
   int height = 0;          // [px]
   TimeUs t_offset_us = 0;  // the instant from which the events' time counts
   TimeUs duration_us = 0;  // no event is later
+  bool has_causes = false;
 };
 
 // All functions throw IoError with the path and the reason when the file cannot be written.
@@ -33,8 +38,9 @@ class EventWriter {
   virtual ~EventWriter() = default;
 
   // Events in order of time, none before 0; t_us counts from Recording::t_offset_us. Memory stays
-  // bounded.
-  virtual void add(std::span<const Event> events) = 0;
+  // bounded. A recording with causes gets one an event, another none.
+  virtual void add(std::span<const Event> events, std::span<const Cause> causes) = 0;
+  void add(std::span<const Event> events) { add(events, {}); }
 
   // Completes the file. Without it nothing is left behind.
   virtual void finish() = 0;

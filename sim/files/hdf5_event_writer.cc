@@ -33,6 +33,7 @@ class Hdf5Writer : public EventWriter {
     y_.dataset = create_column("events/y", H5T_STD_U16LE);
     t_.dataset = create_column("events/t", H5T_STD_U32LE);
     p_.dataset = create_column("events/p", H5T_STD_U8LE);
+    if (recording.has_causes) cause_.dataset = create_column("events/cause", H5T_STD_U8LE);
     ms_to_idx_.dataset = create_column("ms_to_idx", H5T_STD_U64LE);
     write_scalar("events/height", recording.height);
     write_scalar("events/width", recording.width);
@@ -44,7 +45,7 @@ class Hdf5Writer : public EventWriter {
   // to close what it could not write.
   ~Hdf5Writer() override = default;
 
-  void add(std::span<const Event> events) override {
+  void add(std::span<const Event> events, std::span<const Cause> causes) override {
     for (const Event& event : events) {
       while (static_cast<TimeUs>(milliseconds_) * 1000 <= event.t_us) {
         put(ms_to_idx_, count_);
@@ -56,6 +57,7 @@ class Hdf5Writer : public EventWriter {
       put(p_, static_cast<std::uint8_t>(event.polarity > 0 ? 1 : 0));
       ++count_;
     }
+    for (const Cause cause : causes) put(cause_, cause);
   }
 
   void finish() override {
@@ -64,6 +66,7 @@ class Hdf5Writer : public EventWriter {
     close_column(y_);
     close_column(t_);
     close_column(p_);
+    if (cause_.dataset >= 0) close_column(cause_);
     close_column(ms_to_idx_);
     // Closing a file reports no error when the disk is full: flushing does.
     check(H5Fflush(file_, H5F_SCOPE_GLOBAL));
@@ -170,6 +173,7 @@ class Hdf5Writer : public EventWriter {
   Column<std::uint16_t> x_, y_;
   Column<std::uint32_t> t_;
   Column<std::uint8_t> p_;
+  Column<Cause> cause_;  // without a dataset when the recording has no causes
   Column<std::uint64_t> ms_to_idx_;
   std::uint64_t count_ = 0;         // events
   std::uint64_t milliseconds_ = 0;  // entries of ms_to_idx

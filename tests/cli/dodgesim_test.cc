@@ -161,7 +161,14 @@ TEST_F(DodgesimTest, WritesTheTruthAboutEvents) {
   }
   EXPECT_GT(causes[1], 100);    // the ball
   EXPECT_GT(causes[254], 100);  // shot noise
-  EXPECT_EQ(dodgesim("replay " + out + " --throw 0 --events e.h5").exit_code, 2);
+  EXPECT_EQ(dodgesim("replay " + out + " --throw 0 --events e.csv").exit_code, 2);
+
+  const std::string mcap = (root_ / "throw.mcap").string(), h5 = (root_ / "events.h5").string();
+  const Outcome again = dodgesim("replay " + out + " --throw 0 --events " + h5 + " --mcap " + mcap);
+  ASSERT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_THAT(again.output, HasSubstr("Recording for Foxglove or Lichtblick: " + mcap));
+  EXPECT_EQ(contents(mcap).substr(1, 4), "MCAP");
+  EXPECT_EQ(contents(h5).substr(1, 3), "HDF");
 }
 
 TEST_F(DodgesimTest, ReportsOutputThatCannotBeWritten) {

@@ -74,6 +74,20 @@ TEST_F(FilmTest, WritesAVideoWithAPictureEvery4Ms) {
   EXPECT_EQ(film.picture()(400, 800), kGrey);
 }
 
+TEST_F(FilmTest, ShowsAFlightAsSlowlyAsAskedFor) {
+  const Scenario s = scenario("duration_s: 0.1\npilot: none\n");
+  for (const double slow : {1.0, 3.0, 7.5}) {
+    const std::string video = path("slow.mp4");
+    Film film(video, intrinsics(s.sensors.camera), slow);
+    fly(s, plan_throw(s, 0), &film);
+    film.close();
+    cv::VideoCapture reader(video, cv::CAP_FFMPEG);
+    ASSERT_TRUE(reader.isOpened());
+    const double shown_s = reader.get(cv::CAP_PROP_FRAME_COUNT) / reader.get(cv::CAP_PROP_FPS);
+    EXPECT_NEAR(shown_s, 0.1 * slow, 0.04) << slow;  // up to a picture
+  }
+}
+
 TEST_F(FilmTest, ShowsTheTopCamerasEventsAboveThoseOfTheBottomOne) {
   const Scenario s = scenario("{}");
   Film film(path("b.mp4"), intrinsics(s.sensors.camera));

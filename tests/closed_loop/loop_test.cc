@@ -3,9 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "sim/base/error.h"
 #include "tests/closed_loop/flights.h"
@@ -13,6 +17,7 @@
 namespace dodgesim {
 namespace {
 
+namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using testing::HasSubstr;
 
@@ -54,6 +59,41 @@ TEST_P(Throws, HitAVehicleThatDoesNotDodgeWhenTheyAreAimedAtIt) {
     EXPECT_LT(seconds(early_us), reach_m / (toss.speed_mps - 1.5)) << "throw " << k;
     EXPECT_EQ(record.last.t_us, record.verdict.nearest.hit_us);  // the flight ends there
   }
+}
+
+// Models of the project, but with a vehicle whose rotor drag is so large that a tick is too long.
+class DivergingVehicle : public testing::Test {
+ protected:
+  DivergingVehicle() {
+    fs::remove_all(models_);
+    fs::create_directories(models_);
+    fs::copy(fs::path(DODGESIM_SOURCE_DIR) / "models", models_, fs::copy_options::recursive);
+    const fs::path path = models_ / "vehicles/qav_rxl.xml";
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    std::string model = text.str();
+    const std::string drag = "0.544 0.386 0";
+    model.replace(model.find(drag), drag.size(), "1e99 1e99 0");
+    std::ofstream(path) << model;
+  }
+  ~DivergingVehicle() override { fs::remove_all(models_); }
+
+  fs::path models_ =
+      fs::temp_directory_path() / ("dodgesim_diverging_" + std::to_string(::getpid()));
+};
+
+// The plan of a throw flies the vehicle to find out where it will be.
+TEST_F(DivergingVehicle, FailsTheThrowThatItCannotEvenPlan) {
+  const Scenario s =
+      parse_scenario("pilot: none\nthrow: {size_m: 0.13}\n", "test.yaml", models_.string());
+  EXPECT_THROW(plan_throw(s, 2), SimulationError);
+  const ThrowResult result = fly_throw(s, 2);
+  EXPECT_TRUE(result.flown.failed());
+  EXPECT_THAT(result.flown.error, HasSubstr("The simulation diverged: "));
+  EXPECT_EQ(result.none.status, "not flown");
+  EXPECT_EQ(result.index, 2);
+  EXPECT_EQ(result.object, "ball");
+  EXPECT_EQ(result.size_m, 0.13);
 }
 
 TEST_P(Throws, PassTheVehicleAtTheAimOffsetAtThePlannedInstant) {

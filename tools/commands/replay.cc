@@ -9,9 +9,10 @@
 #include "sim/campaign/csv.h"
 #include "sim/config/expand.h"
 #include "sim/event_truth.h"
-#include "sim/files/labelled_event_file.h"
+#include "sim/files/event_writer.h"
 #include "sim/film.h"
 #include "sim/loop.h"
+#include "sim/mcap_recorder.h"
 #include "sim/poster.h"
 #include "sim/try_models.h"
 #include "tools/commands/command.h"
@@ -25,8 +26,10 @@ struct Arguments {
   std::string models_dir;
   int throw_index = 0;
   std::string video;    // empty: none
+  double slow = 10;     // of the video
   std::string stages;   // empty: none
   std::string picture;  // empty: none
+  std::string mcap;     // empty: none
   std::string events;   // empty: none
   std::string camera = "top";
 };
@@ -57,6 +60,9 @@ class Observers : public FlightObserver {
   void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override {
     for (FlightObserver* o : observers_) o->on_cycle(now_us, pilot);
   }
+  void on_velocity(TimeUs now_us, const dodge::VelocityCommand& command) override {
+    for (FlightObserver* o : observers_) o->on_velocity(now_us, command);
+  }
   void on_command(TimeUs now_us, bool evading) override {
     for (FlightObserver* o : observers_) o->on_command(now_us, evading);
   }
@@ -68,17 +74,21 @@ class Observers : public FlightObserver {
 // Writes a camera's events with their causes.
 class EventRecorder : public FlightObserver {
  public:
-  EventRecorder(const std::string& path, int camera) : file_(path), camera_(camera) {}
+  EventRecorder(const std::string& path, const Recording& recording, int camera)
+      : writer_(make_event_writer(path, recording)), camera_(camera) {}
   bool wants_causes() const override { return true; }
   void on_events(int camera, const Packet& packet) override {
-    if (camera == camera_) file_.add(packet.events, packet.causes);
+    if (camera != camera_) return;
+    writer_->add(packet.events, packet.causes);
+    count_ += packet.events.size();
   }
-  void finish() { file_.finish(); }
-  std::uint64_t count() const { return file_.count(); }
+  void finish() { writer_->finish(); }
+  std::size_t count() const { return count_; }
 
  private:
-  LabelledEventFile file_;
+  std::unique_ptr<EventWriter> writer_;
   int camera_;
+  std::size_t count_ = 0;
 };
 
 // Line of throws.csv for this throw, with its line end.
@@ -92,6 +102,15 @@ std::string recorded_row(const std::string& path, int throw_index) {
     }
   }
   return line + "\n";
+}
+
+std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
+                                                   const Arguments& arguments) {
+  constexpr TimeUs kLongestFlightUs = 3600'000'000;  // of all that scenarios can ask for
+  const CameraSpec& camera = scenario.sensors.camera;
+  return std::make_unique<EventRecorder>(
+      arguments.events, Recording{camera.width, camera.height, 0, kLongestFlightUs, true},
+      arguments.camera == "top" ? 0 : 1);
 }
 
 int replay(const Arguments& arguments) {
@@ -108,7 +127,8 @@ int replay(const Arguments& arguments) {
   Observers observers;
   std::unique_ptr<Film> film;
   if (!arguments.video.empty()) {
-    film = std::make_unique<Film>(arguments.video, intrinsics(scenario.sensors.camera));
+    film = std::make_unique<Film>(arguments.video, intrinsics(scenario.sensors.camera),
+                                  arguments.slow);
     observers.add(film.get());
   }
   std::unique_ptr<StageFilm> stages;
@@ -116,12 +136,17 @@ int replay(const Arguments& arguments) {
     stages = std::make_unique<StageFilm>(arguments.stages);
     observers.add(stages.get());
   }
+  std::unique_ptr<McapRecorder> mcap;
+  if (!arguments.mcap.empty()) {
+    mcap = std::make_unique<McapRecorder>(arguments.mcap, intrinsics(scenario.sensors.camera));
+    observers.add(mcap.get());
+  }
   Poster poster(intrinsics(scenario.sensors.camera));
   if (!arguments.picture.empty()) observers.add(&poster);
   EventTruth truth;
   std::unique_ptr<EventRecorder> recorder;
   if (!arguments.events.empty()) {
-    recorder = std::make_unique<EventRecorder>(arguments.events, arguments.camera == "top" ? 0 : 1);
+    recorder = make_event_recorder(scenario, arguments);
     observers.add(recorder.get());
     observers.add(&truth);
   }
@@ -134,6 +159,10 @@ int replay(const Arguments& arguments) {
     std::cout << recorder->count() << " events of the " << arguments.camera
               << " camera: " << arguments.events << "\n"
               << truth_text(sums) << "\n";
+  }
+  if (mcap) {
+    mcap->finish(result);
+    std::cout << "Recording for Foxglove or Lichtblick: " << arguments.mcap << "\n";
   }
   if (film) {
     film->close();
@@ -167,8 +196,16 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--video", arguments->video,
-                   "Write a video: the scene and both event streams, ten times slower")
+                   "Write a video (H.264): the scene and both event streams")
       ->type_name("FILE.mp4");
+  command->add_option("--slow", arguments->slow, "How many times slower than real the video is")
+      ->check(CLI::Range(1.0, Film::kSlowest))
+      ->capture_default_str();
+  command
+      ->add_option("--mcap", arguments->mcap,
+                   "Write a recording for Foxglove or Lichtblick: scene, both event cameras,\n"
+                   "sensors, detections, commands, and what became of it")
+      ->type_name("FILE.mcap");
   command
       ->add_option("--stages", arguments->stages,
                    "Write the pilot's stages, a PNG for each of its cycles")
@@ -182,7 +219,7 @@ void add_replay_command(CLI::App& program, int& exit_code) {
                    "Write a camera's events with their causes (t, x, y, p, cause), and print how\n"
                    "well the pilot finds an object's events. Causes: 0 the static scene, moved by\n"
                    "ego-motion; 1 + i object i; 253 leak; 254 shot noise; 255 a hot pixel")
-      ->type_name("FILE.npy|.txt");
+      ->type_name("FILE.h5|.npy|.txt");
   command->add_option("--camera", arguments->camera, "Whose events: top or bottom")
       ->check(CLI::IsMember({"top", "bottom"}))
       ->capture_default_str();

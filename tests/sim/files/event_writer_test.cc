@@ -195,6 +195,45 @@ TEST_P(RecordingOfSize, ReadsBackFromText) {
   EXPECT_TRUE(read == events_);
 }
 
+// Causes are handed over in the same portions as the events.
+TEST(EventWriter, SaysWhyEachEventHappened) {
+  TemporaryDirectory root;
+  const Events events = random_events(40000, 11);
+  std::vector<Cause> causes(events.size());
+  for (std::size_t i = 0; i < causes.size(); ++i) causes[i] = static_cast<Cause>(i * 7);
+  Recording recording = recording_of(events);
+  recording.has_causes = true;
+  for (const std::string end : {".h5", ".npy", ".txt"}) {
+    const auto writer = make_event_writer(root / ("a" + end), recording);
+    const std::size_t half = 20001;
+    writer->add({events.data(), half}, {causes.data(), half});
+    writer->add({events.data() + half, events.size() - half},
+                {causes.data() + half, events.size() - half});
+    writer->finish();
+  }
+  expect_hdf5(root / "a.h5", recording, events);
+  EXPECT_EQ(Hdf5File(root / "a.h5").read<Cause>("events/cause", H5T_STD_U8LE), causes);
+
+  const std::string npy = contents(root / "a.npy");
+  EXPECT_THAT(
+      npy.substr(0, 192),
+      HasSubstr("[('t', '<i8'), ('x', '<u2'), ('y', '<u2'), ('p', '|i1'), ('cause', '|u1')]"));
+  ASSERT_EQ(npy.size(), 192 + 14 * events.size());
+  std::ifstream text(root / "a.txt");
+  Event event;
+  int p = 0, cause = 0;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    TimeUs t_us = 0;
+    std::memcpy(&t_us, npy.data() + 192 + 14 * i, 8);
+    ASSERT_EQ(t_us, events[i].t_us);
+    ASSERT_EQ(static_cast<Cause>(npy[192 + 14 * i + 13]), causes[i]) << i;
+    ASSERT_TRUE(text >> event.t_us >> event.x >> event.y >> p >> cause);
+    ASSERT_EQ(event.t_us, events[i].t_us);
+    ASSERT_EQ(cause, causes[i]) << i;
+  }
+  EXPECT_FALSE(text >> p);
+}
+
 TEST(EventWriter, CompressesHdf5WithFiltersThatEveryReaderHas) {
   TemporaryDirectory root;
   const Events events = random_events(100000, 5);

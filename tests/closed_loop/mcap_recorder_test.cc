@@ -1,0 +1,178 @@
+// A recorded throw, read back by a second reader of the format (tests/sim/files/mcap_reader.h).
+#include "sim/mcap_recorder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "sim/loop.h"
+#include "tests/closed_loop/flights.h"
+#include "tests/sim/files/mcap_reader.h"
+#include "tests/sim/files/temporary_directory.h"
+
+namespace dodgesim {
+namespace {
+
+using nlohmann::json;
+using testing::McapMessage;
+using testing::McapReader;
+
+std::vector<unsigned char> from_base64(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<unsigned char> bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : text.substr(0, text.find('='))) {
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    count += 6;
+    if (count >= 8) bytes.push_back(static_cast<unsigned char>(bits >> (count -= 8) & 255));
+  }
+  return bytes;
+}
+
+// Whether the message has the fields that its schema lists, of the types that it says, no others.
+void expect_valid(const json& value, const json& schema, const std::string& where) {
+  const std::string type = schema.at("type");
+  if (type == "object") {
+    ASSERT_TRUE(value.is_object()) << where;
+    if (!schema.contains("properties") || schema["properties"].empty()) return;
+    EXPECT_EQ(value.size(), schema["properties"].size()) << where;
+    for (const auto& [key, inner] : schema["properties"].items()) {
+      ASSERT_TRUE(value.contains(key)) << where << "." << key;
+      expect_valid(value[key], inner, where + "." + key);
+    }
+  } else if (type == "array") {
+    ASSERT_TRUE(value.is_array()) << where;
+    for (const json& item : value) expect_valid(item, schema.at("items"), where + "[]");
+  } else if (type == "string") {
+    EXPECT_TRUE(value.is_string()) << where;
+  } else if (type == "boolean") {
+    EXPECT_TRUE(value.is_boolean()) << where;
+  } else {
+    EXPECT_TRUE(type == "integer" ? value.is_number_integer() : value.is_number()) << where;
+  }
+}
+
+Eigen::Vector3d vector_of(const json& v) {
+  return {v["x"].get<double>(), v["y"].get<double>(), v["z"].get<double>()};
+}
+
+// The cheapest flight with an object: a pilot that needs no eyes.
+class McapRecorderTest : public ::testing::Test {
+ protected:
+  std::string record(const Scenario& s) {
+    const std::string path = directory_ / "throw.mcap";
+    McapRecorder recorder(path, intrinsics(s.sensors.camera));
+    result_ = fly_throw(s, 0, &recorder);
+    recorder.finish(result_);
+    return testing::contents(path);
+  }
+
+  testing::TemporaryDirectory directory_;
+  Scenario scenario_ = scenario(
+      "pilot: oracle\nfly_oracle: false\nafter_s: 0.2\nmission: {start_m: [-2, 0, 2]}\n"
+      "throw: {object: box, distance_m: 3, speed_mps: 5, launch_s: 0.2}\n");
+  ThrowResult result_;
+};
+
+TEST_F(McapRecorderTest, EveryMessageIsWhatItsSchemaSays) {
+  const McapReader reader(record(scenario_));
+  ASSERT_GT(reader.messages().size(), 1000u);
+  std::map<std::string, json> schemas;
+  for (const auto& [name, text] : reader.schemas()) schemas[name] = json::parse(text);
+  for (const McapMessage& message : reader.messages()) {
+    ASSERT_EQ(schemas.at(message.schema).at("title"), message.schema);
+    expect_valid(json::parse(message.json), schemas.at(message.schema), message.topic);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST_F(McapRecorderTest, ShowsEverythingWhereItTrulyIs) {
+  const McapReader reader(record(scenario_));
+  Diary diary;
+  fly(scenario_, plan_throw(scenario_, 0), &diary);
+  int objects = 0;
+  for (const McapMessage& message : reader.of("/tf")) {
+    const Snapshot truth = diary.at(static_cast<TimeUs>(message.time_ns / 1000));
+    const json transforms = json::parse(message.json);
+    for (const json& tf : transforms["transforms"]) {
+      const std::string child = tf["child_frame_id"];
+      if (child == "vehicle") {
+        EXPECT_LT((vector_of(tf["translation"]) - truth.vehicle.p_W).norm(), 1e-12);
+      } else if (child == "object_0") {
+        EXPECT_LT((vector_of(tf["translation"]) - truth.objects[0].p_W).norm(), 1e-12);
+        ++objects;
+      } else {
+        EXPECT_EQ(tf["parent_frame_id"], "vehicle") << child;
+      }
+    }
+  }
+  EXPECT_GT(objects, 50);
+  const json box = json::parse(reader.of("/scene/objects").at(0).json)["entities"][0];
+  EXPECT_EQ(box["frame_id"], "object_0");
+  EXPECT_LT((vector_of(box["cubes"][0]["size"]) - Eigen::Vector3d(0.2, 0.4 / 3, 0.1)).norm(), 1e-5);
+  const json room = json::parse(reader.of("/scene/room").at(0).json)["entities"][0];
+  EXPECT_EQ(room["lines"].size(), 6u);  // its walls
+  for (const json& point : room["lines"][0]["points"]) {
+    EXPECT_EQ(std::abs(point["x"].get<double>()), 6);
+    EXPECT_EQ(std::abs(point["y"].get<double>()), 4);
+    EXPECT_EQ(point["z"], 0);
+  }
+}
+
+TEST_F(McapRecorderTest, TellsWhatHappened) {
+  const McapReader reader(record(scenario_));
+  std::string log;
+  for (const McapMessage& message : reader.of("/log")) {
+    log += json::parse(message.json)["message"].get<std::string>() + "\n";
+  }
+  EXPECT_THAT(log, ::testing::HasSubstr("Object 0 is thrown, 3."));
+  EXPECT_THAT(log, ::testing::HasSubstr("The vehicle evades."));
+  EXPECT_THAT(log, ::testing::HasSubstr(result_.flown.hit ? "The vehicle is hit." : "Closest"));
+  EXPECT_THAT(log, ::testing::HasSubstr("Without dodging it would have been hit."));
+  bool evading = false;
+  for (const McapMessage& message : reader.of("/command")) {
+    const json command = json::parse(message.json);
+    EXPECT_NEAR(vector_of(command["velocity_mps"]).norm(), command["speed_mps"], 1e-12);
+    evading = evading || command["evading"].get<bool>();
+  }
+  EXPECT_TRUE(evading);
+}
+
+TEST_F(McapRecorderTest, IsTheSameForTheSameThrow) {
+  EXPECT_TRUE(record(scenario_) == record(scenario_));
+}
+
+// The test plays the event cameras, as the pilot needs none.
+TEST_F(McapRecorderTest, ShowsTheEventsOfTenMilliseconds) {
+  const std::string path = directory_ / "eyes.mcap";
+  McapRecorder recorder(path, intrinsics(scenario_.sensors.camera));
+  World world({scenario_.models_dir, scenario_.room, scenario_.vehicle, {}});
+  const std::array<double, 4> thrust{2.45, 2.45, 2.45, 2.45};
+  const std::vector<Event> on = {{9500, 100, 60, 1}}, off = {{15000, 7, 8, -1}};
+  while (world.snapshot().t_us <= 30000) {
+    world.step(thrust);
+    recorder.on_tick(world);
+    if (world.snapshot().t_us == 10000) recorder.on_events(0, {10000, on});
+    if (world.snapshot().t_us == 15000) recorder.on_events(1, {15000, off});
+  }
+  recorder.finish({});
+  const McapReader reader(testing::contents(path));
+  const auto pixel = [&](const std::string& camera, std::size_t image, int y, int x) {
+    const json message = json::parse(reader.of("/camera/" + camera + "/events").at(image).json);
+    EXPECT_EQ(message["format"], "png");
+    const cv::Mat1b picture = cv::imdecode(from_base64(message["data"]), cv::IMREAD_GRAYSCALE);
+    EXPECT_EQ(picture.size(), cv::Size(320, 240));
+    return static_cast<int>(picture(y, x));
+  };
+  EXPECT_EQ(reader.of("/camera/top/events").at(0).time_ns, 10000000u);
+  EXPECT_EQ(pixel("top", 0, 60, 100), 255);
+  EXPECT_EQ(pixel("top", 1, 60, 100), 110);  // each is shown once
+  EXPECT_EQ(pixel("bottom", 0, 8, 7), 110);
+  EXPECT_EQ(pixel("bottom", 1, 8, 7), 0);
+}
+
+}  // namespace
+}  // namespace dodgesim
