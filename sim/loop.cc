@@ -136,14 +136,17 @@ ThrowResult fly_throw(const Scenario& scenario, int throw_index, FlightObserver*
   ThrowResult result;
   result.index = throw_index;
   const FlightPlan plan = plan_throw(scenario, throw_index);
-  if (!plan.launches.empty()) {
-    copy_throw(plan.launches.front().toss, result);
-    result.none = attempt(scenario, plan, "none");
-    if (scenario.fly_oracle) result.oracle = attempt(scenario, plan, "oracle");
-  }
   FlightRecord record;
   FlightTiming timing;
   result.flown = attempt(scenario, plan, scenario.pilot, observer, &record, &timing);
+  if (!plan.launches.empty()) {
+    copy_throw(plan.launches.front().toss, result);
+    const auto also = [&](const std::string& pilot) {
+      return pilot == scenario.pilot ? result.flown : attempt(scenario, plan, pilot);
+    };
+    result.none = also("none");
+    if (scenario.fly_oracle) result.oracle = also("oracle");
+  }
   for (DetectionRow& row : record.rows) row.throw_index = throw_index;
   copy_record(std::move(record), result);
   result.wall_s = timing.total_s;
