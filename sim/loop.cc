@@ -162,15 +162,19 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
     result.flown = failure(error);
     return result;
   }
-  if (!plan.launches.empty()) {
-    FlightRecord none;
-    result.none = attempt(scenario, plan, "none", nullptr, &none);
-    for (ObjectRow& row : result.object_rows) row.none_hit = approach(none, row.object).hit;
-    if (scenario.fly_oracle) result.oracle = attempt(scenario, plan, "oracle");
-  }
   FlightRecord record;
   FlightTiming timing;
   result.flown = attempt(scenario, plan, scenario.pilot, observer, &record, &timing);
+  if (!plan.launches.empty()) {
+    FlightRecord none = scenario.pilot == "none" ? record : FlightRecord{};
+    const auto also = [&](const std::string& pilot, FlightRecord* seen) {
+      if (pilot == scenario.pilot) return result.flown;
+      return attempt(scenario, plan, pilot, nullptr, seen);
+    };
+    result.none = also("none", &none);
+    if (scenario.fly_oracle) result.oracle = also("oracle", nullptr);
+    for (ObjectRow& row : result.object_rows) row.none_hit = approach(none, row.object).hit;
+  }
   for (ObjectRow& row : result.object_rows) copy_object(record, row);
   for (DetectionRow& row : record.rows) row.throw_index = index;
   copy_record(std::move(record), result);

@@ -61,7 +61,11 @@ DirectoryLock::DirectoryLock(const fs::path& out) {
   whole.l_type = F_WRLCK;
   whole.l_whence = SEEK_SET;
   if (::fcntl(fd_, F_SETLK, &whole) == 0) return;
+  const int error = errno;
   ::close(fd_);
+  if (error != EACCES && error != EAGAIN) {
+    throw IoError(path.string() + " could not be locked: " + std::strerror(error) + ".");
+  }
   throw ScenarioError(out.string() + " is being written to by another dodgesim.");
 }
 

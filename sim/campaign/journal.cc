@@ -129,7 +129,7 @@ JournalIndex read_journal(const std::filesystem::path& path) {
     }
     const ThrowResult result = result_from_bytes(bytes);
     const auto size = static_cast<std::uint32_t>(bytes.size());
-    index.throws[result.index] = {reader.at() - size, size, result_digest(result)};
+    index.throws[result.index] = {reader.at() - size, size, result_digest(result), result.lost()};
   }
   return index;
 }
@@ -177,7 +177,15 @@ void Journal::add(const ThrowResult& result) {
   if (std::chrono::steady_clock::now() - synced_ > kSyncEvery) sync();
 }
 
+void Journal::expect_only_writer() const {
+  struct stat status {};
+  if (::fstat(fd_, &status) != 0) fail("could not be examined", errno);
+  if (static_cast<std::uint64_t>(status.st_size) == end_) return;
+  throw IoError(path_.string() + " is being written to by another dodgesim, on another host?");
+}
+
 void Journal::append(const std::string& bytes) {
+  expect_only_writer();
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t n =

@@ -25,6 +25,7 @@ struct JournalRecord {
   std::uint64_t offset = 0;  // of its bytes
   std::uint32_t size = 0;
   std::uint64_t digest = 0;  // of the result, without the time that it took
+  bool lost = false;         // the throw was not flown to its end: its worker was stopped or died
 };
 
 // What a journal holds.
@@ -55,13 +56,15 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  // Throws IoError; nothing of the result is in the file then.
+  // Throws IoError; nothing of the result is in the file then. That somebody else has written to
+  // the file is an error, too: locks do not hold between hosts on every shared disk.
   void add(const ThrowResult& result);
   void sync();  // returns when all is on the disk; throws IoError
 
  private:
   void open(int flags);
   void append(const std::string& bytes);
+  void expect_only_writer() const;
   [[noreturn]] void fail(const std::string& what, int error) const;
 
   std::filesystem::path path_;

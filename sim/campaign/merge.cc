@@ -27,6 +27,14 @@ struct Sources {
   std::map<int, Source> throws;
 };
 
+// Which of two unequal results of a throw counts; nothing if they contradict each other. One that
+// was lost with its worker says nothing about the throw: time and memory depend on the machine.
+const Source* better(const Source& a, const Source& b) {
+  if (a.record.lost && b.record.lost) return a.record.digest < b.record.digest ? &a : &b;
+  if (a.record.lost) return &b;
+  return b.record.lost ? &a : nullptr;
+}
+
 void add_directory(const fs::path& directory, bool first, Sources& sources) {
   const JournalIndex index = read_journal(directory / kJournalFile);
   if (first) sources.identity = index.identity;
@@ -36,18 +44,26 @@ void add_directory(const fs::path& directory, bool first, Sources& sources) {
                         "; only shards of one campaign can be merged.");
   }
   for (const auto& [number, record] : index.throws) {
-    const auto [at, is_new] = sources.throws.try_emplace(number, Source{directory, record});
+    const Source found{directory, record};
+    const auto [at, is_new] = sources.throws.try_emplace(number, found);
     if (is_new || at->second.record.digest == record.digest) continue;
+    if (const Source* const chosen = better(at->second, found)) {
+      at->second = Source(*chosen);
+      continue;
+    }
     throw ScenarioError("Throw " + std::to_string(number) + " went differently in " +
                         at->second.directory.string() + " and in " + directory.string() +
                         "; the same throw flies alike on machines of one kind.");
   }
 }
 
-// "3, 7 to 9, 12"
+// "3, 7 to 9, 12", the first ones if there are many
 std::string ranges(const std::vector<int>& numbers) {
+  constexpr int kMost = 20;
   std::string text;
-  for (std::size_t i = 0; i < numbers.size();) {
+  int parts = 0;
+  for (std::size_t i = 0; i < numbers.size(); ++parts) {
+    if (parts == kMost) return text + " and " + std::to_string(numbers.size() - i) + " more";
     std::size_t last = i;
     while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
     text += (text.empty() ? "" : ", ") + std::to_string(numbers[i]);
@@ -68,16 +84,28 @@ void expect_all(const Scenario& scenario, const Sources& sources) {
                       " throws are missing: " + ranges(missing) + ".");
 }
 
+Sources collect(const std::vector<fs::path>& directories) {
+  Sources sources;
+  for (const fs::path& directory : directories) {
+    add_directory(directory, &directory == &directories.front(), sources);
+  }
+  return sources;
+}
+
 }  // namespace
+
+int expect_complete(const std::vector<fs::path>& directories) {
+  const Sources sources = collect(directories);
+  const Scenario scenario = parse_scenario(sources.identity.scenario, kScenarioFile, "");
+  expect_all(scenario, sources);
+  return scenario.repeats;
+}
 
 CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
                                 const CampaignOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const std::string started = utc_now();
-  Sources sources;
-  for (const fs::path& directory : directories) {
-    add_directory(directory, &directory == &directories.front(), sources);
-  }
+  const Sources sources = collect(directories);
   const Scenario scenario = parse_scenario(sources.identity.scenario, kScenarioFile, "");
   if (scenario.stop) {
     throw ScenarioError(directories.front().string() +

@@ -226,6 +226,8 @@ struct ThrowResult {
   double wall_s = 0;  // computing time of the flown pilot: in timing.csv, never in throws.csv
 
   bool thrown() const { return !object.empty(); }
+  // Its worker died or was stopped, which need not happen again.
+  bool lost() const { return flown.failed() && none.status == "not flown" && duration_us == 0; }
 
   template <class Visitor>
   void visit(Visitor& v) {

@@ -18,6 +18,7 @@
 #include <new>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "sim/base/error.h"
@@ -39,6 +40,10 @@ using Clock = std::chrono::steady_clock;
 
 // How often somebody may ask for a stop.
 constexpr int kPollMs = 200;
+
+// Who kills a worker may be about to kill the campaign, too, as batch systems do process by process
+// when a job must end. So long does it take to believe that a throw was lost.
+constexpr std::chrono::milliseconds kGrace(500);
 
 // Whole reads and writes on a stream socket; false when the other side is gone.
 bool read_all(int fd, void* data, std::size_t size) {
@@ -104,9 +109,9 @@ std::string fly_one(const WorkerTasks& tasks, int index, Header& header) {
 }
 
 void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
-  // Ctrl-C goes to the whole terminal: the campaign decides what becomes of its workers.
-  ::signal(SIGINT, SIG_IGN);
-  ::signal(SIGTERM, SIG_DFL);
+  // Ctrl-C goes to the whole terminal, a batch system's signal to the whole job: the campaign
+  // decides what becomes of its workers.
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_IGN);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != campaign) ::_exit(1);  // it has ended already
   if (limits.memory_mb > 0) {
@@ -261,7 +266,11 @@ class Pool {
       body.resize(header.size);
       alive = read_all(worker.fd, body.data(), body.size());
     }
-    if (!alive) return lose(i, describe_death(reap(worker)));
+    if (!alive) {
+      const int status = reap(worker);
+      if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) std::this_thread::sleep_for(kGrace);
+      return lose(i, describe_death(status));
+    }
     if (header.kind == Kind::kScenarioError) throw ScenarioError(body);
     if (worker.first_mb == 0) worker.first_mb = header.resident_mb;
     worker.last_mb = header.resident_mb;

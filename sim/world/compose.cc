@@ -1,6 +1,7 @@
 #include "sim/world/compose.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/base/error.h"
 #include "sim/base/gravity.h"
@@ -60,11 +61,37 @@ struct Part {
   std::string xml;
 };
 
+// The models that were asked for last. To compile one takes ten times as long as to copy it, and
+// each throw needs its own several times.
+class CompiledModels {
+ public:
+  MjModelPtr get(const std::string& xml, const std::string& directory, const std::string& label) {
+    const std::string key = directory + '\n' + xml;
+    const auto same = [&](const Entry& entry) { return entry.first == key; };
+    const auto found = std::find_if(entries_.begin(), entries_.end(), same);
+    if (found != entries_.end()) {
+      std::rotate(entries_.begin(), found, found + 1);
+    } else {
+      if (entries_.size() == kMost) entries_.pop_back();
+      entries_.emplace(entries_.begin(), key, compile_model(xml, directory, label));
+    }
+    MjModelPtr copy(mj_copyModel(nullptr, entries_.front().second.get()));
+    if (!copy) throw ScenarioError(label + ": the composed model does not fit in memory.");
+    return copy;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 4;
+  using Entry = std::pair<std::string, MjModelPtr>;
+  std::vector<Entry> entries_;
+};
+
 // Air drag is computed by World: MuJoCo's own fluid model stays off (density 0). The constraint
 // buffers are small because only a few contacts ever coexist; the defaults cost 14 MB each world.
 MjModelPtr compile(const std::string& inner_xml, const std::string& models_dir,
                    const std::string& label) {
-  return compile_model(
+  thread_local CompiledModels models;
+  return models.get(
       "<mujoco model=\"dodgesim\"><compiler angle=\"degree\"/>"
       "<option gravity=\"0 0 " +
           std::to_string(-kGravityMps2) + "\" density=\"0\" viscosity=\"0\" timestep=\"" +

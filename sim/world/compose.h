@@ -39,6 +39,7 @@ struct WorldSpec {
 std::string object_prefix(int i);
 
 // Names in the result: room and vehicle as in their files, objects with object_prefix().
+// The files of textures and meshes are read anew only for another room, vehicle or size of objects.
 // Throws ScenarioError with one sentence that names the file.
 MjModelPtr compose_model(const WorldSpec& spec);
 

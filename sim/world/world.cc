@@ -48,6 +48,10 @@ World::World(const WorldSpec& spec)
   snapshot_.objects.resize(objects_.size());
   snapshot_.launched.resize(objects_.size());
   object_a_W_.resize(objects_.size());
+  std::vector<int> moving = {vehicle_body_};
+  moving.insert(moving.end(), object_bodies_.begin(), object_bodies_.end());
+  contact_bound_.emplace(*model_, moving);
+  in_flight_.assign(moving.size(), true);
   reset(Eigen::Vector3d(0, 0, 1), 0, Eigen::Vector3d::Zero());
 }
 
@@ -181,7 +185,7 @@ void World::reset(const Eigen::Vector3d& p_WB, double yaw_rad, const Eigen::Vect
   }
   snapshot_.t_us = 0;
   snapshot_.vehicle_a_W.setZero();
-  mj_fwdPosition(model_.get(), data_.get());
+  update_positions();
   fill_snapshot();
 }
 
@@ -191,7 +195,7 @@ void World::launch(int i, const BodyState& state) {
   set_collisions(i, true);
   snapshot_.launched[index] = true;
   object_a_W_[index] = Eigen::Vector3d(0, 0, -kGravityMps2);
-  mj_fwdPosition(model_.get(), data_.get());
+  update_positions();
   fill_snapshot();
 }
 
@@ -216,7 +220,7 @@ void World::step(const std::array<double, 4>& rotor_thrust_n) {
   mju_copy(data_->qacc_warmstart, data_->qacc, model_->nv);
   snapshot_.t_us += kTickUs;
   data_->time = seconds(snapshot_.t_us);
-  mj_fwdPosition(model_.get(), data_.get());
+  update_positions();
   check_simulation(*data_, seconds(snapshot_.t_us));
   snapshot_.vehicle_a_W = ConstMap3(data_->qacc + vehicle_free_.qvel);
   for (std::size_t i = 0; i < objects_free_.size(); ++i) {
@@ -303,7 +307,16 @@ void World::set_state(const FreeBody& body, const BodyState& state) {
   Map3(data_->qvel + body.qvel + 3) = q_W.conjugate() * state.w_W;
 }
 
+// Positions, and the contacts there.
+void World::update_positions() {
+  const bool apart = contact_bound_->apart(*model_, data_->qpos, in_flight_);
+  int& disabled = model_->opt.disableflags;
+  disabled = apart ? disabled | mjDSBL_CONTACT : disabled & ~mjDSBL_CONTACT;
+  mj_fwdPosition(model_.get(), data_.get());
+}
+
 void World::set_collisions(int i, bool on) {
+  in_flight_[static_cast<std::size_t>(i) + 1] = on;
   const int body = object_body(i);
   const int first = model_->body_geomadr[body];
   for (int g = first; g < first + model_->body_geomnum[body]; ++g) {

@@ -7,11 +7,13 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "sim/base/gravity.h"
 #include "sim/base/mujoco.h"
 #include "sim/world/compose.h"
+#include "sim/world/contact_bound.h"
 #include "sim/world/snapshot.h"
 #include "sim/world/vehicle_parameters.h"
 
@@ -79,6 +81,7 @@ class World {
   BodyState state(const FreeBody& body) const;
   void set_state(const FreeBody& body, const BodyState& state);
   void set_collisions(int i, bool on);
+  void update_positions();
   void apply_drag();
   void integrate(const FreeBody& body);
   void check_accelerations() const;
@@ -94,6 +97,8 @@ class World {
   std::vector<int> object_bodies_;
   FreeBody vehicle_free_;
   std::vector<FreeBody> objects_free_;
+  std::optional<ContactBound> contact_bound_;
+  std::vector<bool> in_flight_;              // the vehicle, then the objects
   std::vector<Eigen::Vector3d> object_a_W_;  // over the last tick: predicts the middle of the next
   Snapshot snapshot_;
 };

@@ -14,10 +14,8 @@ struct Outcome {
   std::string output;  // standard output and error
 };
 
-inline Outcome dodgesim(const std::string& arguments) {
-  const std::string command =
-      std::string(DODGESIM_BINARY_DIR) + "/dodgesim " + arguments + " 2>&1 </dev/null";
-  FILE* pipe = ::popen(command.c_str(), "r");
+inline Outcome shell(const std::string& command) {
+  FILE* pipe = ::popen((command + " 2>&1 </dev/null").c_str(), "r");
   Outcome outcome;
   std::array<char, 4096> buffer;
   while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
@@ -26,6 +24,10 @@ inline Outcome dodgesim(const std::string& arguments) {
   const int status = ::pclose(pipe);
   if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
   return outcome;
+}
+
+inline Outcome dodgesim(const std::string& arguments) {
+  return shell(std::string(DODGESIM_BINARY_DIR) + "/dodgesim " + arguments);
 }
 
 }  // namespace dodgesim::testing

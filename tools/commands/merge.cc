@@ -12,11 +12,17 @@ namespace {
 
 struct Arguments {
   std::vector<std::filesystem::path> directories;
+  bool check = false;
   CampaignOptions options;
 };
 
 int merge(const Arguments& arguments) {
   try {
+    if (arguments.check) {
+      std::printf("All %s are there.\n",
+                  count_of_throws(expect_complete(arguments.directories)).c_str());
+      return kOk;
+    }
     const CampaignSummary summary = merge_campaigns(arguments.directories, arguments.options);
     std::cout << summary.table;
     std::printf("%s from %zu directories\nResults: %s\n", count_of_throws(summary.wanted).c_str(),
@@ -38,9 +44,11 @@ void add_merge_command(CLI::App& program, const std::string& command_line, int& 
   command->add_option("directories", arguments->directories, "What run --out wrote, in any order")
       ->required()
       ->type_name("DIR...");
-  command->add_option("--out", arguments->options.out, "Where the whole campaign goes")
-      ->required()
+  CLI::Option_group* const target = command->add_option_group("What to do");
+  target->add_option("--out", arguments->options.out, "Where the whole campaign goes")
       ->type_name("DIR");
+  target->add_flag("--check", arguments->check, "Only say whether all throws are there");
+  target->require_option(1);
   command->add_flag("--force", arguments->options.force, "Overwrite whatever results are in DIR");
   command->footer(
       "The files are those that one process would have written, byte for byte (but for timing.csv\n"

@@ -111,6 +111,18 @@ TEST_F(JournalTest, TheTimeThatAThrowTookIsNoDifference) {
   EXPECT_NE(result_digest(a), result_digest(b));
 }
 
+TEST_F(JournalTest, OfTwoWritersThatNoLockKeepsApartOneIsStopped) {
+  write_ten();
+  const JournalIndex before = read_journal(path_);
+  Journal here(path_, before), there(path_, before);
+  here.add(fly(10));
+  EXPECT_THROW(there.add(fly(11)), IoError);
+  here.add(fly(11));
+  const JournalIndex after = read_journal(path_);
+  EXPECT_EQ(after.damaged, 0);
+  EXPECT_EQ(after.throws.size(), 12u);
+}
+
 TEST_F(JournalTest, AFullDiskLeavesNoPartOfAResult) {
   write_ten();
   const JournalIndex before = read_journal(path_);

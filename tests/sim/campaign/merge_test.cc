@@ -71,6 +71,42 @@ TEST_F(MergeTest, RefusesShardsThatContradictEachOther) {
   EXPECT_THAT(refusal<ScenarioError>({"a", "b", "c"}), HasSubstr("Throw 7 went differently in"));
 }
 
+TEST_F(MergeTest, AThrowThatWasLostInOneShardAndFlownInAnotherIsFlown) {
+  run_campaign(scenario_, options("whole"), [&](int index) { return fly(index); });
+  run_campaign(scenario_, options("lost"), [&](int index) {
+    if (index == 7 || index == 8) ::_exit(index);
+    return fly(index);
+  });
+  run_campaign(scenario_, options("other"), [&](int index) {
+    if (index == 8) ::_exit(1);
+    return fly(index);
+  });
+  for (const auto& names : {std::vector<std::string>{"lost", "whole"}, {"whole", "lost"}}) {
+    const std::string out = names.front() + "_first";
+    merge(names, out);
+    for (const char* file : kReproducible) {
+      EXPECT_EQ(read(root_ / "whole" / file), read(root_ / out / file)) << file;
+    }
+  }
+  EXPECT_EQ(merge({"lost", "other"}, "ab").errors, 1);
+  EXPECT_EQ(merge({"other", "lost"}, "ba").errors, 1);
+  EXPECT_EQ(read(root_ / "ab/throws.csv"), read(root_ / "ba/throws.csv"));
+}
+
+TEST_F(MergeTest, OfManyMissingThrowsItListsTheFirst) {
+  scenario_.repeats = 100;
+  fly_shard("a", 0, 2);
+  EXPECT_THAT(refusal<MissingThrows>({"a"}),
+              testing::MatchesRegex("50 of 100 throws are missing: 1, 3, .*, 39 and 30 more."));
+}
+
+TEST_F(MergeTest, CanBeAskedWhetherAllIsThere) {
+  fly_shard("a", 0, 2);
+  EXPECT_THROW(expect_complete({root_ / "a"}), MissingThrows);
+  fly_shard("b", 1, 2);
+  EXPECT_EQ(expect_complete({root_ / "b", root_ / "a"}), 12);
+}
+
 TEST_F(MergeTest, RefusesShardsOfOtherCampaigns) {
   fly_shard("a", 0, 2);
   scenario_.seed = 99;

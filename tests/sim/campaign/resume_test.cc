@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <vector>
@@ -79,6 +80,33 @@ TEST_F(ResumeTest, AStopIsCleanAndCanBeResumed) {
   EXPECT_FALSE(fs::exists(root_ / "stopped" / "manifest.json"));
   EXPECT_TRUE(run_campaign(scenario_, resuming("stopped"), fly_one_).complete());
   expect_same_files("whole", "stopped");
+}
+
+// As a batch system ends a job: SIGTERM to all its processes, then SIGKILL to one after the other.
+TEST_F(ResumeTest, WorkersThatAreKilledAlongWithTheCampaignLoseNoThrow) {
+  const pid_t campaign = ::fork();
+  if (campaign == 0) {
+    const pid_t campaign_itself = ::getpid();
+    run_campaign(scenario_, options("out"), [&](int index) {
+      ::raise(SIGTERM);
+      if (index != 4) return fly(index);
+      if (::fork() == 0) {
+        ::close_range(3, ~0U, 0);  // the worker's socket ends with the worker
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        ::kill(campaign_itself, SIGKILL);
+        ::_exit(0);
+      }
+      ::raise(SIGKILL);
+      return fly(index);
+    });
+    ::_exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(campaign, &status, 0), campaign);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  const JournalIndex index = read_journal(root_ / "out/results.bin");
+  EXPECT_EQ(index.throws.size(), 4u);
+  for (const auto& [number, record] : index.throws) EXPECT_FALSE(record.lost) << number;
 }
 
 TEST_F(ResumeTest, RefusesToGoOnWithAnotherCampaign) {
