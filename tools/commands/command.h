@@ -21,6 +21,8 @@ inline constexpr int kIoError = 4;     // a file could not be read or written
 void add_run_command(CLI::App& program, const std::string& command_line, int& exit_code);
 void add_sweep_command(CLI::App& program, const std::string& command_line, int& exit_code);
 void add_merge_command(CLI::App& program, const std::string& command_line, int& exit_code);
+void add_compare_command(CLI::App& program, int& exit_code);
+void add_gate_command(CLI::App& program, const std::string& command_line, int& exit_code);
 void add_replay_command(CLI::App& program, int& exit_code);
 void add_validate_command(CLI::App& program, int& exit_code);
 void add_explain_command(CLI::App& program, int& exit_code);

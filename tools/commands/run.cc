@@ -1,20 +1,12 @@
 // dodgesim run: flies a campaign.
-#include <unistd.h>
-
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <thread>
 
-#include "sim/campaign/campaign.h"
 #include "sim/campaign/progress.h"
-#include "sim/event_truth.h"
-#include "sim/loop.h"
-#include "sim/render/osmesa_context.h"
-#include "sim/try_models.h"
+#include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -31,27 +23,6 @@ struct Arguments {
   std::vector<std::string> over;
   std::string shard;
 };
-
-// Set by a signal that asks for the end. A second one ends the program at once.
-volatile std::sig_atomic_t stop_signal = 0;
-
-void ask_to_stop(int signal) { stop_signal = signal; }
-
-void watch_signals() {
-  struct sigaction action {};
-  action.sa_handler = ask_to_stop;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-}
-
-ThrowResult fly_with_truth(const Scenario& scenario, int index) {
-  EventTruth truth;
-  ThrowResult result = fly_throw(scenario, index, &truth);
-  result.truth_rows = truth.rows();
-  for (EventTruthRow& row : result.truth_rows) row.throw_index = index;
-  return result;
-}
 
 void warn_of_lost_events(const std::vector<ThrowResult>& results) {
   std::int64_t lost = 0;
@@ -90,27 +61,14 @@ std::vector<Setting> settings_of(const Arguments& arguments) {
 int run(const Arguments& arguments) {
   const Scenario scenario =
       load_scenario(arguments.scenario, arguments.models_dir, settings_of(arguments));
-  try_models(scenario);
 
   CampaignOptions options = arguments.options;
   if (!arguments.shard.empty()) {
     options.shard =
         parse_shard(arguments.shard, [](const char* name) { return std::getenv(name); });
   }
-  watch_signals();
-  options.stop = [] { return stop_signal != 0; };
-  options.show_progress = ::isatty(STDERR_FILENO) == 1;
-  options.gl_renderer = [] { return OsmesaContext(GlProfile::kCore33, 1, 1).renderer(); };
-  const CampaignSummary summary = run_campaign(scenario, options, [&](int index) {
-    return options.truth ? fly_with_truth(scenario, index) : fly_throw(scenario, index);
-  });
-
-  if (!summary.complete()) {
-    std::cerr << "Stopped after " << summary.results.size() << " of "
-              << count_of_throws(summary.wanted) << "; the same command with --resume flies the "
-              << "rest.\n";
-    return kIncomplete;
-  }
+  const CampaignSummary summary = fly_campaign(scenario, options);
+  if (!summary.complete()) return report_stop(summary);
   std::cout << summary.table;
   std::printf("%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n",
               count_of_throws(summary.wanted).c_str(), duration_text(summary.wall_s).c_str(),
@@ -127,57 +85,29 @@ int run(const Arguments& arguments) {
   return kIncomplete;
 }
 
-}  // namespace
-
-namespace {
-
 // What run and sweep share.
 CLI::App* add_campaign_command(CLI::App& program, const std::string& name, const std::string& what,
                                const std::string& command_line,
                                const std::shared_ptr<Arguments>& arguments) {
   CampaignOptions& options = arguments->options;
   options.command_line = command_line;
-  options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  constexpr double kTimeLimitS = 600;
-  constexpr std::int64_t kMemoryLimitMb = 4096;
-  options.limits = {kTimeLimitS, kMemoryLimitMb};
-
   CLI::App* command = program.add_subcommand(name, what);
   command->add_option("scenario", arguments->scenario, "The scenario's YAML file")
       ->required()
       ->type_name("SCENARIO.yaml");
-  command->add_option("--out", options.out, "Where the results go; made when missing")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("-j,--jobs", options.jobs, "Worker processes; results do not depend on it")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_campaign_options(*command, options);
   command
       ->add_option("--throws", arguments->throws,
                    "Number of throws (with a grid, of each cell), in place of repeats")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--seed", arguments->seed, "Seed, in place of the scenario's");
   add_set_option(*command, arguments->set);
-  CLI::Option* force =
-      command->add_flag("--force", options.force, "Start anew, whatever results are in DIR");
-  command->add_flag("--resume", options.resume, "Fly only the throws that DIR has no results of")
-      ->excludes(force);
   command
       ->add_option("--shard", arguments->shard,
                    "Fly only a part: INDEX/COUNT (from 0), auto/COUNT (the index from\n"
                    "SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX or AWS_BATCH_JOB_ARRAY_INDEX) or\n"
                    "auto (Slurm: the count, too); see dodgesim merge")
       ->type_name("PART");
-  command
-      ->add_option("--time-limit", options.limits.wall_s,
-                   "Seconds of computing after which a throw is given up; 0: never")
-      ->check(CLI::Range(0.0, 1e6))
-      ->capture_default_str();
-  command
-      ->add_option("--memory-limit", options.limits.memory_mb,
-                   "Address space of a worker [MB]; a throw that needs more fails; 0: no limit")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
   command->add_flag("--truth", options.truth,
                     "Also write truth.csv: of the events that the pilot takes for an obstacle's,\n"
                     "how many an object made, and of those that it made, how many are found");
@@ -195,10 +125,11 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
   command->footer(
       "Writes to DIR: table.md and table.csv (dodged / would have hit, with 95 % intervals),\n"
       "throws.csv (a row a throw), objects.csv (a row an object), detections.csv, timing.csv,\n"
-      "scenario.resolved.yaml and manifest.json (commit, versions, machine). results.bin has every "
-      "result as it comes: after\n"
-      "Ctrl-C, a kill or a full disk, --resume goes on from there. A throw that crashes, hangs or\n"
-      "needs too much memory fails with its reason and never counts as a success.\n\n"
+      "scenario.resolved.yaml and manifest.json (commit, versions, machine). results.bin has "
+      "every\n"
+      "result as it comes: after Ctrl-C, a kill or a full disk, --resume goes on from there. A\n"
+      "throw that crashes, hangs or needs too much memory fails with its reason and never counts\n"
+      "as a success.\n\n"
       "Examples:\n"
       "  dodgesim run scenarios/demo.yaml --out out/demo\n"
       "  dodgesim run scenarios/demo.yaml --out out/quick --throws 4 -j 2\n"
@@ -222,11 +153,10 @@ void add_sweep_command(CLI::App& program, const std::string& command_line, int& 
       "The same as run with the key sweep in the scenario. Every value meets the same throws with\n"
       "the same noise. The tables have a part for each value; throws.csv names it in every row.\n\n"
       "Examples:\n"
-      "  dodgesim sweep scenarios/demo.yaml --over delays.compute_us=0,3500,10000 --out "
-      "out/latency\n"
-      "  dodgesim sweep scenarios/demo.yaml --over 'throw.speed_mps=!uniform [4, 5], !uniform [6, "
-      "7]' --out out/speed\n"
-      "  dodgesim sweep scenarios/demo.yaml --over pilot=falanga2020,oracle --out out/pilots");
+      "  dodgesim sweep scenarios/demo.yaml --out out/latency --over "
+      "delays.compute_us=0,3500,9000\n"
+      "  dodgesim sweep scenarios/demo.yaml --out out/speed --over throw.speed_mps=4,6,8\n"
+      "  dodgesim sweep scenarios/demo.yaml --out out/pilots --over pilot=falanga2020,oracle");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 
