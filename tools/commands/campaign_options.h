@@ -11,8 +11,8 @@ namespace dodgesim {
 // Adds --out, -j, --force, --resume and the limits of a worker.
 void add_campaign_options(CLI::App& command, CampaignOptions& options);
 
-// Tries the models, then flies the throws in workers, with progress on a terminal, until done or until the user asks for
-// the end (SIGINT, SIGTERM).
+// Tries the models, then flies the throws in workers, with progress on a terminal, until done or
+// until the user asks for the end (SIGINT, SIGTERM).
 CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options);
 
 // Says that the campaign was stopped and how it goes on; returns the exit code.
