@@ -1,6 +1,8 @@
 #include "sim/poster.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -43,15 +45,20 @@ void Poster::on_start(dodge::Pilot& pilot) {
 void Poster::on_tick(const World& world) {
   world_ = &world;
   const Snapshot& now = world.snapshot();
-  if (now.objects.empty() || !now.launched.front()) return;
-  if (now.t_us % kDotEveryUs == 0) {
-    trail_.push_back({now.vehicle.p_W, 0.015, kVehicleColour});
-    trail_.push_back({now.objects.front().p_W, 0.015, kObjectColour});
+  double distance_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < now.objects.size(); ++i) {
+    if (!now.launched[i]) continue;
+    distance_m = std::min(distance_m, (now.objects[i].p_W - now.vehicle.p_W).norm());
   }
-  const double distance_m = (now.objects.front().p_W - now.vehicle.p_W).norm();
+  if (std::isinf(distance_m)) return;
+  const bool dot = now.t_us % kDotEveryUs == 0;
+  if (dot) trail_.push_back({now.vehicle.p_W, 0.015, kVehicleColour});
+  for (std::size_t i = 0; i < now.objects.size(); ++i) {
+    if (dot && now.launched[i]) trail_.push_back({now.objects[i].p_W, 0.015, kObjectColour});
+  }
   if (distance_m >= nearest_m_) return;
   nearest_m_ = distance_m;
-  if (now.t_us % kDotEveryUs == 0) draw_scene(world);
+  if (dot) draw_scene(world);
 }
 
 void Poster::draw_scene(const World& world) {

@@ -1,11 +1,11 @@
 #include "sim/base/mujoco.h"
 
+#include <mujoco/mjxmacro.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <type_traits>
-
-#include <mujoco/mjxmacro.h>
 
 #include "sim/base/error.h"
 

@@ -40,4 +40,18 @@ std::string closest_name(const std::string& word, const std::vector<std::string>
   return best;
 }
 
+std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
+
+std::string closest_key(const std::string& word, const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (last_part(path) == word) return path;
+  }
+  const std::string near = closest_name(word, paths);
+  if (!near.empty()) return near;
+  std::vector<std::string> last_parts;
+  for (const std::string& path : paths) last_parts.push_back(last_part(path));
+  const std::string part = closest_name(word, last_parts);
+  return part.empty() ? "" : closest_key(part, paths);
+}
+
 }  // namespace dodgesim

@@ -11,4 +11,11 @@ namespace dodgesim {
 // recognised.
 std::string closest_name(const std::string& word, const std::vector<std::string>& candidates);
 
+// "size_m" of "throw.size_m".
+std::string last_part(const std::string& path);
+
+// The dotted path that `word` most likely means: one that ends so, or one that it misspells as a
+// whole or in its last part; or empty.
+std::string closest_key(const std::string& word, const std::vector<std::string>& paths);
+
 }  // namespace dodgesim

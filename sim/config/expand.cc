@@ -1,5 +1,7 @@
 #include "sim/config/expand.h"
 
+#include <stdexcept>
+
 #include "sim/config/layers.h"
 
 namespace dodgesim {
@@ -63,9 +65,12 @@ ThrowCase case_of(const Scenario& scenario, int t) {
   const int throws_of_a_value = cells * scenario.repeats;
   ThrowCase result;
   result.index = t;
-  result.stream = t % throws_of_a_value;
+  result.sweep = scenario.sweep.empty() ? 0 : t / throws_of_a_value;
+  result.stream = t - result.sweep * throws_of_a_value;
   result.cell = result.stream % cells;
-  result.sweep = t / throws_of_a_value;
+  if (t < 0 || result.sweep >= sweep_count(scenario)) {
+    throw std::out_of_range("The scenario has no throw " + std::to_string(t) + ".");
+  }
   Assignments values = combination(scenario.grid, result.cell);
   result.cell_values = as_text(values);
   const Assignments sweep_values = combination(scenario.sweep, result.sweep);

@@ -16,8 +16,6 @@ std::string range_text(Number min, Number max) {
   return to_text(min) + " to " + to_text(max);
 }
 
-std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
-
 std::string group_of(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   return dot == std::string::npos ? "" : path.substr(0, dot);

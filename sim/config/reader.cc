@@ -52,21 +52,6 @@ std::optional<Number> parse_number(const std::string& text) {
   }
 }
 
-std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
-
-// The dotted path that `word` most likely means: one that ends so, or one that it misspells.
-std::string closest_key(const std::string& word, const std::vector<std::string>& paths) {
-  for (const std::string& path : paths) {
-    if (last_part(path) == word) return path;
-  }
-  const std::string near = closest_name(word, paths);
-  if (!near.empty()) return near;
-  std::vector<std::string> last_parts;
-  for (const std::string& path : paths) last_parts.push_back(last_part(path));
-  const std::string part = closest_name(word, last_parts);
-  return part.empty() ? "" : closest_key(part, paths);
-}
-
 }  // namespace
 
 void Reader::finish() {
@@ -395,52 +380,6 @@ void Reader::model(const char* key, NameChoice& value, const char* folder, const
     return;
   }
   value.names = names;
-}
-
-bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const VariedKeys& before,
-                         VariedKey& axis) {
-  const std::vector<std::string>& keys = context_.variable_keys;
-  axis.at = key.at;
-  for (const std::string& path : {key.name, "throw." + key.name}) {
-    if (std::find(keys.begin(), keys.end(), path) != keys.end()) axis.key = path;
-  }
-  const std::string name = full(key.name);
-  const auto refuse = [&](const std::string& sentence) {
-    context_.problems.add(key.at, sentence);
-    return false;
-  };
-  if (axis.key.empty()) {
-    const std::string near = closest_key(key.name, keys);
-    return refuse(name + " is not a key that can take several values" +
-                  (near.empty() ? "." : "; did you mean " + near + "?"));
-  }
-  for (const VariedKey& other : before) {
-    if (other.key == axis.key) return refuse(name + " is given twice.");
-  }
-  if (node.kind != Kind::kSequence || !node.tag.empty() || node.items.empty()) {
-    problem(node, name, "must be a list of values, such as [0.1, 0.2]");
-    return false;
-  }
-  for (const YamlNode& item : node.items) {
-    const auto same = [&](const YamlNode& other) { return to_text(other) == to_text(item); };
-    if (std::any_of(axis.values.begin(), axis.values.end(), same)) {
-      problem(item, name + "[" + std::to_string(axis.values.size()) + "]",
-              "this value is in the list already");
-      return false;
-    }
-    axis.values.push_back(item);
-  }
-  return true;
-}
-
-void Reader::varied(const char* key, VariedKeys& list, const char*) {
-  const YamlNode* map = take_map(key);
-  if (map == nullptr) return;
-  Reader inside(*map, full(key), context_);
-  for (std::size_t i = 0; i < map->keys.size(); ++i) {
-    VariedKey varied;
-    if (inside.read_varied(map->items[i], map->keys[i], list, varied)) list.push_back(varied);
-  }
 }
 
 }  // namespace dodgesim

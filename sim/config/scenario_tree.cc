@@ -70,7 +70,7 @@ class Bases {
     if (extends.kind != YamlNode::Kind::kScalar || !extends.tag.empty()) {
       problems_.fail(extends.at, "extends must be the name of a scenario's file.");
     }
-    const fs::path name = extends.text;
+    fs::path name = extends.text;
     if (name.is_absolute()) refuse(extends, "must be relative to the folder of this file");
     if (name.extension() != ".yaml" && name.extension() != ".yml") {
       refuse(extends, "must end in .yaml or .yml");
@@ -81,7 +81,7 @@ class Bases {
   // The path of a base without links, if it may be read.
   fs::path checked(const fs::path& base, const YamlNode& extends) {
     std::error_code error;
-    const fs::path path = fs::canonical(base, error);
+    fs::path path = fs::canonical(base, error);
     if (error || !fs::is_regular_file(path, error)) refuse(extends, "there is no such file");
     if (!is_below(path, highest_)) {
       refuse(extends,

@@ -9,6 +9,7 @@
 #include "sim/event_truth.h"
 #include "sim/loop.h"
 #include "sim/render/osmesa_context.h"
+#include "sim/try_models.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -66,6 +67,7 @@ void add_campaign_options(CLI::App& command, CampaignOptions& options) {
 }
 
 CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options) {
+  try_models(scenario);
   watch_signals();
   options.stop = [] { return stop_signal != 0; };
   options.show_progress = ::isatty(STDERR_FILENO) == 1;

@@ -1,4 +1,4 @@
-// What the commands that fly campaigns (run, gate) share.
+// What the commands that fly campaigns (run, sweep, gate) share.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,8 +11,8 @@ namespace dodgesim {
 // Adds --out, -j, --force, --resume and the limits of a worker.
 void add_campaign_options(CLI::App& command, CampaignOptions& options);
 
-// Flies the throws in workers, with progress on a terminal, until done or until the user asks for
-// the end (SIGINT, SIGTERM).
+// Tries the models, then flies the throws in workers, with progress on a terminal, until done or
+// until the user asks for the end (SIGINT, SIGTERM).
 CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options);
 
 // Says that the campaign was stopped and how it goes on; returns the exit code.

@@ -26,9 +26,9 @@ void add_models_option(CLI::App& command, std::string& models_dir) {
 
 void add_set_option(CLI::App& command, std::vector<std::string>& set) {
   command
-      .add_option(
-          "--set", set,
-          "Set a key of the scenario, whatever its file says; the value is YAML; repeatable")
+      .add_option("--set", set,
+                  "Set a key of the scenario, whatever its file says; the value is YAML;\n"
+                  "repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
 }

@@ -12,7 +12,6 @@
 #include "sim/config/expand.h"
 #include "sim/files/output_file.h"
 #include "sim/gate/scenario_changes.h"
-#include "sim/try_models.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -115,7 +114,6 @@ int gate(const Arguments& arguments) {
   std::vector<Setting> settings;
   for (const std::string& text : arguments.set) settings.push_back(parse_setting("--set", text));
   const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir, settings);
-  try_models(scenario);
   std::optional<Baseline> baseline;
   if (fs::exists(arguments.baseline)) {
     baseline.emplace(read_baseline(arguments.baseline));

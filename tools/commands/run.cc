@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "sim/campaign/progress.h"
-#include "sim/try_models.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -62,7 +61,6 @@ std::vector<Setting> settings_of(const Arguments& arguments) {
 int run(const Arguments& arguments) {
   const Scenario scenario =
       load_scenario(arguments.scenario, arguments.models_dir, settings_of(arguments));
-  try_models(scenario);
 
   CampaignOptions options = arguments.options;
   if (!arguments.shard.empty()) {
@@ -127,10 +125,11 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
   command->footer(
       "Writes to DIR: table.md and table.csv (dodged / would have hit, with 95 % intervals),\n"
       "throws.csv (a row a throw), objects.csv (a row an object), detections.csv, timing.csv,\n"
-      "scenario.resolved.yaml and manifest.json (commit, versions, machine). results.bin has every "
-      "result as it comes: after\n"
-      "Ctrl-C, a kill or a full disk, --resume goes on from there. A throw that crashes, hangs or\n"
-      "needs too much memory fails with its reason and never counts as a success.\n\n"
+      "scenario.resolved.yaml and manifest.json (commit, versions, machine). results.bin has "
+      "every\n"
+      "result as it comes: after Ctrl-C, a kill or a full disk, --resume goes on from there. A\n"
+      "throw that crashes, hangs or needs too much memory fails with its reason and never counts\n"
+      "as a success.\n\n"
       "Examples:\n"
       "  dodgesim run scenarios/demo.yaml --out out/demo\n"
       "  dodgesim run scenarios/demo.yaml --out out/quick --throws 4 -j 2\n"
@@ -154,11 +153,10 @@ void add_sweep_command(CLI::App& program, const std::string& command_line, int& 
       "The same as run with the key sweep in the scenario. Every value meets the same throws with\n"
       "the same noise. The tables have a part for each value; throws.csv names it in every row.\n\n"
       "Examples:\n"
-      "  dodgesim sweep scenarios/demo.yaml --over delays.compute_us=0,3500,10000 --out "
-      "out/latency\n"
-      "  dodgesim sweep scenarios/demo.yaml --over 'throw.speed_mps=!uniform [4, 5], !uniform [6, "
-      "7]' --out out/speed\n"
-      "  dodgesim sweep scenarios/demo.yaml --over pilot=falanga2020,oracle --out out/pilots");
+      "  dodgesim sweep scenarios/demo.yaml --out out/latency --over "
+      "delays.compute_us=0,3500,9000\n"
+      "  dodgesim sweep scenarios/demo.yaml --out out/speed --over throw.speed_mps=4,6,8\n"
+      "  dodgesim sweep scenarios/demo.yaml --out out/pilots --over pilot=falanga2020,oracle");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 

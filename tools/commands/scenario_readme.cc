@@ -16,6 +16,9 @@ and flies. Each file here runs as it is:
 | `demo.yaml` | 40 balls of 10, 20 and 30 cm at a hovering vehicle |
 | `ci.yaml` | a few throws, for a quick check of the whole loop |
 | `goal_flight.yaml` | balls at a vehicle on its way to a goal at 1.5 m/s |
+| `size_by_distance.yaml` | a grid: balls of three sizes from four distances |
+| `several_balls.yaml` | two balls at once and a third after them |
+| `waypoints.yaml` | balls at a vehicle on its way along waypoints |
 | `mono.yaml` | one camera and balls of known size |
 | `range_cap_1_5m.yaml`, `range_cap_3m.yaml` | 200 balls that pilot and oracle believe alike |
 | `quiet_hover.yaml`, `quiet_goal_flight.yaml` | nothing: dodges would be false alarms |
@@ -23,6 +26,7 @@ and flies. Each file here runs as it is:
 ```
 dodgesim validate scenarios/demo.yaml                  # is it well-formed?
 dodgesim run scenarios/demo.yaml --out out/demo -j 2   # fly it
+dodgesim run scenarios/demo.yaml --out out/fast --set throw.speed_mps=8   # with another value
 dodgesim explain throw.speed_mps                       # what does a key mean?
 ```
 
@@ -45,6 +49,56 @@ A number under `throw` may be a distribution, from which every throw draws a val
 `aim_offset_m` and `spin_radps` take a list, one number or distribution for each component, or a
 single one. `object` takes a name or a `!choice` of names. A throw's draws depend only on `seed`, the
 number of the throw and the key: changing one key leaves the draws of all others as they were.
+
+## Grids
+
+```yaml
+repeats: 10
+grid:
+  size_m: [0.1, 0.2]                             # throw.size_m: keys of throw may stand alone
+  speed_mps: [4, 6, !uniform [8, 10]]
+```
+
+Every combination of the values is a cell with `repeats` throws, each with draws of its own: here 6
+cells and 60 throws. Any key but `seed`, `repeats`, the texts and the lists may stand there. Throw
+i = repeat x cells + cell, so more repeats leave the throws that there are as they were.
+
+## Sweeps
+
+```yaml
+sweep:
+  delays.compute_us: [0, 3500, 30000]
+```
+
+flies the same throws with the same noise again with every value (with every combination, if there
+are several keys). So two values can be compared throw by throw, and are never pooled: the tables
+have a part for each. The throws of sweep value k are numbered from k x cells x repeats. `dodgesim
+sweep FILE --over delays.compute_us=0,3500,30000` does the same to any scenario. A swept
+`sensors.events.preset` takes the place of the whole camera. `throws.csv` has the columns `cell` and
+`sweep` and one for every key of both.
+
+## Bases and settings
+
+`extends: other.yaml` takes the keys of another scenario where this one has none. Maps merge, any
+other value takes the place of the base's, and `~` takes a key away (`throw: ~`). Its `name` and
+`description` do not count. The base is named relative to the file, ends in `.yaml` or `.yml`, and
+lies in the folder of the scenario, below it or at most two folders up; bases may have bases, up to
+8. `--set KEY=VALUE` of `run`, `sweep` and `validate` comes last, its value is YAML, and it may be
+repeated: `--set 'throw.speed_mps=!uniform [4, 6]'`, `--set grid.size_m=[0.1,0.2]`, `--set throw=~`.
+
+## Several objects
+
+```yaml
+throws:                                          # instead of throw
+  - {bearing_deg: 15, launch_s: 0.5}
+  - {bearing_deg: -15, launch_s: 0.5}            # at the same time
+  - {object: box, launch_s: 1.5, count: 3, interval_s: 0.4}
+```
+
+Each object is thrown at the place where the vehicle would be when it arrives if it did not dodge. A
+flight ends when one hits. `objects.csv` has a row for each; in `throws.csv` the drawn numbers are
+those of the first, and hit, closest approach and detection those of all. A grid over a key of throw
+sets it for all of them.
 
 ## Keys
 

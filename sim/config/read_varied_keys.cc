@@ -1,0 +1,55 @@
+// Reader: the keys of grid and sweep.
+#include <algorithm>
+
+#include "sim/config/closest_name.h"
+#include "sim/config/reader.h"
+
+namespace dodgesim {
+
+bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const VariedKeys& before,
+                         VariedKey& axis) {
+  const std::vector<std::string>& keys = context_.variable_keys;
+  axis.at = key.at;
+  for (const std::string& path : {key.name, "throw." + key.name}) {
+    if (std::find(keys.begin(), keys.end(), path) != keys.end()) axis.key = path;
+  }
+  const std::string name = full(key.name);
+  const auto refuse = [&](const std::string& sentence) {
+    context_.problems.add(key.at, sentence);
+    return false;
+  };
+  if (axis.key.empty()) {
+    const std::string near = closest_key(key.name, keys);
+    return refuse(name + " is not a key that can take several values" +
+                  (near.empty() ? "." : "; did you mean " + near + "?"));
+  }
+  for (const VariedKey& other : before) {
+    if (other.key == axis.key) return refuse(name + " is given twice.");
+  }
+  if (node.kind != YamlNode::Kind::kSequence || !node.tag.empty() || node.items.empty()) {
+    problem(node, name, "must be a list of values, such as [0.1, 0.2]");
+    return false;
+  }
+  for (const YamlNode& item : node.items) {
+    const auto same = [&](const YamlNode& other) { return to_text(other) == to_text(item); };
+    if (std::any_of(axis.values.begin(), axis.values.end(), same)) {
+      problem(item, name + "[" + std::to_string(axis.values.size()) + "]",
+              "this value is in the list already");
+      return false;
+    }
+    axis.values.push_back(item);
+  }
+  return true;
+}
+
+void Reader::varied(const char* key, VariedKeys& list, const char*) {
+  const YamlNode* map = take_map(key);
+  if (map == nullptr) return;
+  Reader inside(*map, full(key), context_);
+  for (std::size_t i = 0; i < map->keys.size(); ++i) {
+    VariedKey varied;
+    if (inside.read_varied(map->items[i], map->keys[i], list, varied)) list.push_back(varied);
+  }
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,162 @@
+// Grids, sweeps, settings, several objects and models of one's own, from the command line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "tests/cli/program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using dodgesim::testing::dodgesim;
+using dodgesim::testing::Outcome;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class ScenarioCommandTest : public testing::Test {
+ protected:
+  ScenarioCommandTest() {
+    fs::create_directories(root_);
+    write("s.yaml",
+          "seed: 3\nrepeats: 2\npilot: none\nfly_oracle: false\nafter_s: 0.1\n"
+          "throw: {speed_mps: !uniform [5, 8], launch_s: 0.1}\n");
+  }
+  ~ScenarioCommandTest() override { fs::remove_all(root_); }
+
+  std::string path(const std::string& name) const { return (root_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(root_ / name) << text;
+  }
+  std::string contents(const std::string& name) const {
+    std::ifstream file(root_ / name);
+    EXPECT_TRUE(file) << name;
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  // The cells of one column of a CSV file without quoted cells.
+  std::vector<std::string> column(const std::string& file, const std::string& name) const {
+    std::istringstream lines(contents(file));
+    std::vector<std::string> cells;
+    std::ptrdiff_t at = -1;
+    for (std::string line; std::getline(lines, line);) {
+      std::vector<std::string> row;
+      std::istringstream in(line);
+      for (std::string cell; std::getline(in, cell, ',');) row.push_back(cell);
+      if (at < 0) {
+        at = std::find(row.begin(), row.end(), name) - row.begin();
+        EXPECT_LT(at, static_cast<std::ptrdiff_t>(row.size())) << name;
+      } else {
+        cells.push_back(row.at(static_cast<std::size_t>(at)));
+      }
+    }
+    return cells;
+  }
+
+  fs::path root_ = fs::temp_directory_path() / ("dodgesim_scenario_" + std::to_string(::getpid()));
+};
+
+TEST_F(ScenarioCommandTest, SettingsChangeTheFileAndAreResolved) {
+  const Outcome run = dodgesim("run " + path("s.yaml") + " --out " + path("set") +
+                               " --set 'throw.size_m=!choice [0.3]' --set repeats=3 --throws 1");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_EQ(column("set/throws.csv", "size_m"), std::vector<std::string>{"0.3"});
+  EXPECT_THAT(contents("set/scenario.resolved.yaml"),
+              AllOf(HasSubstr("size_m: !choice [0.3]"), HasSubstr("repeats: 1\n")));
+}
+
+TEST_F(ScenarioCommandTest, BadSettingsAreUsageErrors) {
+  const std::string validate = "validate " + path("s.yaml");
+  const Outcome typo = dodgesim(validate + " --set throw.spede_mps=3");
+  EXPECT_EQ(typo.exit_code, 2);
+  EXPECT_EQ(typo.output,
+            "--set throw.spede_mps=3: throw.spede_mps is not a known key; did you mean "
+            "throw.speed_mps?\n");
+  EXPECT_EQ(dodgesim(validate + " --set nonsense").exit_code, 2);
+  EXPECT_EQ(dodgesim(validate + " --set 'throw.speed_mps=[1'").exit_code, 2);
+  EXPECT_EQ(dodgesim("sweep " + path("s.yaml") + " --out x").exit_code, 2) << "over nothing";
+  const Outcome over = dodgesim("sweep " + path("s.yaml") + " --out x --over delays.compute_us=-1");
+  EXPECT_EQ(over.exit_code, 2);
+  EXPECT_THAT(over.output, HasSubstr("--over delays.compute_us=-1: delays.compute_us is -1, but"));
+}
+
+TEST_F(ScenarioCommandTest, ASweepFliesTheSameThrowsAndItsTablesStayApart) {
+  const Outcome run =
+      dodgesim("sweep " + path("s.yaml") + " -j 2 --out " + path("swept") +
+               " --set grid.size_m=[0.1,0.2] --over controller.velocity_gain_xy_1ps=2,4");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, AllOf(HasSubstr("# controller.velocity_gain_xy_1ps 2\n"),
+                                HasSubstr("# controller.velocity_gain_xy_1ps 4\n")));
+  const auto sweep = column("swept/throws.csv", "sweep");
+  EXPECT_EQ(sweep, (std::vector<std::string>{"0", "0", "0", "0", "1", "1", "1", "1"}));
+  EXPECT_EQ(column("swept/throws.csv", "cell"),
+            (std::vector<std::string>{"0", "1", "0", "1", "0", "1", "0", "1"}));
+  const auto speeds = column("swept/throws.csv", "speed_mps");
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(speeds[i], speeds[i + 4]);
+  EXPECT_NE(speeds[0], speeds[1]);
+  const auto gains = column("swept/throws.csv", "controller.velocity_gain_xy_1ps");
+  EXPECT_EQ(gains.front() + gains.back(), "24");
+
+  const Outcome replay = dodgesim("replay " + path("swept") + " --throw 7");
+  EXPECT_EQ(replay.exit_code, 0) << replay.output;
+  EXPECT_EQ(dodgesim("replay " + path("swept") + " --throw 8").exit_code, 2);
+
+  for (const char* part : {"0", "1", "2"}) {
+    dodgesim("sweep " + path("s.yaml") + " --out " + path(std::string("part") + part) +
+             " --set grid.size_m=[0.1,0.2] --over controller.velocity_gain_xy_1ps=2,4 --shard " +
+             part + "/3");
+  }
+  const Outcome merged = dodgesim("merge " + path("part0") + " " + path("part1") + " " +
+                                  path("part2") + " --out " + path("merged"));
+  EXPECT_EQ(merged.exit_code, 0) << merged.output;
+  for (const char* file : {"/throws.csv", "/objects.csv", "/table.md", "/table.csv"}) {
+    EXPECT_EQ(contents(std::string("merged") + file), contents(std::string("swept") + file));
+  }
+}
+
+TEST_F(ScenarioCommandTest, EveryObjectHasARow) {
+  write("two.yaml", "extends: s.yaml\nthrow: ~\nthrows: [{launch_s: 0.1}, {count: 2}]\n");
+  const Outcome run = dodgesim("run " + path("two.yaml") + " --out " + path("two"));
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_EQ(column("two/throws.csv", "objects"), (std::vector<std::string>{"3", "3"}));
+  EXPECT_EQ(column("two/objects.csv", "throw"),
+            (std::vector<std::string>{"0", "0", "0", "1", "1", "1"}));
+  EXPECT_EQ(column("two/objects.csv", "object"),
+            (std::vector<std::string>{"0", "1", "2", "0", "1", "2"}));
+}
+
+TEST_F(ScenarioCommandTest, AMeshThatCrashesMujocoCostsASentenceAndExitCodeTwo) {
+  fs::copy(DODGESIM_SOURCE_DIR "/models", root_ / "models", fs::copy_options::recursive);
+  write("models/mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 4000000\n");
+  write("models/objects/evil.xml",
+        "<mujoco><custom><numeric name='reference_size_m' data='0.1'/>"
+        "<numeric name='mass_exponent' data='3'/><numeric name='drag_coefficient' data='1'/>"
+        "<numeric name='frontal_area_m2' data='0.01'/></custom>"
+        "<asset><mesh name='m' file='mesh.obj'/></asset><worldbody><body name='body'><freejoint/>"
+        "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>"
+        "<geom type='mesh' mesh='m' contype='4' conaffinity='7'/></body></worldbody></mujoco>");
+  for (const char* command : {"validate", "run --out x"}) {
+    const Outcome refused = dodgesim(std::string(command) + " " + path("s.yaml") + " --models " +
+                                     path("models") + " --set throw.object=evil");
+    EXPECT_EQ(refused.exit_code, 2) << refused.output;
+    EXPECT_THAT(refused.output, AllOf(HasSubstr("objects/evil.xml"), testing::EndsWith(".\n")));
+  }
+  EXPECT_FALSE(fs::exists("x"));
+}
+
+TEST_F(ScenarioCommandTest, AVehicleThatCannotFlyIsRefusedBeforeTheCampaign) {
+  const Outcome refused =
+      dodgesim("validate " + path("s.yaml") + " --set vehicle_overrides.mass_scale=9");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.output, HasSubstr("times the vehicle's weight"));
+}
+
+}  // namespace
