@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 
+#include "sim/base/error.h"
 #include "sim/campaign/build_info.h"
 #include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/journal.h"
@@ -32,6 +33,18 @@ std::vector<int> throws_of(const Scenario& scenario, const Shard& shard) {
   std::vector<int> throws;
   for (int i = shard.index; i < scenario.repeats; i += shard.count) throws.push_back(i);
   return throws;
+}
+
+// Results of other throws must not be counted as the shard's.
+void expect_throws_of(const Shard& shard, const Scenario& scenario, const JournalIndex& index,
+                      const fs::path& out) {
+  for (const auto& [number, record] : index.throws) {
+    if (number >= 0 && number < scenario.repeats && number % shard.count == shard.index) continue;
+    throw ScenarioError(out.string() + " holds a result of throw " + std::to_string(number) +
+                        ", which is not one of shard " + std::to_string(shard.index) + " of " +
+                        std::to_string(shard.count) +
+                        "; choose another directory, or add --force to start anew.");
+  }
 }
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
@@ -93,6 +106,7 @@ CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& op
   make_directory(options.out);
   const DirectoryLock lock(options.out);
   const auto found = find_journal(options, identity_of(scenario, options));
+  if (found) expect_throws_of(options.shard, scenario, *found, options.out);
   remove_result_files(options.out);
   write_file(options.out / kScenarioFile, to_yaml(scenario));
 
