@@ -154,7 +154,11 @@ TEST_F(FaultsTest, ADivergedSimulationCountsAsNoSuccessAndReplays) {
   EXPECT_EQ(run.exit_code, 3) << run.output;
   EXPECT_THAT(run.output, HasSubstr("- throw 1, pilot none: The simulation diverged: "));
   EXPECT_THAT(run.output, HasSubstr("2 throws could not be flown"));
-  EXPECT_EQ(dodgesim("replay " + path("out") + " --throw 1 " + models).exit_code, 0);
+  const Outcome replay =
+      dodgesim("replay " + path("out") + " --throw 1 " + models + " --mcap " + path("a.mcap"));
+  EXPECT_EQ(replay.exit_code, 0);
+  EXPECT_THAT(replay.output, HasSubstr("Throw 1 fails: The simulation diverged: "));
+  EXPECT_THAT(contents(path("a.mcap")), HasSubstr("The flight failed: The simulation diverged: "));
 }
 
 }  // namespace
