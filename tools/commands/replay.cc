@@ -241,6 +241,12 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->check(CLI::IsMember({"top", "bottom"}))
       ->capture_default_str();
   add_models_option(*command, arguments->models_dir);
+  command->footer(
+      "Exit code 1 if the throw did not fly as recorded, bit for bit.\n\n"
+      "Examples:\n"
+      "  dodgesim replay out/demo --throw 3 --video throw3.mp4 --slow 20\n"
+      "  dodgesim replay out/demo --throw 3 --mcap throw3.mcap       look around in Foxglove\n"
+      "  dodgesim replay out/demo --throw 3 --events top.h5          every event and its cause");
   command->callback([arguments, &exit_code] { exit_code = replay(*arguments); });
 }
 
