@@ -15,8 +15,8 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index);
 
 // A throw with all its pilots: the scenario's own, `none` (would it have hit?) and, when the
 // scenario asks for it, `oracle`. A simulation that fails, even before the throw, is recorded with
-// its reason as an error of the pilot that flew. A pure function of its arguments, up to wall-clock times. The
-// observer, if any, watches the scenario's own pilot.
+// its reason as an error of the pilot that flew. A pure function of its arguments, up to wall-clock
+// times. The observer, if any, watches the scenario's own pilot.
 ThrowResult fly_throw(const Scenario& scenario, int throw_index,
                       FlightObserver* observer = nullptr);
 
