@@ -14,6 +14,11 @@ if(NOT TARGET dodge_options)
   # Eigen's own warnings are not ours (GCC 12 reports false -Wmaybe-uninitialized inside it).
   target_compile_options(dodge_options INTERFACE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds>)
+  if(DODGESIM_FUZZ)  # clang has warnings of its own
+    target_compile_options(dodge_options INTERFACE
+      -Wno-error -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+    target_link_options(dodge_options INTERFACE -fsanitize=address,undefined)
+  endif()
   if(DODGESIM_SANITIZE STREQUAL "address")
     target_compile_options(dodge_options INTERFACE
       -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -21,8 +21,12 @@ inline int widest_vector_level() {
 
 #if defined(__x86_64__)
 #define DODGESIM_TARGET_AVX2 [[gnu::target("avx2")]]
+#if defined(__clang__)  // which drops an attribute with a preferred width
+#define DODGESIM_TARGET_AVX512 [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]]
+#else
 #define DODGESIM_TARGET_AVX512 \
   [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl,prefer-vector-width=512")]]
+#endif
 #else
 #define DODGESIM_TARGET_AVX2
 #define DODGESIM_TARGET_AVX512

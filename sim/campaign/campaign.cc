@@ -37,6 +37,18 @@ std::vector<int> throws_of(const Scenario& scenario, const Shard& shard) {
   return throws;
 }
 
+// Results of other throws must not be counted as the shard's.
+void expect_throws_of(const Shard& shard, const Scenario& scenario, const JournalIndex& index,
+                      const fs::path& out) {
+  for (const auto& [number, record] : index.throws) {
+    if (number >= 0 && number < scenario.repeats && number % shard.count == shard.index) continue;
+    throw ScenarioError(out.string() + " holds a result of throw " + std::to_string(number) +
+                        ", which is not one of shard " + std::to_string(shard.index) + " of " +
+                        std::to_string(shard.count) +
+                        "; choose another directory, or add --force to start anew.");
+  }
+}
+
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -142,6 +154,7 @@ CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& op
   make_directory(options.out);
   const DirectoryLock lock(options.out);
   const auto found = find_journal(options, identity_of(scenario, options));
+  if (found) expect_throws_of(options.shard, scenario, *found, options.out);
   std::optional<EarlyStop> stop = early_stop(scenario, options, found);
   remove_result_files(options.out);
   write_file(options.out / kScenarioFile, to_yaml(scenario));

@@ -113,6 +113,72 @@ std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
       arguments.camera == "top" ? 0 : 1);
 }
 
+// Everything that looks on, as the arguments ask for.
+class Onlookers {
+ public:
+  Onlookers(const Scenario& scenario, const Arguments& arguments)
+      : arguments_(arguments), poster_(intrinsics(scenario.sensors.camera)) {
+    const Intrinsics camera = intrinsics(scenario.sensors.camera);
+    if (!arguments.video.empty()) {
+      film_ = std::make_unique<Film>(arguments.video, camera, arguments.slow);
+      observers_.add(film_.get());
+    }
+    if (!arguments.stages.empty()) {
+      stages_ = std::make_unique<StageFilm>(arguments.stages);
+      observers_.add(stages_.get());
+    }
+    if (!arguments.mcap.empty()) {
+      mcap_ = std::make_unique<McapRecorder>(arguments.mcap, camera);
+      observers_.add(mcap_.get());
+    }
+    if (!arguments.picture.empty()) observers_.add(&poster_);
+    if (!arguments.events.empty()) {
+      events_ = make_event_recorder(scenario, arguments);
+      observers_.add(events_.get());
+      observers_.add(&truth_);
+    }
+  }
+
+  FlightObserver* observer() { return &observers_; }
+
+  // Completes the files and says what they are. Of a flight that failed only the recording, which
+  // shows how.
+  void finish(const ThrowResult& result) {
+    if (mcap_) {
+      mcap_->finish(result);
+      std::cout << "Recording for Foxglove or Lichtblick: " << arguments_.mcap << "\n";
+    }
+    if (result.flown.failed()) return;
+    if (!arguments_.picture.empty()) poster_.save(arguments_.picture);
+    if (events_) {
+      events_->finish();
+      EventTruthSums sums;
+      sums.add(truth_.rows());
+      std::cout << events_->count() << " events of the " << arguments_.camera
+                << " camera: " << arguments_.events << "\n"
+                << truth_text(sums) << "\n";
+    }
+    if (film_) {
+      film_->close();
+      std::cout << "Video: " << arguments_.video << "\n";
+    }
+    if (stages_) {
+      std::cout << stages_->pictures() << " pictures of the pilot's stages: " << arguments_.stages
+                << "\n";
+    }
+  }
+
+ private:
+  const Arguments& arguments_;
+  Observers observers_;
+  std::unique_ptr<Film> film_;
+  std::unique_ptr<StageFilm> stages_;
+  std::unique_ptr<McapRecorder> mcap_;
+  Poster poster_;
+  EventTruth truth_;
+  std::unique_ptr<EventRecorder> events_;
+};
+
 int replay(const Arguments& arguments) {
   const std::string& directory = arguments.directory;
   const Scenario campaign =
@@ -124,54 +190,12 @@ int replay(const Arguments& arguments) {
   const Scenario scenario = case_of(campaign, arguments.throw_index).scenario;
   const std::string recorded = recorded_row(directory + "/throws.csv", arguments.throw_index);
 
-  Observers observers;
-  std::unique_ptr<Film> film;
-  if (!arguments.video.empty()) {
-    film = std::make_unique<Film>(arguments.video, intrinsics(scenario.sensors.camera),
-                                  arguments.slow);
-    observers.add(film.get());
+  Onlookers onlookers(scenario, arguments);
+  const ThrowResult result = fly_throw(campaign, arguments.throw_index, onlookers.observer());
+  if (result.flown.failed()) {
+    std::cerr << "Throw " << arguments.throw_index << " fails: " << result.flown.error << "\n";
   }
-  std::unique_ptr<StageFilm> stages;
-  if (!arguments.stages.empty()) {
-    stages = std::make_unique<StageFilm>(arguments.stages);
-    observers.add(stages.get());
-  }
-  std::unique_ptr<McapRecorder> mcap;
-  if (!arguments.mcap.empty()) {
-    mcap = std::make_unique<McapRecorder>(arguments.mcap, intrinsics(scenario.sensors.camera));
-    observers.add(mcap.get());
-  }
-  Poster poster(intrinsics(scenario.sensors.camera));
-  if (!arguments.picture.empty()) observers.add(&poster);
-  EventTruth truth;
-  std::unique_ptr<EventRecorder> recorder;
-  if (!arguments.events.empty()) {
-    recorder = make_event_recorder(scenario, arguments);
-    observers.add(recorder.get());
-    observers.add(&truth);
-  }
-  const ThrowResult result = fly_throw(campaign, arguments.throw_index, &observers);
-  if (!arguments.picture.empty()) poster.save(arguments.picture);
-  if (recorder) {
-    recorder->finish();
-    EventTruthSums sums;
-    sums.add(truth.rows());
-    std::cout << recorder->count() << " events of the " << arguments.camera
-              << " camera: " << arguments.events << "\n"
-              << truth_text(sums) << "\n";
-  }
-  if (mcap) {
-    mcap->finish(result);
-    std::cout << "Recording for Foxglove or Lichtblick: " << arguments.mcap << "\n";
-  }
-  if (film) {
-    film->close();
-    std::cout << "Video: " << arguments.video << "\n";
-  }
-  if (stages) {
-    std::cout << stages->pictures() << " pictures of the pilot's stages: " << arguments.stages
-              << "\n";
-  }
+  onlookers.finish(result);
   const std::string flown = csv_row(result);
   if (flown == recorded) {
     std::cout << "Throw " << arguments.throw_index << " flew as recorded, bit for bit.\n";
@@ -224,6 +248,12 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->check(CLI::IsMember({"top", "bottom"}))
       ->capture_default_str();
   add_models_option(*command, arguments->models_dir);
+  command->footer(
+      "Exit code 1 if the throw did not fly as recorded, bit for bit.\n\n"
+      "Examples:\n"
+      "  dodgesim replay out/demo --throw 3 --video throw3.mp4 --slow 20\n"
+      "  dodgesim replay out/demo --throw 3 --mcap throw3.mcap       look around in Foxglove\n"
+      "  dodgesim replay out/demo --throw 3 --events top.h5          every event and its cause");
   command->callback([arguments, &exit_code] { exit_code = replay(*arguments); });
 }
 

@@ -88,6 +88,17 @@ TEST_F(CampaignTest, ACrashCostsItsThrowOnlyAndIsRecorded) {
               HasSubstr("- throw 4, pilot falanga2020: The worker process was killed"));
 }
 
+// Sanitizers end the process in their own way.
+TEST_F(CampaignTest, AccessToMemoryThatIsNotThereCostsItsThrowOnly) {
+  const CampaignSummary summary = run_campaign(scenario_, options("segv", 2), [&](int index) {
+    if (index == 6) ::raise(SIGSEGV);
+    return fly(index);
+  });
+  EXPECT_EQ(summary.errors, 1);
+  EXPECT_FALSE(summary.results[6].flown.unharmed());
+  EXPECT_THAT(summary.results[6].flown.error, HasSubstr("The worker process "));
+}
+
 TEST_F(CampaignTest, EvenWhenEveryThrowCrashesTheCampaignEnds) {
   const CampaignSummary summary =
       run_campaign(scenario_, options("all", 2), [&](int) -> ThrowResult { ::_exit(1); });

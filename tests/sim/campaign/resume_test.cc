@@ -119,6 +119,16 @@ TEST_F(ResumeTest, RefusesToGoOnWithAnotherCampaign) {
   EXPECT_THROW(run_campaign(scenario_, truth, fly_one_), ScenarioError);
 }
 
+TEST_F(ResumeTest, AnotherShardIsNotTakenForThisOne) {
+  CampaignOptions first = options("a"), second = resuming("a");
+  first.shard = {0, 2};
+  second.shard = {1, 2};
+  run_campaign(scenario_, first, fly_one_);
+  EXPECT_THROW(run_campaign(scenario_, second, fly_one_), ScenarioError);
+  EXPECT_EQ(run_campaign(scenario_, resuming("a"), fly_one_).flown,
+            6);  // of the whole it is a part
+}
+
 TEST_F(ResumeTest, ASecondProcessIsRefused) {
   run_campaign(scenario_, options("a"), [&](int index) {
     if (index == 0) {  // in the worker, while the campaign runs
@@ -172,6 +182,36 @@ TEST_F(ResumeTest, ADamagedResultIsFlownAgain) {
   const CampaignSummary summary = run_campaign(scenario_, resuming("broken"), fly_one_);
   EXPECT_EQ(summary.flown, 1);
   expect_same_files("whole", "broken");
+}
+
+// Bit by bit and cut by cut: what is resumed is right, or refused.
+TEST_F(ResumeTest, ADamagedJournalNeverMakesAWrongTable) {
+  const auto fly_fast = [&](int index) {
+    ThrowResult result = blank_result(scenario_, index);
+    result.flown = flown(index % 3 == 0);
+    result.none = flown(true);
+    return result;
+  };
+  run_campaign(scenario_, options("whole"), fly_fast);
+  const std::string whole = read(root_ / "whole" / "results.bin");
+  RandomStream random(2, 0, "damage");
+  int refused = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const auto at = static_cast<std::size_t>(random.uniform(0, static_cast<double>(whole.size())));
+    std::string damaged = trial % 3 == 0 ? whole.substr(0, at) : whole;
+    if (trial % 3 != 0) damaged[at] = static_cast<char>(damaged[at] ^ (1 << trial % 8));
+    fs::remove_all(root_ / "damaged");
+    fs::copy(root_ / "whole", root_ / "damaged");
+    std::ofstream(root_ / "damaged" / "results.bin", std::ios::binary) << damaged;
+    try {
+      run_campaign(scenario_, resuming("damaged"), fly_fast);
+      expect_same_files("whole", "damaged");
+    } catch (const IoError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("results.bin"));
+      ++refused;
+    }
+  }
+  EXPECT_LT(refused, 60);
 }
 
 }  // namespace

@@ -1,0 +1,21 @@
+#include "sim/gate/csv_table.h"
+
+#include "sim/campaign/csv.h"
+#include "sim/gate/comparison.h"
+#include "tests/fuzz/inputs.h"
+
+namespace dodgesim::fuzz {
+
+bool csv(Bytes bytes) {
+  return accepts([&] {
+    const CsvTable table(text_of(bytes), "fuzz.csv");
+    std::size_t cells = 0;
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+      for (const std::string& column : table.columns()) cells += table.at(row, column).size();
+    }
+    require(cells <= bytes.size(), "cells hold no more than the file");
+    compare(outcomes(table), outcomes(table));
+  });
+}
+
+}  // namespace dodgesim::fuzz
