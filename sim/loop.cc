@@ -4,6 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/config/resolve_throw.h"
+#include "sim/explain_throw.h"
 #include "sim/world/room_ray.h"
 
 namespace dodgesim {
@@ -95,8 +96,9 @@ void copy_throw(const Throw& toss, ThrowResult& result) {
   result.launch_us = toss.launch_us;
 }
 
-void copy_record(FlightRecord&& record, ThrowResult& result) {
+void copy_record(const FlightRecord& record, ThrowResult& result) {
   result.first_detection_us = record.first_detection_us;
+  result.first_detection_t_us = record.first_detection_t_us;
   result.first_detection_distance_m = record.first_detection_distance_m;
   result.first_command_us = record.first_command_us;
   result.evaded = record.first_command_us.has_value();
@@ -105,7 +107,7 @@ void copy_record(FlightRecord&& record, ThrowResult& result) {
   result.events_lost = record.events_lost;
   result.events_hash = record.events_hash;
   result.duration_us = record.last.t_us;
-  result.detection_rows = std::move(record.rows);
+  result.detection_rows = record.rows;
 }
 
 }  // namespace
@@ -134,18 +136,23 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
 
 ThrowResult fly_throw(const Scenario& scenario, int throw_index, FlightObserver* observer) {
   ThrowResult result;
+  FlightRecord none;
   result.index = throw_index;
   const FlightPlan plan = plan_throw(scenario, throw_index);
   if (!plan.launches.empty()) {
     copy_throw(plan.launches.front().toss, result);
-    result.none = attempt(scenario, plan, "none");
+    result.none = attempt(scenario, plan, "none", nullptr, &none);
     if (scenario.fly_oracle) result.oracle = attempt(scenario, plan, "oracle");
   }
   FlightRecord record;
   FlightTiming timing;
   result.flown = attempt(scenario, plan, scenario.pilot, observer, &record, &timing);
   for (DetectionRow& row : record.rows) row.throw_index = throw_index;
-  copy_record(std::move(record), result);
+  copy_record(record, result);
+  if (result.flown.ok()) {
+    explain_throw(plan, result.none.ok() ? &none : nullptr, record, result);
+    result.trajectory = to_bytes(record.testimony.trajectory);
+  }
   result.wall_s = timing.total_s;
   return result;
 }

@@ -120,6 +120,7 @@ std::string to_bytes(const ThrowResult& result) {
   ThrowResult copy = result;
   ByteWriter writer;
   copy.visit(writer);
+  writer("", copy.trajectory);
   writer("", copy.wall_s);
   write_rows(writer, copy.detection_rows);
   write_rows(writer, copy.truth_rows);
@@ -130,6 +131,7 @@ ThrowResult result_from_bytes(std::string_view bytes) {
   ThrowResult result;
   ByteReader reader(bytes);
   result.visit(reader);
+  reader("", result.trajectory);
   reader("", result.wall_s);
   read_rows(reader, result.detection_rows);
   read_rows(reader, result.truth_rows);
