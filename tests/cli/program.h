@@ -14,10 +14,9 @@ struct Outcome {
   std::string output;  // standard output and error
 };
 
-inline Outcome dodgesim(const std::string& arguments) {
-  const std::string command =
-      std::string(DODGESIM_BINARY_DIR) + "/dodgesim " + arguments + " 2>&1 </dev/null";
-  FILE* pipe = ::popen(command.c_str(), "r");
+// Of a shell's command.
+inline Outcome output_of(const std::string& command) {
+  FILE* pipe = ::popen((command + " 2>&1 </dev/null").c_str(), "r");
   Outcome outcome;
   std::array<char, 4096> buffer;
   while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe)) {
@@ -26,6 +25,10 @@ inline Outcome dodgesim(const std::string& arguments) {
   const int status = ::pclose(pipe);
   if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
   return outcome;
+}
+
+inline Outcome dodgesim(const std::string& arguments) {
+  return output_of(std::string(DODGESIM_BINARY_DIR) + "/dodgesim " + arguments);
 }
 
 }  // namespace dodgesim::testing

@@ -11,6 +11,7 @@
 
 #include "sim/campaign/campaign.h"
 #include "sim/campaign/progress.h"
+#include "sim/campaign/report.h"
 #include "sim/event_truth.h"
 #include "sim/loop.h"
 #include "sim/render/osmesa_context.h"
@@ -89,9 +90,10 @@ int run(const Arguments& arguments) {
     return kIncomplete;
   }
   std::cout << summary.table;
-  std::printf("%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n",
+  std::printf("%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n"
+              "Report, for any browser: %s\n",
               count_of_throws(summary.wanted).c_str(), duration_text(summary.wall_s).c_str(),
-              summary.real_time_factor, options.out.c_str());
+              summary.real_time_factor, options.out.c_str(), (options.out / kReportFile).c_str());
   if (summary.flown > 0) {
     std::printf("Memory of a worker: %.0f MB after its first throw, %.0f MB after its last\n",
                 summary.memory.first_mb, summary.memory.last_mb);
@@ -155,8 +157,9 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
   add_models_option(*command, arguments->models_dir);
   command->footer(
       "Writes to DIR: table.md and table.csv (dodged / would have hit, with 95 % intervals),\n"
-      "throws.csv (a row a throw), detections.csv, timing.csv, scenario.resolved.yaml and\n"
-      "manifest.json (commit, versions, machine). results.bin has every result as it comes: after\n"
+      "report.html (charts, and every throw in 3-D), throws.csv (a row a throw), detections.csv,\n"
+      "timing.csv, scenario.resolved.yaml and manifest.json (commit, versions, machine).\n"
+      "results.bin has every result as it comes: after\n"
       "Ctrl-C, a kill or a full disk, --resume goes on from there. A throw that crashes, hangs or\n"
       "needs too much memory fails with its reason and never counts as a success.\n\n"
       "Examples:\n"
