@@ -19,6 +19,8 @@ inline constexpr int kIoError = 4;     // a file could not be read or written
 // Each adds its subcommand, which sets `exit_code` when it is run. Errors leave as exceptions.
 void add_run_command(CLI::App& program, const std::string& command_line, int& exit_code);
 void add_merge_command(CLI::App& program, const std::string& command_line, int& exit_code);
+void add_compare_command(CLI::App& program, int& exit_code);
+void add_gate_command(CLI::App& program, const std::string& command_line, int& exit_code);
 void add_table_command(CLI::App& program, int& exit_code);
 void add_report_command(CLI::App& program, int& exit_code);
 void add_replay_command(CLI::App& program, int& exit_code);

@@ -1,20 +1,13 @@
 // dodgesim run: flies a campaign.
-#include <unistd.h>
-
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <thread>
 
-#include "sim/campaign/campaign.h"
 #include "sim/campaign/progress.h"
 #include "sim/campaign/report.h"
-#include "sim/event_truth.h"
-#include "sim/loop.h"
-#include "sim/render/osmesa_context.h"
+#include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -29,27 +22,6 @@ struct Arguments {
   std::optional<std::uint64_t> seed;
   std::string shard;
 };
-
-// Set by a signal that asks for the end. A second one ends the program at once.
-volatile std::sig_atomic_t stop_signal = 0;
-
-void ask_to_stop(int signal) { stop_signal = signal; }
-
-void watch_signals() {
-  struct sigaction action {};
-  action.sa_handler = ask_to_stop;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-}
-
-ThrowResult fly_with_truth(const Scenario& scenario, int index) {
-  EventTruth truth;
-  ThrowResult result = fly_throw(scenario, index, &truth);
-  result.truth_rows = truth.rows();
-  for (EventTruthRow& row : result.truth_rows) row.throw_index = index;
-  return result;
-}
 
 void warn_of_lost_events(const std::vector<ThrowResult>& results) {
   std::int64_t lost = 0;
@@ -75,20 +47,8 @@ int run(const Arguments& arguments) {
     options.shard =
         parse_shard(arguments.shard, [](const char* name) { return std::getenv(name); });
   }
-  watch_signals();
-  options.stop = [] { return stop_signal != 0; };
-  options.show_progress = ::isatty(STDERR_FILENO) == 1;
-  options.gl_renderer = [] { return OsmesaContext(GlProfile::kCore33, 1, 1).renderer(); };
-  const CampaignSummary summary = run_campaign(scenario, options, [&](int index) {
-    return options.truth ? fly_with_truth(scenario, index) : fly_throw(scenario, index);
-  });
-
-  if (!summary.complete()) {
-    std::cerr << "Stopped after " << summary.results.size() << " of "
-              << count_of_throws(summary.wanted) << "; the same command with --resume flies the "
-              << "rest.\n";
-    return kIncomplete;
-  }
+  const CampaignSummary summary = fly_campaign(scenario, options);
+  if (!summary.complete()) return report_stop(summary);
   std::cout << summary.table;
   std::printf("%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n"
               "Report, for any browser: %s\n",
@@ -112,45 +72,21 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
   auto arguments = std::make_shared<Arguments>();
   CampaignOptions& options = arguments->options;
   options.command_line = command_line;
-  options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  constexpr double kTimeLimitS = 600;
-  constexpr std::int64_t kMemoryLimitMb = 4096;
-  options.limits = {kTimeLimitS, kMemoryLimitMb};
-
   CLI::App* command =
       program.add_subcommand("run", "Fly all throws of a scenario and write tables of success");
   command->add_option("scenario", arguments->scenario, "The scenario's YAML file")
       ->required()
       ->type_name("SCENARIO.yaml");
-  command->add_option("--out", options.out, "Where the results go; made when missing")
-      ->required()
-      ->type_name("DIR");
-  command->add_option("-j,--jobs", options.jobs, "Worker processes; results do not depend on it")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+  add_campaign_options(*command, options);
   command->add_option("--throws", arguments->throws, "Number of throws, in place of repeats")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--seed", arguments->seed, "Seed, in place of the scenario's");
-  CLI::Option* force =
-      command->add_flag("--force", options.force, "Start anew, whatever results are in DIR");
-  command->add_flag("--resume", options.resume, "Fly only the throws that DIR has no results of")
-      ->excludes(force);
   command
       ->add_option("--shard", arguments->shard,
                    "Fly only a part: INDEX/COUNT (from 0), auto/COUNT (the index from\n"
                    "SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX or AWS_BATCH_JOB_ARRAY_INDEX) or\n"
                    "auto (Slurm: the count, too); see dodgesim merge")
       ->type_name("PART");
-  command
-      ->add_option("--time-limit", options.limits.wall_s,
-                   "Seconds of computing after which a throw is given up; 0: never")
-      ->check(CLI::Range(0.0, 1e6))
-      ->capture_default_str();
-  command
-      ->add_option("--memory-limit", options.limits.memory_mb,
-                   "Address space of a worker [MB]; a throw that needs more fails; 0: no limit")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
   command->add_flag("--truth", options.truth,
                     "Also write truth.csv: of the events that the pilot takes for an obstacle's,\n"
                     "how many an object made, and of those that it made, how many are found");

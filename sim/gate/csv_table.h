@@ -1,0 +1,33 @@
+// A CSV file (RFC 4180) as text, such as the throws.csv of a campaign.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dodgesim {
+
+class CsvTable {
+ public:
+  // The first row names the columns. Throws IoError, with file and line, if the file cannot be read
+  // or a row has another number of cells, a column's name comes twice or a quote is not closed.
+  explicit CsvTable(const std::filesystem::path& path);
+  // `name` opens the messages about `text`.
+  CsvTable(std::string_view text, std::string name);
+
+  std::size_t rows() const { return rows_.size(); }
+  const std::vector<std::string>& columns() const { return columns_; }
+  bool has(const std::string& column) const { return index_.count(column) > 0; }
+  // Throws IoError if there is no such column. Requires row < rows().
+  const std::string& at(std::size_t row, const std::string& column) const;
+
+ private:
+  std::string name_;
+  std::vector<std::string> columns_;
+  std::map<std::string, std::size_t> index_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+}  // namespace dodgesim

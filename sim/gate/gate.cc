@@ -1,0 +1,151 @@
+#include "sim/gate/gate.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+namespace dodgesim {
+
+namespace {
+
+using Result = GateCheck::Result;
+
+std::string list_of(const std::vector<std::string>& items) {
+  constexpr std::size_t kMost = 10;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(items.size(), kMost); ++i) {
+    text += (i == 0 ? "" : ", ") + items[i];
+  }
+  if (items.size() > kMost) text += " and " + std::to_string(items.size() - kMost) + " more";
+  return text;
+}
+
+GateCheck every_throw_flew(const CsvTable& flown) {
+  std::vector<std::string> failed;
+  for (std::size_t row = 0; row < flown.rows(); ++row) {
+    for (const char* flight : {"flown", "none", "oracle"}) {
+      if (flown.at(row, flight + std::string("_status")) != "error") continue;
+      failed.push_back(flown.at(row, "throw") + " (" + flight + ": " +
+                       flown.at(row, flight + std::string("_error")) + ")");
+    }
+  }
+  GateCheck check{"every throw was flown", Result::kPassed, ""};
+  if (failed.empty()) return check;
+  return {check.name, Result::kFailed, "throws that failed: " + list_of(failed)};
+}
+
+GateCheck rate_holds(const Comparison& comparison, const GateRules& rules) {
+  const DropVerdict drop = judge_drop(comparison.counts, rules.margin, rules.confidence);
+  char text[160];
+  if (drop.fell) {
+    std::snprintf(text, sizeof text,
+                  "it fell by %.3f, surely more than the margin of %g (p = %.2g)", drop.drop,
+                  rules.margin, drop.p_fell);
+  } else if (drop.kept) {
+    std::snprintf(text, sizeof text, "surely not lower by the margin of %g (p = %.2g)",
+                  rules.margin, drop.p_kept);
+  } else {
+    std::snprintf(text, sizeof text,
+                  "no proof that it fell by more than %g, nor that it did not: %lld throws are few",
+                  rules.margin, static_cast<long long>(comparison.counts.total()));
+  }
+  return {"success rate", drop.fell ? Result::kFailed : Result::kPassed, text};
+}
+
+// Whether a column must keep its bytes.
+bool is_physics(const std::string& column) {
+  return column.rfind("none_", 0) == 0 ||
+         std::find(drawn_columns().begin(), drawn_columns().end(), column) != drawn_columns().end();
+}
+
+GateCheck bytes_equal(const CsvTable& before, const CsvTable& after, const GateRules& rules) {
+  std::map<std::string, std::size_t> rows;
+  for (std::size_t row = 0; row < after.rows(); ++row) rows[after.at(row, "throw")] = row;
+  std::vector<std::string> changed;
+  for (std::size_t row = 0; row < before.rows(); ++row) {
+    for (const std::string& column : before.columns()) {
+      if (rules.must_equal == "physics" && !is_physics(column)) continue;
+      const std::string& number = before.at(row, "throw");
+      const std::string& is = after.at(rows.at(number), column);
+      if (before.at(row, column) == is) continue;
+      changed.push_back("throw " + number + " " + column + " was " + before.at(row, column) +
+                        ", is " + is);
+      break;
+    }
+  }
+  GateCheck check{rules.must_equal == "all" ? "same bytes" : "same bytes of the physics",
+                  Result::kPassed, ""};
+  if (changed.empty()) return check;
+  return {check.name, Result::kFailed,
+          std::to_string(changed.size()) + " throws changed: " + list_of(changed)};
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') {
+      out += c;
+    } else {
+      out += '?';  // no other control character may stand in XML
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+bool GateVerdict::passed() const {
+  return std::none_of(checks.begin(), checks.end(),
+                      [](const GateCheck& c) { return c.result == Result::kFailed; });
+}
+
+GateVerdict judge(const Baseline& baseline, const CsvTable& flown, const std::string& machine_kind,
+                  const GateRules& rules) {
+  GateVerdict verdict;
+  verdict.comparison = compare(outcomes(baseline.throws), outcomes(flown));
+  verdict.checks.push_back(every_throw_flew(flown));
+  verdict.checks.push_back(rate_holds(verdict.comparison, rules));
+  if (rules.must_equal == "nothing") return verdict;
+  GateCheck bytes = bytes_equal(baseline.throws, flown, rules);
+  if (machine_kind != baseline.machine_kind) {
+    bytes.result = Result::kLeftOut;
+    bytes.reason = "the baseline is of another kind of machine, or of other libraries";
+  }
+  verdict.checks.push_back(std::move(bytes));
+  return verdict;
+}
+
+std::string junit_xml(const GateVerdict& verdict, const std::string& name,
+                      const std::string& text) {
+  std::string cases;
+  int failed = 0, left_out = 0;
+  for (const GateCheck& check : verdict.checks) {
+    cases +=
+        "    <testcase classname=\"" + escaped(name) + "\" name=\"" + escaped(check.name) + "\"";
+    if (check.result == Result::kFailed) {
+      ++failed;
+      cases += "><failure message=\"" + escaped(check.reason) + "\"/></testcase>\n";
+    } else if (check.result == Result::kLeftOut) {
+      ++left_out;
+      cases += "><skipped message=\"" + escaped(check.reason) + "\"/></testcase>\n";
+    } else {
+      cases += "/>\n";
+    }
+  }
+  const std::string counts = " tests=\"" + std::to_string(verdict.checks.size()) +
+                             "\" failures=\"" + std::to_string(failed) + "\" skipped=\"" +
+                             std::to_string(left_out) + "\"";
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + counts +
+         ">\n  <testsuite name=\"" + escaped(name) + "\"" + counts + ">\n" + cases +
+         "    <system-out>" + escaped(text) + "</system-out>\n  </testsuite>\n</testsuites>\n";
+}
+
+}  // namespace dodgesim

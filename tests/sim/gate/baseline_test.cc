@@ -1,0 +1,89 @@
+#include "sim/gate/baseline.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "sim/base/error.h"
+#include "sim/files/output_file.h"
+#include "tests/sim/gate/outcomes_fixture.h"
+
+namespace dodgesim {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+constexpr const char* kManifest =
+    R"({"program": {"commit": "abc", "compiler": "g++", "build_type": "Release"},
+        "libraries": {"mujoco": "2.2"}, "machine": {"cpu_flags": "sse avx"},
+        "time": {"wall_s": 3}})";
+
+class BaselineTest : public ::testing::Test {
+ protected:
+  BaselineTest() {
+    fs::create_directories(campaign_);
+    write("throws.csv", "throw\n0\n");
+    write("scenario.resolved.yaml", "seed: 1\n");
+    write("table.md", "# t\n");
+    write("manifest.json", kManifest);
+  }
+  ~BaselineTest() override { fs::remove_all(root_); }
+
+  void write(const char* name, const std::string& text) { write_file(campaign_ / name, text); }
+
+  fs::path root_ = fs::temp_directory_path() / ("dodgesim_baseline_" + std::to_string(::getpid()));
+  fs::path campaign_ = root_ / "campaign", baseline_ = root_ / "baselines/b";
+};
+
+TEST_F(BaselineTest, ReadsBackWhatWasMade) {
+  write_baseline(baseline_, campaign_, {0.1, 0.9, "all"});
+  const Baseline baseline = read_baseline(baseline_);
+  EXPECT_EQ(baseline.throws.rows(), 1U);
+  EXPECT_EQ(baseline.scenario, "seed: 1\n");
+  EXPECT_EQ(baseline.commit, "abc");
+  EXPECT_EQ(baseline.rules.margin, 0.1);
+  EXPECT_EQ(baseline.rules.confidence, 0.9);
+  EXPECT_EQ(baseline.rules.must_equal, "all");
+  EXPECT_EQ(baseline.machine_kind, machine_kind(campaign_));
+}
+
+TEST_F(BaselineTest, ReplacesAnEarlierOneWhole) {
+  write_baseline(baseline_, campaign_, {});
+  write("throws.csv", "throw\n0\n1\n");
+  write_baseline(baseline_, campaign_, {});
+  EXPECT_EQ(read_baseline(baseline_).throws.rows(), 2U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "baselines"), {}), 1)
+      << "nothing is left beside it";
+}
+
+TEST_F(BaselineTest, KeepsTheEarlierOneWhenTheCampaignIsBroken) {
+  write_baseline(baseline_, campaign_, {});
+  fs::remove(campaign_ / "table.md");
+  EXPECT_THROW(write_baseline(baseline_, campaign_, {0.2, 0.95, "all"}), IoError);
+  EXPECT_EQ(read_baseline(baseline_).rules.must_equal, "physics");
+}
+
+TEST_F(BaselineTest, SaysWhatIsBroken) {
+  write_baseline(baseline_, campaign_, {});
+  write_file(baseline_ / "manifest.json", "{");
+  EXPECT_THAT([&] { read_baseline(baseline_); },
+              ThrowsMessage<IoError>(HasSubstr("manifest.json is no manifest of a campaign")));
+  write_file(baseline_ / "manifest.json", kManifest);
+  EXPECT_THAT([&] { read_baseline(baseline_); },
+              ThrowsMessage<IoError>(HasSubstr("manifest.json lacks a value")));
+  EXPECT_THROW(read_baseline(root_ / "nothing"), IoError);
+}
+
+TEST_F(BaselineTest, TellsKindsOfMachinesApart) {
+  const std::string kind = machine_kind(campaign_);
+  write("manifest.json",
+        std::string(kManifest).replace(std::string(kManifest).find("avx"), 3, "neon"));
+  EXPECT_NE(machine_kind(campaign_), kind);
+}
+
+}  // namespace
+}  // namespace dodgesim

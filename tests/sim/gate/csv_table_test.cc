@@ -1,0 +1,53 @@
+#include "sim/gate/csv_table.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/base/error.h"
+#include "sim/campaign/csv.h"
+
+namespace dodgesim {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(CsvTable, reads_cells_by_column) {
+  const CsvTable table("a,b\n1,two\n\"x,\"\"y\"\"\",\n", "t.csv");
+  ASSERT_EQ(table.rows(), 2U);
+  EXPECT_EQ(table.at(0, "b"), "two");
+  EXPECT_EQ(table.at(1, "a"), "x,\"y\"");
+  EXPECT_EQ(table.at(1, "b"), "");
+  EXPECT_TRUE(table.has("a"));
+  EXPECT_FALSE(table.has("c"));
+}
+
+TEST(CsvTable, reads_back_what_was_written) {
+  for (const std::string text : {"plain", "", "a,b", "say \"no\"", "\"", ",", "\"\",\""}) {
+    const CsvTable table("v,w\n" + csv_cell(text) + "," + csv_cell(text) + "\n", "t.csv");
+    EXPECT_EQ(table.at(0, "v"), text);
+    EXPECT_EQ(table.at(0, "w"), text);
+  }
+}
+
+TEST(CsvTable, takes_line_ends_of_any_kind) {
+  const CsvTable table("a,b\r\n1,2\r\n3,4", "t.csv");
+  ASSERT_EQ(table.rows(), 2U);
+  EXPECT_EQ(table.at(1, "b"), "4");
+}
+
+TEST(CsvTable, says_where_a_file_is_broken) {
+  const auto read = [](const char* text) { return [text] { CsvTable(text, "t.csv"); }; };
+  EXPECT_THAT(read("a,b\n1\n"),
+              ThrowsMessage<IoError>(HasSubstr("t.csv:2: There are 1 cells, not 2.")));
+  EXPECT_THAT(read("a\n\"x\n"), ThrowsMessage<IoError>(HasSubstr("t.csv:2: A quote is not")));
+  EXPECT_THAT(read("a,a\n"), ThrowsMessage<IoError>(HasSubstr("\"a\" comes twice")));
+  EXPECT_THAT(read("a\n\"x\"y\n"), ThrowsMessage<IoError>(HasSubstr("behind a closed quote")));
+  EXPECT_THAT(read("a\nx\"y\n"), ThrowsMessage<IoError>(HasSubstr("within a cell")));
+  EXPECT_THAT([] { CsvTable("a\n1\n", "t.csv").at(0, "b"); },
+              ThrowsMessage<IoError>(HasSubstr("t.csv has no column \"b\"")));
+  EXPECT_THROW(CsvTable(std::filesystem::path("/nowhere/throws.csv")), IoError);
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,59 @@
+// dodgesim compare: two campaigns side by side.
+#include <iostream>
+#include <memory>
+
+#include "sim/gate/comparison.h"
+#include "tools/commands/command.h"
+
+namespace dodgesim {
+
+namespace {
+
+struct Arguments {
+  std::filesystem::path first, second;
+};
+
+void print_changes(const std::string& heading, const std::vector<ChangedThrow>& changes) {
+  if (changes.empty()) return;
+  std::cout << heading << ":\n";
+  for (const ChangedThrow& change : changes) {
+    std::cout << "  throw " << change.number << " (" << change.label << "): " << change.before
+              << ", then " << change.after << "\n";
+  }
+}
+
+int compare_campaigns(const Arguments& arguments) {
+  const auto read = [](const std::filesystem::path& directory) {
+    return outcomes(CsvTable(directory / "throws.csv"));
+  };
+  const Comparison comparison = compare(read(arguments.first), read(arguments.second));
+  std::cout << comparison_text(comparison, arguments.first.string(), arguments.second.string());
+  print_changes("Lost", comparison.lost);
+  print_changes("Gained", comparison.gained);
+  return kOk;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      program.add_subcommand("compare", "Compare the success rates of two campaigns");
+  command->add_option("first", arguments->first, "What run --out wrote")
+      ->required()
+      ->type_name("DIR1");
+  command->add_option("second", arguments->second, "What another run --out wrote")
+      ->required()
+      ->type_name("DIR2");
+  command->footer(
+      "Success is to dodge a throw that would have hit or, where nobody throws, not to evade.\n"
+      "Campaigns of the same seed and throws are compared throw by throw (McNemar's exact test),\n"
+      "others as independent samples (Boschloo's exact test). Intervals are of 95 %.\n\n"
+      "Example:\n"
+      "  dodgesim run s.yaml --out paper\n"
+      "  dodgesim run s.yaml --out told --set pilot=oracle\n"
+      "  dodgesim compare paper told");
+  command->callback([arguments, &exit_code] { exit_code = compare_campaigns(*arguments); });
+}
+
+}  // namespace dodgesim

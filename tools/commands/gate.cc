@@ -1,0 +1,176 @@
+// dodgesim gate: flies a baseline's throws and fails when they went worse.
+#include "sim/gate/gate.h"
+
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "sim/base/error.h"
+#include "sim/campaign/csv.h"
+#include "sim/files/output_file.h"
+#include "sim/gate/scenario_changes.h"
+#include "tools/commands/campaign_options.h"
+#include "tools/commands/command.h"
+
+namespace dodgesim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string scenario;
+  std::string models_dir;
+  fs::path baseline;
+  fs::path junit;
+  bool update = false;
+  std::optional<double> margin, confidence;
+  std::optional<std::string> must_equal;
+  CampaignOptions options;
+};
+
+GateRules rules_of(const Arguments& arguments, const std::optional<Baseline>& baseline) {
+  GateRules rules = baseline ? baseline->rules : GateRules{};
+  rules.margin = arguments.margin.value_or(rules.margin);
+  rules.confidence = arguments.confidence.value_or(rules.confidence);
+  rules.must_equal = arguments.must_equal.value_or(rules.must_equal);
+  return rules;
+}
+
+// Other throws cannot be compared one by one: found out before hours of flying.
+void expect_same_throws(const Scenario& scenario, const Baseline& baseline, const fs::path& where) {
+  std::string text = csv_header<ThrowResult>();
+  for (int i = 0; i < scenario.repeats; ++i) text += csv_row(blank_result(scenario, i));
+  const auto drawn = outcomes(CsvTable(text, "the scenario's throws"));
+  const auto before = outcomes(baseline.throws);
+  const std::string remedy = "; to make a new baseline of this scenario, add --update.";
+  if (drawn.size() != before.size()) {
+    throw ScenarioError("The scenario has " + std::to_string(drawn.size()) + " throws, " +
+                        where.string() + " has " + std::to_string(before.size()) + remedy);
+  }
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    if (drawn[i].draw == before[i].draw) continue;
+    throw ScenarioError("Throw " + std::to_string(i) + " is another one (" + drawn[i].label +
+                        ") than in " + where.string() + " (" + before[i].label + ")" + remedy);
+  }
+}
+
+void list_changes(const std::string& heading, const std::vector<ChangedThrow>& changes,
+                  const fs::path& out, std::ostream& text) {
+  if (changes.empty()) return;
+  text << heading << ":\n";
+  for (const ChangedThrow& change : changes) {
+    text << "  throw " << change.number << " (" << change.label << "): " << change.before
+         << ", now " << change.after << "\n    dodgesim replay " << out.string() << " --throw "
+         << change.number << " --picture throw" << change.number << ".png\n";
+  }
+}
+
+std::string verdict_text(const Arguments& arguments, const Scenario& scenario,
+                         const Baseline& baseline, const GateVerdict& verdict) {
+  std::ostringstream text;
+  const auto changes = scenario_changes(baseline.scenario, to_yaml(scenario));
+  if (!changes.empty()) text << "The scenario is not the baseline's:\n";
+  for (const std::string& change : changes) text << "  " << change << "\n";
+  text << comparison_text(verdict.comparison,
+                          arguments.baseline.string() + " (commit " + baseline.commit + ")",
+                          arguments.options.out.string());
+  list_changes("Lost", verdict.comparison.lost, arguments.options.out, text);
+  list_changes("Gained", verdict.comparison.gained, arguments.options.out, text);
+  for (const GateCheck& check : verdict.checks) {
+    const char* result = check.result == GateCheck::Result::kPassed   ? "passed"
+                         : check.result == GateCheck::Result::kFailed ? "FAILED"
+                                                                      : "left out";
+    text << result << ": " << check.name << (check.reason.empty() ? "" : ": ") << check.reason
+         << "\n";
+  }
+  return text.str();
+}
+
+int update(const Arguments& arguments, const GateRules& rules, const CampaignSummary& summary) {
+  std::cout << summary.table;
+  if (summary.errors > 0) {
+    std::cerr << count_of_throws(summary.errors) << " could not be flown: no baseline is made.\n";
+    return kIncomplete;
+  }
+  write_baseline(arguments.baseline, arguments.options.out, rules);
+  std::cout << "Baseline: " << arguments.baseline.string() << "\n";
+  return kOk;
+}
+
+int gate(const Arguments& arguments) {
+  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir);
+  std::optional<Baseline> baseline;
+  if (fs::exists(arguments.baseline)) {
+    baseline.emplace(read_baseline(arguments.baseline));
+  } else if (!arguments.update) {
+    throw ScenarioError("There is no baseline " + arguments.baseline.string() +
+                        "; add --update to make it.");
+  }
+  const GateRules rules = rules_of(arguments, baseline);
+  if (!arguments.update) expect_same_throws(scenario, *baseline, arguments.baseline);
+
+  const CampaignSummary summary = fly_campaign(scenario, arguments.options);
+  if (!summary.complete()) return report_stop(summary);
+  if (arguments.update) return update(arguments, rules, summary);
+
+  const fs::path& out = arguments.options.out;
+  const GateVerdict verdict =
+      judge(*baseline, CsvTable(out / "throws.csv"), machine_kind(out), rules);
+  const std::string text = verdict_text(arguments, scenario, *baseline, verdict);
+  write_file(arguments.junit.empty() ? out / "junit.xml" : arguments.junit,
+             junit_xml(verdict, scenario.name, text));
+  std::cout << text;
+  return verdict.passed() ? kOk : kBelowBar;
+}
+
+void add_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("scenario", arguments.scenario, "The scenario's YAML file")
+      ->required()
+      ->type_name("SCENARIO.yaml");
+  command.add_option("--baseline", arguments.baseline, "What to compare with")
+      ->required()
+      ->type_name("DIR");
+  add_campaign_options(command, arguments.options);
+  command.add_flag("--update", arguments.update,
+                   "Make this campaign the baseline, with the rules below");
+  command
+      .add_option("--margin", arguments.margin,
+                  "The success rate may fall by so much, in place of the baseline's (0.05)")
+      ->check(CLI::Range(0.0, 0.99));
+  command
+      .add_option("--confidence", arguments.confidence,
+                  "How sure the fall must be, in place of the baseline's (0.95)")
+      ->check(CLI::Range(0.5, 0.9999));
+  command
+      .add_option("--must-equal", arguments.must_equal,
+                  "What may not change by a byte on machines of one kind: nothing, physics (the\n"
+                  "throws, and where they go when nobody dodges) or all; in place of the\n"
+                  "baseline's (physics)")
+      ->check(CLI::IsMember({"nothing", "physics", "all"}));
+  command.add_option("--junit", arguments.junit, "The verdict as JUnit XML [DIR/junit.xml]")
+      ->type_name("FILE");
+  add_models_option(command, arguments.models_dir);
+}
+
+}  // namespace
+
+void add_gate_command(CLI::App& program, const std::string& command_line, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  arguments->options.command_line = command_line;
+  CLI::App* command = program.add_subcommand(
+      "gate", "Fly the throws of a baseline again, and fail if they went worse");
+  add_options(*command, *arguments);
+  command->footer(
+      "Compares throw by throw. Exit code 1: the success rate fell by more than the margin with "
+      "the\n"
+      "confidence, a throw could not be flown, or bytes changed that must not. Prints the throws\n"
+      "that changed, and how to look at them.\n\n"
+      "Examples:\n"
+      "  dodgesim gate s.yaml --baseline baselines/s --out out/s --update      once\n"
+      "  dodgesim gate s.yaml --baseline baselines/s --out out/s --force       after each change");
+  command->callback([arguments, &exit_code] { exit_code = gate(*arguments); });
+}
+
+}  // namespace dodgesim
