@@ -22,12 +22,6 @@ double seconds_since(WallClock::time_point start) {
   return std::chrono::duration<double>(WallClock::now() - start).count();
 }
 
-WorldSpec world_spec(const Scenario& scenario, const FlightPlan& plan) {
-  WorldSpec spec{scenario.models_dir, scenario.room, scenario.vehicle, {}};
-  for (const auto& launch : plan.launches) spec.objects.push_back(launch.toss.object);
-  return spec;
-}
-
 ImuSpec every_tick(ImuSpec spec) {
   spec.rate_hz = static_cast<int>(1000000 / kTickUs);
   return spec;
@@ -37,6 +31,16 @@ std::array<double, 3> to_array(const Eigen::Vector3d& v) { return {v.x(), v.y(),
 
 }  // namespace
 
+WorldSpec world_spec(const Scenario& scenario, const std::vector<FlightPlan::Launch>& launches) {
+  WorldSpec spec;
+  spec.models_dir = scenario.models_dir;
+  spec.room = scenario.room;
+  spec.vehicle = scenario.vehicle;
+  spec.vehicle_overrides = scenario.vehicle_overrides;
+  for (const auto& launch : launches) spec.objects.push_back(launch.toss.object);
+  return spec;
+}
+
 Intrinsics intrinsics(const CameraSpec& camera) {
   return {camera.width, camera.height, focal_length_px(camera.width, camera.horizontal_fov_deg)};
 }
@@ -45,7 +49,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
     : scenario_(scenario),
       plan_(plan),
       observer_(observer),
-      world_(world_spec(scenario, plan)),
+      world_(world_spec(scenario, plan.launches)),
       referee_(world_),
       motors_(scenario.motors, world_.vehicle().max_thrust_n),
       flight_controller_(scenario.flight_controller, world_.vehicle(), scenario.motors),
@@ -58,6 +62,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
       computer_(scenario.delays, make_pilot()),
       witness_(world_, witness_setup()),
       rig_(make_rig()),
+      mission_(scenario.mission),
       controller_states_(scenario.delays.state_estimate_us),
       rate_commands_(scenario.delays.command_us + scenario.delays.flight_controller_us) {
   const MissionSpec& mission = scenario.mission;
@@ -68,7 +73,8 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
   motors_.reset(0, {hover_n, hover_n, hover_n, hover_n});
   flight_controller_.reset({hover_n, hover_n, hover_n, hover_n});
   rate_command_.thrust_mps2 = kGravityMps2;
-  computer_.set_goal({mission.goal_m.value_or(mission.start_m), mission.speed_mps});
+  computer_.set_goal(mission_.goal());
+  record_.sightings.resize(plan_.launches.size());
   referee_.reset();
   if (observer_ != nullptr) observer_->on_start(computer_.pilot());
   if (!rig_) return;
@@ -223,6 +229,7 @@ void Flight::decide() {
 void Flight::control() {
   const TimeUs now = now_us();
   controller_states_.deliver(now, [&](const StateReading& state) {
+    if (mission_.update(state.p_W)) computer_.set_goal(mission_.goal());
     rate_commands_.push(now, {controller_.update(state, reference_), reference_});
   });
   rate_commands_.deliver(now, [&](const SentCommand& sent) {
@@ -284,12 +291,17 @@ void Flight::add_truth(const Snapshot& truth, const dodge::Detection& detection,
     row.true_p_W = to_array(p_W);
     row.position_error_m = error_m;
     row.true_depth_m = (X_WC.inverse() * p_W).z();
-    if (error_m < kTrueDetectionM && !record_.first_detection_us) {
-      record_.first_detection_us = row.output_us;
-      record_.first_detection_t_us = row.t_us;
-      record_.first_detection_distance_m = (p_W - X_WC.translation()).norm();
-    }
   }
+  if (!row.object || *row.position_error_m >= kTrueDetectionM) return;
+  const auto object = static_cast<std::size_t>(*row.object);
+  const double distance_m = (truth.objects[object].p_W - X_WC.translation()).norm();
+  if (!record_.first_detection_us) {
+    record_.first_detection_us = row.output_us;
+    record_.first_detection_t_us = row.t_us;
+    record_.first_detection_distance_m = distance_m;
+  }
+  Sighting& sighting = record_.sightings[object];
+  if (!sighting.first_us) sighting = {row.output_us, distance_m};
 }
 
 FlightRecord Flight::record() const {

@@ -16,6 +16,7 @@
 #include "sim/control/flight_controller.h"
 #include "sim/control/velocity_controller.h"
 #include "sim/event_rig.h"
+#include "sim/mission.h"
 #include "sim/motors/motors.h"
 #include "sim/sensors/imu.h"
 #include "sim/sensors/range_sensor.h"
@@ -55,8 +56,17 @@ class FlightObserver {
   virtual void on_command(TimeUs /*now_us*/, bool /*evading*/) {}
 };
 
+// The world in which a scenario's objects fly.
+WorldSpec world_spec(const Scenario& scenario, const std::vector<FlightPlan::Launch>& launches);
+
 // The event cameras' geometry.
 Intrinsics intrinsics(const CameraSpec& camera);
+
+// The first detection of an object.
+struct Sighting {
+  std::optional<TimeUs> first_us;    // its output
+  std::optional<double> distance_m;  // true distance object to camera then
+};
 
 // What a flight leaves behind.
 struct FlightRecord {
@@ -68,6 +78,7 @@ struct FlightRecord {
   std::optional<TimeUs> first_detection_us;  // output of the first detection of a true object
   std::optional<TimeUs> first_detection_t_us;
   std::optional<double> first_detection_distance_m;
+  std::vector<Sighting> sightings;         // of each object
   std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
   int detections = 0;
   std::vector<DetectionRow> rows;
@@ -144,6 +155,7 @@ class Flight {
   std::unique_ptr<EventRig> rig_;  // none for pilots that need no eyes
 
   Snapshot before_;  // the tick's start
+  Mission mission_;
   Eigen::Vector3d gyro_B_radps_ = Eigen::Vector3d::Zero();
   DelayLine<StateReading> controller_states_;
   DelayLine<SentCommand> rate_commands_;

@@ -1,8 +1,10 @@
 #include "sim/loop.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/campaign/campaign.h"
 #include "sim/config/resolve_throw.h"
 #include "sim/explain_throw.h"
 #include "sim/world/room_ray.h"
@@ -84,16 +86,24 @@ FlightResult attempt(const Scenario& scenario, FlightPlan plan, const std::strin
   }
 }
 
-void copy_throw(const Throw& toss, ThrowResult& result) {
-  result.object = toss.object.kind;
-  result.size_m = toss.object.size_m;
-  result.speed_mps = toss.speed_mps;
-  result.distance_m = toss.distance_m;
-  result.bearing_deg = toss.bearing_deg;
-  result.aim_offset_m = {toss.aim_offset_m.x(), toss.aim_offset_m.y()};
-  result.spin_radps = {toss.spin_radps.x(), toss.spin_radps.y(), toss.spin_radps.z()};
-  result.launch_height_m = toss.launch_height_m;
-  result.launch_us = toss.launch_us;
+// What the referee says of an object; nothing if the flight failed.
+Approach approach(const FlightRecord& record, int object) {
+  const auto i = static_cast<std::size_t>(object);
+  return i < record.verdict.objects.size() ? record.verdict.objects[i] : Approach{};
+}
+
+void copy_object(const FlightRecord& record, ObjectRow& row) {
+  const Approach found = approach(record, row.object);
+  row.hit = found.hit;
+  if (found.hit) row.hit_us = found.hit_us;
+  if (found.closest_us >= 0) {
+    row.closest_us = found.closest_us;
+    row.clearance_m = found.clearance_m;
+  }
+  const auto i = static_cast<std::size_t>(row.object);
+  if (i >= record.sightings.size()) return;
+  row.first_detection_us = record.sightings[i].first_us;
+  row.first_detection_distance_m = record.sightings[i].distance_m;
 }
 
 void copy_record(const FlightRecord& record, ThrowResult& result) {
@@ -116,38 +126,45 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
   FlightPlan plan;
   plan.throw_index = throw_index;
   plan.pilot = scenario.pilot;
-  if (!scenario.toss) {
+  if (!scenario.anyone_throws()) {
     plan.end_us = round_to_tick(microseconds(scenario.duration_s));
     return plan;
   }
-  Throw toss = resolve_throw(scenario, throw_index);
-  toss.launch_us = round_to_tick(toss.launch_us);
-  const BodyState vehicle = undisturbed_vehicle(scenario, throw_index, toss.arrival_us());
-  World world({scenario.models_dir, scenario.room, scenario.vehicle, {toss.object}});
+  for (const Throw& toss : resolve_throws(scenario, throw_index)) {
+    plan.launches.push_back({toss, {}});
+  }
+  World world(world_spec(scenario, plan.launches));
   world.reset(scenario.mission.start_m, 0, Eigen::Vector3d::Zero());
-  const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
-  const double heading_rad = std::atan2(x_W.y(), x_W.x());
-  const BodyState launch = solve_throw(toss, world.object(0), vehicle.p_W, heading_rad);
-  check_launch_in_sight(world, vehicle.p_W, launch.p_W, throw_index);
-  plan.launches.push_back({toss, launch});
-  plan.end_us = round_to_tick(toss.arrival_us() + microseconds(scenario.after_s));
+  int object = 0;
+  for (FlightPlan::Launch& launch : plan.launches) {
+    const Throw& toss = launch.toss;
+    const BodyState vehicle = undisturbed_vehicle(scenario, throw_index, toss.arrival_us());
+    const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
+    const double heading_rad = std::atan2(x_W.y(), x_W.x());
+    launch.state = solve_throw(toss, world.object(object++), vehicle.p_W, heading_rad);
+    check_launch_in_sight(world, vehicle.p_W, launch.state.p_W, throw_index);
+    plan.end_us =
+        std::max(plan.end_us, round_to_tick(toss.arrival_us() + microseconds(scenario.after_s)));
+  }
   return plan;
 }
 
-ThrowResult fly_throw(const Scenario& scenario, int throw_index, FlightObserver* observer) {
-  ThrowResult result;
+ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* observer) {
+  const ThrowCase thrown = case_of(campaign, index);
+  const Scenario& scenario = thrown.scenario;
+  ThrowResult result = blank_result(thrown);
   FlightRecord none;
-  result.index = throw_index;
-  const FlightPlan plan = plan_throw(scenario, throw_index);
+  const FlightPlan plan = plan_throw(scenario, thrown.stream);
   if (!plan.launches.empty()) {
-    copy_throw(plan.launches.front().toss, result);
     result.none = attempt(scenario, plan, "none", nullptr, &none);
+    for (ObjectRow& row : result.object_rows) row.none_hit = approach(none, row.object).hit;
     if (scenario.fly_oracle) result.oracle = attempt(scenario, plan, "oracle");
   }
   FlightRecord record;
   FlightTiming timing;
   result.flown = attempt(scenario, plan, scenario.pilot, observer, &record, &timing);
-  for (DetectionRow& row : record.rows) row.throw_index = throw_index;
+  for (ObjectRow& row : result.object_rows) copy_object(record, row);
+  for (DetectionRow& row : record.rows) row.throw_index = index;
   copy_record(record, result);
   if (result.flown.ok()) {
     explain_throw(plan, result.none.ok() ? &none : nullptr, record, result);

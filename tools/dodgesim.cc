@@ -48,6 +48,7 @@ int run_program(int argc, char** argv) {
 
   int exit_code = kOk;
   add_run_command(program, joined(argc, argv), exit_code);
+  add_sweep_command(program, joined(argc, argv), exit_code);
   add_merge_command(program, joined(argc, argv), exit_code);
   add_compare_command(program, exit_code);
   add_gate_command(program, joined(argc, argv), exit_code);

@@ -1,7 +1,11 @@
 #include "sim/base/mujoco.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
+
+#include <mujoco/mjxmacro.h>
 
 #include "sim/base/error.h"
 
@@ -22,6 +26,23 @@ std::string one_line(std::string text) {
     text.replace(at, 1, ", ");
   }
   return text;
+}
+
+template <class T>
+bool all_finite(const T* values, int count) {
+  if constexpr (!std::is_floating_point_v<T>) return true;
+  return std::all_of(values, values + count, [](T value) { return std::isfinite(value); });
+}
+
+// MuJoCo takes "nan" for a number, and compiles it.
+void check_numbers(const mjModel* model, const std::string& label) {
+  MJMODEL_POINTERS_PREAMBLE(model)
+#define X(type, name, rows, columns)                                                   \
+  if (!all_finite(model->name, model->rows * (columns))) {                             \
+    throw ScenarioError(label + ": a number of the model is not finite (" #name ")."); \
+  }
+  MJMODEL_POINTERS
+#undef X
 }
 
 }  // namespace
@@ -53,6 +74,7 @@ MjModelPtr compile_model(const std::string& xml, const std::string& directory,
   if (!model) {
     throw ScenarioError(label + ": the model does not compile: " + one_line(message) + ".");
   }
+  check_numbers(model.get(), label);
   return model;
 }
 

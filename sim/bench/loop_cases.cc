@@ -70,6 +70,7 @@ BenchCase loop_case(const LoopCase& loop) {
       count = std::min(options.throws > 0 ? options.throws : loop.throws, scenario.repeats);
     } else {
       scenario.toss.reset();
+      scenario.throws.clear();
       scenario.duration_s = kHoverS;
     }
     for (int i = 0; i < count; ++i) flights->plans.push_back(plan_throw(scenario, i));

@@ -29,10 +29,13 @@ constexpr std::array<NumericKey, 5> kNumericKeys = {
 // A value that somebody wrote, rather than one drawn from a continuous distribution.
 bool is_round(double value) { return std::abs(value - std::round(value * 1e3) / 1e3) < 1e-12; }
 
-std::string names_of_keys() {
+std::string names_of_keys(const std::vector<ThrowResult>& results) {
   std::string names;
   for (const NumericKey& key : kNumericKeys) names += std::string(key.name) + ", ";
-  return names + "object";
+  names += "object";
+  if (results.empty()) return names;
+  for (const AxisValue& value : results.front().cell_values) names += ", " + value.key;
+  return names;
 }
 
 }  // namespace
@@ -68,38 +71,60 @@ std::vector<Bin> make_bins(const std::vector<double>& values, double width) {
 }
 
 Axis::Axis(const std::string& name, const std::vector<ThrowResult>& results) : name_(name) {
-  if (name == "object") {
-    std::set<std::string> names;
-    for (const ThrowResult& result : results) {
-      if (result.thrown()) names.insert(result.object);
-    }
-    values_.assign(names.begin(), names.end());
-    of_ = [values = values_](const ThrowResult& result) -> std::optional<std::size_t> {
-      const auto at = std::find(values.begin(), values.end(), result.object);
-      if (at == values.end()) return std::nullopt;
-      return static_cast<std::size_t>(at - values.begin());
-    };
-    return;
-  }
   const auto key = std::find_if(kNumericKeys.begin(), kNumericKeys.end(),
                                 [&](const NumericKey& k) { return k.name == name; });
-  if (key == kNumericKeys.end()) {
-    throw ScenarioError("Throws cannot be told apart by \"" + name +
-                        "\"; known: " + names_of_keys() + ".");
+  if (key != kNumericKeys.end()) {
+    set_numeric(results, key->value, key->bin);
+  } else if (name == "object") {
+    set_names(results, [](const ThrowResult& r) {
+      return r.thrown() ? std::optional(r.object) : std::nullopt;
+    });
+  } else {
+    const auto value = [name](const ThrowResult& r) -> std::optional<std::string> {
+      for (const AxisValue& of_cell : r.cell_values) {
+        if (of_cell.key == name) return of_cell.value;
+      }
+      return std::nullopt;
+    };
+    if (results.empty() || !value(results.front())) {
+      throw ScenarioError("Throws cannot be told apart by \"" + name +
+                          "\"; known: " + names_of_keys(results) + ".");
+    }
+    set_names(results, value);
   }
+}
+
+void Axis::set_names(const std::vector<ThrowResult>& results, const NameOf& name_of) {
+  for (const ThrowResult& result : results) {
+    const auto name = name_of(result);
+    if (name && std::find(values_.begin(), values_.end(), *name) == values_.end()) {
+      values_.push_back(*name);
+    }
+  }
+  of_ = [values = values_, name_of](const ThrowResult& result) -> std::optional<std::size_t> {
+    const auto name = name_of(result);
+    if (!name) return std::nullopt;
+    const auto at = std::find(values.begin(), values.end(), *name);
+    if (at == values.end()) return std::nullopt;
+    return static_cast<std::size_t>(at - values.begin());
+  };
+}
+
+void Axis::set_numeric(const std::vector<ThrowResult>& results, double ThrowResult::*key,
+                       double width) {
   std::vector<double> values;
   for (const ThrowResult& result : results) {
-    if (result.thrown()) values.push_back(result.*key->value);
+    if (result.thrown()) values.push_back(result.*key);
   }
-  const std::vector<Bin> bins = make_bins(values, key->bin);
+  const std::vector<Bin> bins = make_bins(values, width);
   for (const Bin& bin : bins) {
     values_.push_back(bin.text());
     middles_.push_back(0.5 * (bin.lo + bin.hi));
   }
-  of_ = [bins, value = key->value](const ThrowResult& result) -> std::optional<std::size_t> {
+  of_ = [bins, key](const ThrowResult& result) -> std::optional<std::size_t> {
     if (!result.thrown()) return std::nullopt;
     const auto at = std::find_if(bins.begin(), bins.end(),
-                                 [&](const Bin& bin) { return bin.contains(result.*value); });
+                                 [&](const Bin& bin) { return bin.contains(result.*key); });
     if (at == bins.end()) return std::nullopt;
     return static_cast<std::size_t>(at - bins.begin());
   };

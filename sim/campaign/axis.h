@@ -25,9 +25,9 @@ std::vector<Bin> make_bins(const std::vector<double>& values, double width);
 // A property of throws with the few values, or bins of values, that it has in a campaign.
 class Axis {
  public:
-  // `name` is a column of throws.csv that says how a throw was drawn: size_m, distance_m,
-  // speed_mps, bearing_deg, launch_height_m or object. Throws ScenarioError, listing them, for any
-  // other name.
+  // `name` is a column of throws.csv that says how a throw was drawn (size_m, distance_m,
+  // speed_mps, bearing_deg, launch_height_m or object; of several objects, the first) or a key of
+  // the scenario's grid. Throws ScenarioError, listing them, for any other name.
   Axis(const std::string& name, const std::vector<ThrowResult>& results);
 
   const std::string& name() const { return name_; }
@@ -39,6 +39,11 @@ class Axis {
   std::optional<std::size_t> of(const ThrowResult& result) const;
 
  private:
+  using NameOf = std::function<std::optional<std::string>(const ThrowResult&)>;
+
+  void set_names(const std::vector<ThrowResult>& results, const NameOf& name_of);
+  void set_numeric(const std::vector<ThrowResult>& results, double ThrowResult::*key, double width);
+
   std::string name_;
   std::vector<std::string> values_;
   std::vector<double> middles_;

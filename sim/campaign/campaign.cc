@@ -30,7 +30,8 @@ CampaignIdentity identity_of(const Scenario& scenario, const CampaignOptions& op
 // Numbers of the shard's throws.
 std::vector<int> throws_of(const Scenario& scenario, const Shard& shard) {
   std::vector<int> throws;
-  for (int i = shard.index; i < scenario.repeats; i += shard.count) throws.push_back(i);
+  const int count = throw_count(scenario);
+  for (int i = shard.index; i < count; i += shard.count) throws.push_back(i);
   return throws;
 }
 
@@ -57,7 +58,7 @@ void fly_missing(const Scenario& scenario, const CampaignOptions& options, const
   tasks.limits = options.limits;
   tasks.fly = fly;
   tasks.stop = options.stop;
-  tasks.blank = [&](int index) { return blank_result(scenario, index); };
+  tasks.blank = [&](int index) { return blank_result(case_of(scenario, index)); };
   Progress progress(static_cast<std::int64_t>(tasks.throws.size()), options.show_progress);
   tasks.receive = [&](const ThrowResult& result) {
     journal->add(result);
@@ -67,22 +68,45 @@ void fly_missing(const Scenario& scenario, const CampaignOptions& options, const
   journal->sync();
 }
 
+ObjectRow as_drawn(const Throw& toss, int throw_index, int object) {
+  ObjectRow row;
+  row.throw_index = throw_index;
+  row.object = object;
+  row.kind = toss.object.kind;
+  row.size_m = toss.object.size_m;
+  row.speed_mps = toss.speed_mps;
+  row.distance_m = toss.distance_m;
+  row.bearing_deg = toss.bearing_deg;
+  row.aim_offset_m = {toss.aim_offset_m.x(), toss.aim_offset_m.y()};
+  row.spin_radps = {toss.spin_radps.x(), toss.spin_radps.y(), toss.spin_radps.z()};
+  row.launch_height_m = toss.launch_height_m;
+  row.launch_us = toss.launch_us;
+  return row;
+}
+
 }  // namespace
 
-ThrowResult blank_result(const Scenario& scenario, int index) {
+ThrowResult blank_result(const ThrowCase& thrown) {
   ThrowResult result;
-  result.index = index;
-  if (!scenario.toss) return result;
-  const Throw toss = resolve_throw(scenario, index);
-  result.object = toss.object.kind;
-  result.size_m = toss.object.size_m;
-  result.speed_mps = toss.speed_mps;
-  result.distance_m = toss.distance_m;
-  result.bearing_deg = toss.bearing_deg;
-  result.aim_offset_m = {toss.aim_offset_m.x(), toss.aim_offset_m.y()};
-  result.spin_radps = {toss.spin_radps.x(), toss.spin_radps.y(), toss.spin_radps.z()};
-  result.launch_height_m = toss.launch_height_m;
-  result.launch_us = toss.launch_us;
+  result.index = thrown.index;
+  result.cell = thrown.cell;
+  result.sweep = thrown.sweep;
+  result.cell_values = thrown.cell_values;
+  result.sweep_values = thrown.sweep_values;
+  for (const Throw& toss : resolve_throws(thrown.scenario, thrown.stream)) {
+    result.object_rows.push_back(as_drawn(toss, thrown.index, result.objects++));
+  }
+  if (result.objects == 0) return result;
+  const ObjectRow& first = result.object_rows.front();
+  result.object = first.kind;
+  result.size_m = first.size_m;
+  result.speed_mps = first.speed_mps;
+  result.distance_m = first.distance_m;
+  result.bearing_deg = first.bearing_deg;
+  result.aim_offset_m = first.aim_offset_m;
+  result.spin_radps = first.spin_radps;
+  result.launch_height_m = first.launch_height_m;
+  result.launch_us = first.launch_us;
   return result;
 }
 

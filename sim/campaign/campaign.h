@@ -2,7 +2,8 @@
 //
 //   scenario.resolved.yaml  every value spelled out
 //   results.bin             every result as it came (journal.h): what --resume and merge go on with
-//   throws.csv, detections.csv, table.md, table.csv, and truth.csv on request (result_files.h):
+//   throws.csv, objects.csv, detections.csv, table.md, table.csv, and truth.csv on request
+//   (result_files.h):
 //                           byte-identical for any number of workers, shards and resumes
 //   report.html             charts, and every throw in 3-D (report.h)
 //   timing.csv              computing time of each throw
@@ -19,7 +20,7 @@
 #include "sim/campaign/result.h"
 #include "sim/campaign/shard.h"
 #include "sim/campaign/workers.h"
-#include "sim/config/scenario.h"
+#include "sim/config/expand.h"
 
 namespace dodgesim {
 
@@ -53,8 +54,8 @@ struct CampaignSummary {
   bool complete() const { return static_cast<int>(results.size()) == wanted; }
 };
 
-// The result of throw `index` before any flight: its numbers as drawn. Requires a valid scenario.
-ThrowResult blank_result(const Scenario& scenario, int index);
+// The result of a throw before any flight: its numbers as drawn.
+ThrowResult blank_result(const ThrowCase& thrown);
 
 // Flies the throws with `fly`. If it is stopped, nothing but the journal is written. Throws
 // ScenarioError, also if `out` holds something else or another process is writing there, and

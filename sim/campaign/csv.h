@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/config/numbers.h"
+#include "sim/config/varied_key.h"
 
 namespace dodgesim {
 
@@ -30,6 +32,11 @@ class CsvLine {
   template <class T, std::size_t N>
   void operator()(const std::string& name, std::array<T, N>& values) {
     for (std::size_t i = 0; i < N; ++i) (*this)(name + "_" + std::to_string(i), values[i]);
+  }
+
+  // A column for each key.
+  void operator()(const std::string&, const std::vector<AxisValue>& values) {
+    for (const AxisValue& value : values) add(value.key, csv_cell(value.value));
   }
 
   template <class T>
@@ -58,9 +65,9 @@ class CsvLine {
   bool started_ = false;
 };
 
+// Of the rows of values like this one: the results of a campaign share the keys of their axes.
 template <class T>
-std::string csv_header() {
-  T value{};
+std::string csv_header(T value = {}) {
   CsvLine line;
   value.visit(line);
   return line.header();

@@ -14,6 +14,7 @@ LoadedCampaign load_campaign(const std::filesystem::path& directory) {
   for_each_result(journal, index, [&](ThrowResult result) {
     result.truth_rows = {};
     result.detection_rows = {};
+    result.object_rows = {};
     campaign.results.push_back(std::move(result));
   });
   return campaign;

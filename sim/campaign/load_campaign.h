@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "sim/campaign/result.h"
-#include "sim/config/scenario.h"
+#include "sim/config/expand.h"
 
 namespace dodgesim {
 
 struct LoadedCampaign {
   Scenario scenario;
   std::string program;               // version and commit that flew it
-  std::vector<ThrowResult> results;  // in throw order, without the rows of their detections
+  std::vector<ThrowResult> results;  // in throw order, without rows of detections and objects
 
-  bool complete() const { return static_cast<int>(results.size()) == scenario.repeats; }
+  bool complete() const { return static_cast<int>(results.size()) == throw_count(scenario); }
 };
 
 // Reads results.bin, also of a campaign under way. Throws IoError if it is none.

@@ -35,7 +35,9 @@ std::string manifest_json(const Scenario& scenario, const CampaignOptions& optio
                          {"system", machine.system}};
   manifest["campaign"] = {{"scenario", scenario.name},
                           {"seed", scenario.seed},
-                          {"throws", scenario.repeats},
+                          {"throws", throw_count(scenario)},
+                          {"cells", cell_count(scenario)},
+                          {"sweep_values", sweep_count(scenario)},
                           {"errors", summary.errors},
                           {"command_line", options.command_line},
                           {"jobs", options.jobs}};

@@ -59,11 +59,12 @@ std::string ranges(const std::vector<int>& numbers) {
 
 void expect_all(const Scenario& scenario, const Sources& sources) {
   std::vector<int> missing;
-  for (int i = 0; i < scenario.repeats; ++i) {
+  const int count = throw_count(scenario);
+  for (int i = 0; i < count; ++i) {
     if (sources.throws.count(i) == 0) missing.push_back(i);
   }
   if (missing.empty()) return;
-  throw MissingThrows(std::to_string(missing.size()) + " of " + std::to_string(scenario.repeats) +
+  throw MissingThrows(std::to_string(missing.size()) + " of " + std::to_string(count) +
                       " throws are missing: " + ranges(missing) + ".");
 }
 
@@ -93,7 +94,7 @@ CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
     journal.sync();
   }
   CampaignSummary summary;
-  summary.wanted = scenario.repeats;
+  summary.wanted = throw_count(scenario);
   write_result_files(options.out, scenario, read_journal(options.out / kJournalFile),
                      sources.identity.truth, summary);
   summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -92,7 +92,7 @@ Json columns_of(const std::vector<ThrowResult>& results, const Axes& axes) {
   using R = ThrowResult;
   Columns columns(results);
   columns.add("number", [](const R& r) { return static_cast<std::uint32_t>(r.index); });
-  columns.add("sweep", [](const R&) { return std::uint16_t{0}; });
+  columns.add("sweep", [](const R& r) { return static_cast<std::uint16_t>(r.sweep); });
   columns.add("flags", [](const R& r) { return static_cast<std::uint16_t>(flags_of(r)); });
   columns.add("cause", cause_of);
   columns.add("size_bin", [&](const R& r) { return place(axes.size.of(r)); });
@@ -135,14 +135,10 @@ Json rate_of(const Rate& rate) {
   return {rate.count, rate.of, rate.interval().lo, rate.interval().hi};
 }
 
-// What the charts show of one pilot: dodged of those that would have hit; for none, would have hit.
-Json pilot_rate(const ThrowStatistics* statistics, std::size_t pilot, std::size_t pilots) {
-  if (statistics == nullptr || pilot >= statistics->pilots.size()) return rate_of({});
-  // A group without flights of the oracle lacks it.
-  const bool none = pilot + 1 == pilots;
-  if (!none && pilot + 1 == statistics->pilots.size()) return rate_of({});
-  const Tally& tally = none ? statistics->pilots.back().tally : statistics->pilots[pilot].tally;
-  return rate_of(none ? Rate{tally.would_have_hit, tally.throws} : tally.success());
+// What the charts show of one pilot.
+Json pilot_rate(const ThrowStatistics* statistics, std::size_t pilot) {
+  if (statistics == nullptr) return rate_of({});
+  return rate_of(statistics->pilots[pilot].tally.shown(pilot == 2));
 }
 
 const ThrowStatistics* find(const StatisticsTable& table, const std::vector<std::string>& values) {
@@ -151,33 +147,31 @@ const ThrowStatistics* find(const StatisticsTable& table, const std::vector<std:
   return row == table.rows.end() ? nullptr : &row->statistics;
 }
 
-// The throws that may be pooled: those of one value of the sweep.
-Json section_of(const Results& results, const Axes& axes, const std::string& pilot) {
-  const StatisticsTable by_cell = group_by(results, {axes.size, axes.distance}, pilot);
-  const StatisticsTable by_speed = group_by(results, {axes.speed}, pilot);
+Json section_of(const Part& part, const Axes& axes) {
+  const StatisticsTable by_cell = group_by(part, {axes.size, axes.distance});
+  const StatisticsTable by_speed = group_by(part, {axes.speed});
   const ThrowStatistics& all = by_cell.rows.back().statistics;
-  const std::size_t count = all.pilots.size();
   Json pilots = Json::array();
-  for (std::size_t k = 0; k < count; ++k) {
+  for (const std::size_t k : shown_pilots(by_cell)) {
     Json cells = Json::array(), speeds = Json::array();
     for (const std::string& size : axes.size.values()) {
       Json row = Json::array();
       for (const std::string& distance : axes.distance.values()) {
-        row.push_back(pilot_rate(find(by_cell, {size, distance}), k, count));
+        row.push_back(pilot_rate(find(by_cell, {size, distance}), k));
       }
       cells.push_back(std::move(row));
     }
     for (const std::string& speed : axes.speed.values()) {
-      speeds.push_back(pilot_rate(find(by_speed, {speed}), k, count));
+      speeds.push_back(pilot_rate(find(by_speed, {speed}), k));
     }
     pilots.push_back({{"name", all.pilots[k].pilot},
-                      {"total", pilot_rate(&all, k, count)},
+                      {"total", pilot_rate(&all, k)},
                       {"cells", std::move(cells)},
                       {"by_speed", std::move(speeds)}});
   }
-  return {{"label", ""},
-          {"sweep", 0},
-          {"value", ""},
+  return {{"label", label(part.values)},
+          {"sweep", part.sweep},
+          {"value", part.values.size() == 1 ? part.values[0].value : ""},
           {"pilots", std::move(pilots)},
           {"detected", rate_of(all.detected)},
           {"false_alarms", rate_of(all.false_alarms)}};
@@ -205,6 +199,9 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
     computing_s += result.wall_s;
     if (result.flown.failed()) errors[std::to_string(result.index)] = result.flown.error;
   }
+  const std::vector<Part> parts = parts_of(results, scenario.pilot);
+  Json sections = Json::array();
+  for (const Part& part : parts) sections.push_back(section_of(part, axes));
   Json causes = Json::array(), flags = Json::object();
   for (const CollisionCause cause : kCollisionCauses) causes.push_back(to_text(cause));
   for (std::size_t i = 0; i < std::size(kFlags); ++i) flags[kFlags[i]] = 1U << i;
@@ -213,17 +210,19 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
           {"pilot", scenario.pilot},
           {"seed", std::to_string(scenario.seed)},
           {"program", "dodgesim " + campaign.program},
-          {"wanted", scenario.repeats},
+          {"wanted", throw_count(scenario)},
           {"replay", "dodgesim replay " + quoted(directory) + " --throw "},
           {"real_time_factor", computing_s > 0 ? simulated_s / computing_s : 0.0},
           {"sizes", axes.size.values()},
           {"distances", axes.distance.values()},
           {"speeds", axes.speed.middles()},
+          {"speed_texts", axes.speed.values()},
           {"objects", axes.object.values()},
           {"causes", std::move(causes)},
           {"flags", std::move(flags)},
           {"errors", std::move(errors)},
-          {"sections", {section_of(pointers_to(results), axes, scenario.pilot)}},
+          {"sweep_key", parts.front().values.size() == 1 ? parts.front().values[0].key : ""},
+          {"sections", std::move(sections)},
           {"columns", columns_of(results, axes)}};
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/base/time.h"
+#include "sim/config/varied_key.h"
 
 namespace dodgesim {
 
@@ -35,6 +36,54 @@ struct FlightResult {
     v("hit_us", hit_us);
     v("closest_us", closest_us);
     v("clearance_m", clearance_m);
+  }
+};
+
+// One thrown object of a throw: a row of objects.csv.
+struct ObjectRow {
+  int throw_index = 0;
+  int object = 0;
+
+  // As drawn.
+  std::string kind;
+  double size_m = 0;
+  double speed_mps = 0;
+  double distance_m = 0;
+  double bearing_deg = 0;
+  std::array<double, 2> aim_offset_m{};  // lateral, vertical
+  std::array<double, 3> spin_radps{};
+  double launch_height_m = 0;
+  TimeUs launch_us = 0;
+
+  // What came of it with the scenario's pilot. The flight ends when any object hits.
+  bool hit = false;
+  std::optional<TimeUs> hit_us;
+  std::optional<TimeUs> closest_us;
+  std::optional<double> clearance_m;
+  std::optional<TimeUs> first_detection_us;
+  std::optional<double> first_detection_distance_m;
+  bool none_hit = false;  // of the pilot none
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("throw", throw_index);
+    v("object", object);
+    v("kind", kind);
+    v("size_m", size_m);
+    v("speed_mps", speed_mps);
+    v("distance_m", distance_m);
+    v("bearing_deg", bearing_deg);
+    v("aim_offset_m", aim_offset_m);
+    v("spin_radps", spin_radps);
+    v("launch_height_m", launch_height_m);
+    v("launch_us", launch_us);
+    v("hit", hit);
+    v("hit_us", hit_us);
+    v("closest_us", closest_us);
+    v("clearance_m", clearance_m);
+    v("first_detection_us", first_detection_us);
+    v("first_detection_distance_m", first_detection_distance_m);
+    v("none_hit", none_hit);
   }
 };
 
@@ -137,7 +186,15 @@ struct EventTruthSums {
 struct ThrowResult {
   int index = 0;
 
-  // The throw, as drawn. Without an object nobody threw.
+  // Where the throw stands in the campaign; see sim/config/expand.h. Results of different sweep
+  // values are of the same throws and must never be pooled.
+  int cell = 0;
+  int sweep = 0;
+  std::vector<AxisValue> cell_values;   // the keys of the grid and their values in this cell
+  std::vector<AxisValue> sweep_values;  // likewise of the sweep
+
+  // The first object as drawn, and how many there are. Without an object nobody threw.
+  int objects = 0;
   std::string object;
   double size_m = 0;
   double speed_mps = 0;
@@ -170,6 +227,7 @@ struct ThrowResult {
   std::uint64_t events_hash = 0;              // of all events in order
   TimeUs duration_us = 0;                     // simulated
 
+  std::vector<ObjectRow> object_rows;
   std::vector<DetectionRow> detection_rows;
   std::vector<EventTruthRow> truth_rows;  // on request
   std::string trajectory;                 // of the flown pilot, for the report (trajectory.h)
@@ -180,6 +238,11 @@ struct ThrowResult {
   template <class Visitor>
   void visit(Visitor& v) {
     v("throw", index);
+    v("cell", cell);
+    v("sweep", sweep);
+    v("", cell_values);
+    v("", sweep_values);
+    v("objects", objects);
     v("object", object);
     v("size_m", size_m);
     v("speed_mps", speed_mps);

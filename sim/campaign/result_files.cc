@@ -14,18 +14,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kResultFiles[] = {"manifest.json", "throws.csv", "detections.csv",
-                                        "timing.csv",    "table.md",   "table.csv",
-                                        "truth.csv",     kReportFile};
+constexpr const char* kResultFiles[] = {"manifest.json",  "throws.csv", "objects.csv",
+                                        "detections.csv", "timing.csv", "table.md",
+                                        "table.csv",      "truth.csv",  kReportFile};
 
 // The files with rows of throws.
 class RowFiles {
  public:
-  RowFiles(const fs::path& out, bool truth)
+  RowFiles(const fs::path& out, const Scenario& scenario, bool truth)
       : throws_(out / "throws.csv"),
+        objects_(out / "objects.csv"),
         detections_(out / "detections.csv"),
         timing_(out / "timing.csv") {
-    throws_.write(csv_header<ThrowResult>());
+    throws_.write(csv_header(blank_result(case_of(scenario, 0))));
+    objects_.write(csv_header<ObjectRow>());
     detections_.write(csv_header<DetectionRow>());
     timing_.write("throw,simulated_s,wall_s,real_time_factor\n");
     if (!truth) return;
@@ -35,6 +37,7 @@ class RowFiles {
 
   void add(const ThrowResult& result) {
     throws_.write(csv_row(result));
+    for (const ObjectRow& row : result.object_rows) objects_.write(csv_row(row));
     for (const DetectionRow& row : result.detection_rows) detections_.write(csv_row(row));
     const double simulated_s = seconds(result.duration_us);
     timing_.write(to_text(result.index) + "," + to_text(simulated_s) + "," +
@@ -46,13 +49,14 @@ class RowFiles {
 
   void commit() {
     throws_.commit();
+    objects_.commit();
     detections_.commit();
     timing_.commit();
     if (truth_) truth_->commit();
   }
 
  private:
-  OutputFile throws_, detections_, timing_;
+  OutputFile throws_, objects_, detections_, timing_;
   std::optional<OutputFile> truth_;
 };
 
@@ -74,7 +78,7 @@ void remove_result_files(const fs::path& out) {
 
 void write_result_files(const fs::path& out, const Scenario& scenario, const JournalIndex& index,
                         bool truth, CampaignSummary& summary) {
-  RowFiles rows(out, truth);
+  RowFiles rows(out, scenario, truth);
   double simulated_s = 0, computing_s = 0;
   for_each_result(out / kJournalFile, index, [&](ThrowResult result) {
     rows.add(result);
@@ -84,6 +88,7 @@ void write_result_files(const fs::path& out, const Scenario& scenario, const Jou
     summary.truth.add(result.truth_rows);
     result.truth_rows = {};
     result.detection_rows = {};
+    result.object_rows = {};
     summary.results.push_back(std::move(result));
   });
   if (computing_s > 0) summary.real_time_factor = simulated_s / computing_s;

@@ -18,13 +18,21 @@ struct StatisticsTable {
   std::vector<Row> rows;
 };
 
-// A row for each combination of the axes' values that occurs, in their order, and one of all
-// throws.
-StatisticsTable group_by(const Results& results, const std::vector<Axis>& axes,
-                         const std::string& pilot);
+// A row for each combination of the axes' values that occurs, in their order, and one of all throws
+// of the part.
+StatisticsTable group_by(const Part& part, const std::vector<Axis>& axes);
 
-// Rates with counts and intervals (those of dodged throws on request); then samples as "median (10 %
-// to 90 % quantile), count".
+// The same for all parts, one after the other, with the keys of the sweep in front.
+StatisticsTable group_by(const std::vector<Part>& parts, const std::vector<Axis>& axes);
+
+// Puts the keys and values of the part in front of those of the table.
+StatisticsTable of_sweep(const Part& part, StatisticsTable table);
+
+// Which of ThrowStatistics::pilots are worth a column: not the oracle if it flew nowhere.
+std::vector<std::size_t> shown_pilots(const StatisticsTable& table);
+
+// Rates with counts and intervals (those of dodged throws on request); then samples as "median (10
+// % to 90 % quantile), count".
 std::string to_markdown(const StatisticsTable& table, bool with_dodged = true);
 
 // The same two as tabulars for LaTeX's package booktabs.

@@ -1,4 +1,5 @@
 // The formats of statistics_table.h.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -31,18 +32,19 @@ std::string sample_text(const Sample& sample) {
          " to " + rounded(sample.quantile(0.9)->value) + "), " + std::to_string(sample.count());
 }
 
-// Dodged by each pilot of those that would have hit.
+// Dodged by each pilot of those that would have hit; for none, would have hit.
 void add_dodged(const StatisticsTable& table, TextTable& text) {
-  for (const PilotStatistics& of : table.rows.front().statistics.pilots) {
-    text.head.push_back(of.pilot == "none" ? "none: would have hit" : of.pilot + ": dodged");
-  }
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const std::vector<PilotStatistics>& pilots = table.rows[i].statistics.pilots;
-    for (const PilotStatistics& of : pilots) {
-      const Tally& tally = of.tally;
-      const bool none = &of == &pilots.back();
-      std::string cell =
-          rate_text(none ? Rate{tally.would_have_hit, tally.throws} : tally.success());
+  const std::string& first = table.rows.front().statistics.flown().pilot;
+  const bool one_pilot = std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    return row.statistics.flown().pilot == first;
+  });
+  const std::array<std::string, 3> heads = {(one_pilot ? first + ": " : "") + "dodged",
+                                            "oracle: dodged", "none: would have hit"};
+  for (const std::size_t pilot : shown_pilots(table)) {
+    text.head.push_back(heads[pilot]);
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const Tally& tally = table.rows[i].statistics.pilots[pilot].tally;
+      std::string cell = rate_text(tally.shown(pilot == 2));
       if (tally.errors > 0) cell += ", " + std::to_string(tally.errors) + " errors";
       text.rows[i].push_back(cell);
     }
@@ -228,7 +230,8 @@ Json json_of(const Sample& sample) {
 Json json_of(const StatisticsTable& table, const StatisticsTable::Row& row) {
   Json json = Json::object();
   for (std::size_t i = 0; i < table.keys.size(); ++i) json[table.keys[i]] = row.values[i];
-  for (const PilotStatistics& of : row.statistics.pilots) {
+  for (const std::size_t pilot : shown_pilots(table)) {
+    const PilotStatistics& of = row.statistics.pilots[pilot];
     json["pilots"].push_back({{"pilot", of.pilot},
                               {"throws", of.tally.throws},
                               {"dodged", json_of(of.tally.success())},
@@ -258,8 +261,8 @@ std::string to_latex(const StatisticsTable& table) {
 std::string to_csv(const StatisticsTable& table) {
   std::string text;
   for (const StatisticsTable::Row& row : table.rows) {
-    for (const PilotStatistics& of : row.statistics.pilots) {
-      const CsvRow csv = csv_row_of(table, row, of);
+    for (const std::size_t pilot : shown_pilots(table)) {
+      const CsvRow csv = csv_row_of(table, row, row.statistics.pilots[pilot]);
       if (text.empty()) text = csv.head + "\n";
       text += csv.row + "\n";
     }

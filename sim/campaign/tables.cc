@@ -1,10 +1,12 @@
 #include "sim/campaign/tables.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "sim/campaign/axis.h"
 #include "sim/campaign/collision_cause.h"
 #include "sim/campaign/statistics_table.h"
+#include "sim/config/expand.h"
 
 namespace dodgesim {
 
@@ -18,11 +20,10 @@ std::string count_text(std::int64_t count, const std::string& what) {
 
 // Rows told apart by some of the axes only, with "all" for the others; the row of all throws is
 // left out.
-void append(const Results& results, const std::vector<Axis>& by, const std::string& pilot,
-            StatisticsTable& table) {
-  StatisticsTable part = group_by(results, by, pilot);
-  part.rows.pop_back();
-  for (StatisticsTable::Row& row : part.rows) {
+void append(const Part& part, const std::vector<Axis>& by, StatisticsTable& table) {
+  StatisticsTable grouped = group_by(part, by);
+  grouped.rows.pop_back();
+  for (StatisticsTable::Row& row : grouped.rows) {
     std::vector<std::string> values(kKeys.size(), "all");
     for (std::size_t i = 0; i < by.size(); ++i) {
       const auto at = std::find(kKeys.begin(), kKeys.end(), by[i].name());
@@ -36,22 +37,22 @@ struct Axes {
   Axis size, distance, speed;
 };
 
-// Every cell that the tables of a campaign show.
-StatisticsTable all_cells(const Results& results, const Axes& axes, const std::string& pilot) {
+// Every cell that the tables of a part show.
+StatisticsTable all_cells(const Part& part, const Axes& axes) {
   StatisticsTable table;
   table.keys = kKeys;
-  append(results, {axes.size, axes.distance}, pilot, table);
-  append(results, {axes.size}, pilot, table);
-  append(results, {axes.distance}, pilot, table);
-  append(results, {axes.speed}, pilot, table);
-  table.rows.push_back({{"all", "all", "all"}, statistics_of(results, pilot)});
+  append(part, {axes.size, axes.distance}, table);
+  append(part, {axes.size}, table);
+  append(part, {axes.distance}, table);
+  append(part, {axes.speed}, table);
+  table.rows.push_back({{"all", "all", "all"}, statistics_of(part.results, part.pilot)});
   return table;
 }
 
 class MarkdownWriter {
  public:
-  MarkdownWriter(const Results& results, const Axes& axes, const StatisticsTable& table)
-      : results_(results), axes_(axes), table_(table) {}
+  MarkdownWriter(const Part& part, const Axes& axes, const StatisticsTable& table)
+      : part_(part), axes_(axes), table_(table), pilots_(shown_pilots(table)) {}
 
   void by_size_and_distance() {
     const std::vector<std::string>& distances = axes_.distance.values();
@@ -67,14 +68,14 @@ class MarkdownWriter {
 
   void by_speed() {
     text_ += "## By speed\n\n| speed |";
-    for (std::size_t i = 0; i < all().pilots.size(); ++i) text_ += " " + heading(i) + " |";
+    for (const std::size_t pilot : pilots_) text_ += " " + heading(pilot) + " |";
     text_ += "\n|---|";
-    for (std::size_t i = 0; i < all().pilots.size(); ++i) text_ += "---|";
+    for (std::size_t i = 0; i < pilots_.size(); ++i) text_ += "---|";
     text_ += "\n";
     for (const std::string& speed : axes_.speed.values()) {
       text_ += "| " + speed + " m/s |";
-      for (std::size_t i = 0; i < all().pilots.size(); ++i) {
-        text_ += " " + cell({"all", "all", speed}, i) + " |";
+      for (const std::size_t pilot : pilots_) {
+        text_ += " " + cell({"all", "all", speed}, pilot) + " |";
       }
       text_ += "\n";
     }
@@ -115,37 +116,25 @@ class MarkdownWriter {
   const ThrowStatistics& all() const { return table_.rows.back().statistics; }
 
   std::string heading(std::size_t pilot) const {
-    const std::string& name = all().pilots[pilot].pilot;
-    return pilot + 1 == all().pilots.size() ? "none: would have hit" : name;
+    return pilot == 2 ? "none: would have hit" : all().pilots[pilot].pilot;
   }
 
-  // The pilot none dodges nothing: its column says how many throws would have hit.
   std::string cell(const std::vector<std::string>& values, std::size_t pilot) const {
     const auto row = std::find_if(table_.rows.begin(), table_.rows.end(),
                                   [&](const auto& r) { return r.values == values; });
-    // Where no oracle flew in a cell, its statistics lack it.
-    const std::string& name = all().pilots[pilot].pilot;
-    const bool none = pilot + 1 == all().pilots.size();
-    Tally tally;
-    if (row != table_.rows.end()) {
-      const std::vector<PilotStatistics>& pilots = row->statistics.pilots;
-      for (std::size_t i = 0; i < pilots.size(); ++i) {
-        const bool last = i + 1 == pilots.size();
-        if (pilots[i].pilot == name && last == none) tally = pilots[i].tally;
-      }
-    }
-    std::string text = rate_text(none ? Rate{tally.would_have_hit, tally.throws} : tally.success());
+    const Tally tally = row == table_.rows.end() ? Tally{} : row->statistics.pilots[pilot].tally;
+    std::string text = rate_text(tally.shown(pilot == 2));
     if (tally.errors > 0) text += ", " + std::to_string(tally.errors) + " errors";
     return text;
   }
 
   void size_rows(const std::string& size, const std::vector<std::string>& distances) {
-    for (std::size_t i = 0; i < all().pilots.size(); ++i) {
-      text_ += "| " + size + (size == "all" ? "" : " m") + " | " + heading(i) + " |";
+    for (const std::size_t pilot : pilots_) {
+      text_ += "| " + size + (size == "all" ? "" : " m") + " | " + heading(pilot) + " |";
       for (const std::string& distance : distances) {
-        text_ += " " + cell({size, distance, "all"}, i) + " |";
+        text_ += " " + cell({size, distance, "all"}, pilot) + " |";
       }
-      text_ += " " + cell({size, "all", "all"}, i) + " |\n";
+      text_ += " " + cell({size, "all", "all"}, pilot) + " |\n";
     }
   }
 
@@ -154,29 +143,30 @@ class MarkdownWriter {
     constexpr int kMost = 12;
     std::string text;
     int count = 0;
-    for (const ThrowResult* result : results_) {
+    for (const ThrowResult* result : part_.results) {
       if (result->cause != cause || ++count > kMost) continue;
       text += (text.empty() ? "" : ", ") + std::to_string(result->index);
     }
     return count > kMost ? text + ", ..." : text;
   }
 
-  const Results& results_;
+  const Part& part_;
   const Axes& axes_;
   const StatisticsTable& table_;
+  std::vector<std::size_t> pilots_;  // those with a column
   std::string text_;
 };
 
-std::string errors_of(const std::vector<ThrowResult>& results, const std::string& pilot) {
+std::string errors_of(const Part& part) {
   std::string errors;
   int failed = 0;
-  for (const ThrowResult& result : results) {
+  for (const ThrowResult* result : part.results) {
     const std::pair<const FlightResult*, std::string> flights[] = {
-        {&result.flown, pilot}, {&result.none, "none"}, {&result.oracle, "oracle"}};
+        {&result->flown, part.pilot}, {&result->none, "none"}, {&result->oracle, "oracle"}};
     for (const auto& [flight, who] : flights) {
       if (!flight->failed()) continue;
       ++failed;
-      errors += "- throw " + std::to_string(result.index) + ", pilot " + who + ": " +
+      errors += "- throw " + std::to_string(result->index) + ", pilot " + who + ": " +
                 flight->error + "\n";
     }
   }
@@ -186,58 +176,69 @@ std::string errors_of(const std::vector<ThrowResult>& results, const std::string
 }
 
 // What a rate over the throws that would have hit does not show.
-std::string asides(const std::vector<ThrowResult>& results, const std::string& pilot) {
+std::string asides(const Part& part) {
   int would_miss = 0, miss_evaded = 0, walked_into = 0;
   Rate quiet;
-  for (const ThrowResult& result : results) {
-    if (!result.flown.ok()) continue;
-    if (!result.thrown()) {
-      quiet.add(result.evaded);
-    } else if (result.none.ok() && !result.none.hit) {
+  for (const ThrowResult* result : part.results) {
+    if (!result->flown.ok()) continue;
+    if (!result->thrown()) {
+      quiet.add(result->evaded);
+    } else if (result->none.ok() && !result->none.hit) {
       ++would_miss;
-      miss_evaded += result.evaded ? 1 : 0;
-      walked_into += result.flown.hit ? 1 : 0;
+      miss_evaded += result->evaded ? 1 : 0;
+      walked_into += result->flown.hit ? 1 : 0;
     }
   }
   std::string text;
   if (quiet.of > 0) {
-    text += "False alarms: " + pilot + " evaded in " + rate_text(quiet) +
+    text += "False alarms: " + part.pilot + " evaded in " + rate_text(quiet) +
             " flights in which nobody threw.\n\n";
   }
   if (would_miss > 0) {
-    text += "Of " + count_text(would_miss, "throw") + " that would have missed, " + pilot +
+    text += "Of " + count_text(would_miss, "throw") + " that would have missed, " + part.pilot +
             " evaded " + std::to_string(miss_evaded) + " and was hit by " +
             std::to_string(walked_into) + ".\n\n";
   }
-  return text + errors_of(results, pilot);
+  return text + errors_of(part);
+}
+
+std::string markdown_of(const Part& part, const Axes& axes, const StatisticsTable& table) {
+  std::string head;
+  if (!part.values.empty()) head += "# " + label(part.values) + "\n\n";
+  MarkdownWriter writer(part, axes, table);
+  const bool anything_thrown = std::any_of(part.results.begin(), part.results.end(),
+                                           [](const ThrowResult* r) { return r->thrown(); });
+  if (anything_thrown) {
+    const Tally& all = table.rows.back().statistics.flown().tally;
+    head += "Dodged: " + rate_text(all.success()) + "\n\n";
+    writer.by_size_and_distance();
+    writer.by_speed();
+    writer.perception();
+  }
+  writer.causes();
+  return head + writer.take() + asides(part);
 }
 
 }  // namespace
 
 Tables make_tables(const std::vector<ThrowResult>& results, const std::string& title,
                    const std::string& pilot) {
-  const Axes axes = {Axis("size_m", results), Axis("distance_m", results),
-                     Axis("speed_mps", results)};
-  const Results pointers = pointers_to(results);
-  const StatisticsTable table = all_cells(pointers, axes, pilot);
   Tables tables;
-  tables.csv = to_csv(table);
   tables.markdown = "# " + title + "\n\n" +
                     count_text(static_cast<std::int64_t>(results.size()), "throw") + ", pilot " +
                     pilot + ". Cells: dodged / would have hit (rate, 95 % Wilson interval); for " +
                     "the pilot none: would have hit / throws.\n\n";
-  MarkdownWriter writer(pointers, axes, table);
-  const bool anything_thrown =
-      std::any_of(results.begin(), results.end(), [](const ThrowResult& r) { return r.thrown(); });
-  if (anything_thrown) {
-    const Tally& all = table.rows.back().statistics.flown().tally;
-    tables.markdown += "Dodged: " + rate_text(all.success()) + "\n\n";
-    writer.by_size_and_distance();
-    writer.by_speed();
-    writer.perception();
+  const Axes axes = {Axis("size_m", results), Axis("distance_m", results),
+                     Axis("speed_mps", results)};
+  StatisticsTable all;
+  for (const Part& part : parts_of(results, pilot)) {
+    const StatisticsTable table = all_cells(part, axes);
+    tables.markdown += markdown_of(part, axes, table);
+    StatisticsTable swept = of_sweep(part, table);
+    all.keys = swept.keys;
+    std::move(swept.rows.begin(), swept.rows.end(), std::back_inserter(all.rows));
   }
-  writer.causes();
-  tables.markdown += writer.take() + asides(results, pilot);
+  tables.csv = to_csv(all);
   return tables;
 }
 

@@ -13,7 +13,8 @@ struct Tables {
   std::string csv;  // to_csv() of statistics_table.h by size, distance, both, and speed
 };
 
-// `results` in throw order; `title` and `pilot` are the scenario's.
+// `results` in throw order; `title` and `pilot` are the scenario's. Values of the sweep stand
+// apart.
 Tables make_tables(const std::vector<ThrowResult>& results, const std::string& title,
                    const std::string& pilot);
 

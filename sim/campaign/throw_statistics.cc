@@ -20,7 +20,7 @@ std::optional<double> seconds_between(std::optional<TimeUs> from, std::optional<
 }
 
 void add_flight(const FlightResult& flight, const ThrowResult& result, PilotStatistics& sum) {
-  if (!result.thrown()) return;
+  if (!result.thrown() || flight.status == "not flown") return;
   sum.tally.add(flight, result.none);
   if (flight.ok()) sum.clearance_m.add(flight.clearance_m);
 }
@@ -71,24 +71,35 @@ std::optional<QuantileEstimate> Sample::quantile(double share) const {
   return estimate_quantile(sorted, share);
 }
 
-Results pointers_to(const std::vector<ThrowResult>& results) {
-  Results pointers;
-  for (const ThrowResult& result : results) pointers.push_back(&result);
-  return pointers;
+std::vector<Part> parts_of(const std::vector<ThrowResult>& results, const std::string& pilot) {
+  std::map<int, Part> parts;
+  for (const ThrowResult& result : results) {
+    Part& part = parts[result.sweep];
+    part.results.push_back(&result);
+    if (part.results.size() > 1) continue;
+    part.sweep = result.sweep;
+    part.values = result.sweep_values;
+    part.pilot = pilot;
+    for (const AxisValue& value : part.values) {
+      if (value.key == "pilot") part.pilot = value.value;
+    }
+  }
+  if (parts.empty()) parts[0].pilot = pilot;
+  std::vector<Part> in_order;
+  for (auto& [sweep, part] : parts) in_order.push_back(std::move(part));
+  return in_order;
 }
 
 ThrowStatistics statistics_of(const Results& results, const std::string& pilot) {
   ThrowStatistics sum;
-  const bool with_oracle = std::any_of(results.begin(), results.end(), [](const ThrowResult* r) {
-    return r->oracle.status != "not flown";
-  });
-  sum.pilots.push_back({pilot, {}, {}});
-  if (with_oracle) sum.pilots.push_back({"oracle", {}, {}});
-  sum.pilots.push_back({"none", {}, {}});
+  sum.pilots[0].pilot = pilot;
+  sum.pilots[1].pilot = "oracle";
+  sum.pilots[2].pilot = "none";
   for (const ThrowResult* result : results) {
-    add_flight(result->flown, *result, sum.pilots.front());
-    if (with_oracle) add_flight(result->oracle, *result, sum.pilots[1]);
-    add_flight(result->none, *result, sum.pilots.back());
+    sum.oracle_flew = sum.oracle_flew || result->oracle.status != "not flown";
+    add_flight(result->flown, *result, sum.pilots[0]);
+    add_flight(result->oracle, *result, sum.pilots[1]);
+    add_flight(result->none, *result, sum.pilots[2]);
     if (result->flown.ok()) add_perception(*result, sum);
   }
   return sum;

@@ -3,6 +3,7 @@
 // never counts as a success and stays in the denominator.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,6 +39,8 @@ struct Tally {
 
   void add(const FlightResult& flight, const FlightResult& none);
   Rate success() const { return {dodged, would_have_hit}; }
+  // What tables show. The pilot none dodges nothing: of it, how many throws would have hit.
+  Rate shown(bool none) const { return none ? Rate{would_have_hit, throws} : success(); }
 };
 
 // Numbers of throws that lie on a line, such as the clearance.
@@ -61,7 +64,8 @@ struct PilotStatistics {
 };
 
 struct ThrowStatistics {
-  std::vector<PilotStatistics> pilots;  // the flown one, oracle if it flew, none
+  std::array<PilotStatistics, 3> pilots;  // the flown one, oracle, none
+  bool oracle_flew = false;
 
   // Of the flown pilot.
   Rate detected;                      // of the throws that came into view
@@ -90,7 +94,18 @@ inline constexpr NamedSample kSamples[] = {
     {"detection_to_command_s", &ThrowStatistics::detection_to_command_s}};
 
 using Results = std::vector<const ThrowResult*>;
-Results pointers_to(const std::vector<ThrowResult>& results);
+
+// The throws of one value of the sweep, those that may be pooled: other values of the sweep meet
+// the same throws again.
+struct Part {
+  int sweep = 0;
+  std::vector<AxisValue> values;
+  std::string pilot;  // who flew it
+  Results results;
+};
+
+// In the order of the sweep; one part without a sweep. `pilot` is the scenario's.
+std::vector<Part> parts_of(const std::vector<ThrowResult>& results, const std::string& pilot);
 
 // `pilot` is the flown one's name.
 ThrowStatistics statistics_of(const Results& results, const std::string& pilot);

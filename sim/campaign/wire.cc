@@ -18,6 +18,14 @@ class ByteWriter {
     bytes_ += text;
   }
 
+  void operator()(const char*, std::vector<AxisValue>& values) {
+    number(static_cast<std::uint64_t>(values.size()));
+    for (AxisValue& value : values) {
+      (*this)("", value.key);
+      (*this)("", value.value);
+    }
+  }
+
   template <class T>
   void operator()(const char*, std::optional<T>& value) {
     number(static_cast<char>(value.has_value()));
@@ -59,6 +67,16 @@ class ByteReader {
     std::uint64_t size = 0;
     number(size);
     text = std::string(take(size));
+  }
+
+  void operator()(const char*, std::vector<AxisValue>& values) {
+    std::uint64_t count = 0;
+    number(count);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      AxisValue& value = values.emplace_back();
+      (*this)("", value.key);
+      (*this)("", value.value);
+    }
   }
 
   template <class T>
@@ -122,6 +140,7 @@ std::string to_bytes(const ThrowResult& result) {
   copy.visit(writer);
   writer("", copy.trajectory);
   writer("", copy.wall_s);
+  write_rows(writer, copy.object_rows);
   write_rows(writer, copy.detection_rows);
   write_rows(writer, copy.truth_rows);
   return writer.take();
@@ -133,6 +152,7 @@ ThrowResult result_from_bytes(std::string_view bytes) {
   result.visit(reader);
   reader("", result.trajectory);
   reader("", result.wall_s);
+  read_rows(reader, result.object_rows);
   read_rows(reader, result.detection_rows);
   read_rows(reader, result.truth_rows);
   if (!reader.at_end()) throw IoError("A result is longer than one.");

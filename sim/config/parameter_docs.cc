@@ -96,6 +96,11 @@ void Documenter::operator()(const char* key, const std::optional<Eigen::Vector3d
   add(key, "[x, y, z]", range_text(min, max), value ? to_yaml(*value) : "", doc);
 }
 
+void Documenter::operator()(const char* key, const std::vector<Eigen::Vector3d>&, double min,
+                            double max, const char* doc) {
+  add(key, "list of [x, y, z]", range_text(min, max), "", doc);
+}
+
 void Documenter::operator()(const char* key, const Distribution& value, double min, double max,
                             const char* doc) {
   add(key, "number or distribution", range_text(min, max), to_yaml(value), doc);
@@ -121,6 +126,12 @@ void Documenter::model(const char* key, const NameChoice& value, const char* fol
   add(key, std::string("name of a file in models/") + folder + ", or !choice of names", "",
       to_yaml(value), doc);
 }
+
+void Documenter::varied(const char* key, const VariedKeys&, const char* doc) {
+  add(key, "map of keys to lists of values", "", "", doc);
+}
+
+void Documenter::file(const char* key, const char* doc) { add(key, "file", "", "", doc); }
 
 std::string to_markdown(const std::vector<ParameterDoc>& docs) {
   std::vector<ParameterDoc> groups = {{"", "", "", "", "Keys at the top level."}};

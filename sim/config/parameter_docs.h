@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/config/distribution.h"
+#include "sim/config/varied_key.h"
 
 namespace dodgesim {
 
@@ -39,6 +40,8 @@ class Documenter {
                   const char* doc);
   void operator()(const char* key, const std::optional<Eigen::Vector3d>& value, double min,
                   double max, const char* doc);
+  void operator()(const char* key, const std::vector<Eigen::Vector3d>& value, double min,
+                  double max, const char* doc);
   void operator()(const char* key, const Distribution& value, double min, double max,
                   const char* doc);
   void operator()(const char* key, const Components& value, double min, double max,
@@ -46,6 +49,8 @@ class Documenter {
   void text(const char* key, const std::string& value, const char* doc);
   void model(const char* key, const std::string& value, const char* folder, const char* doc);
   void model(const char* key, const NameChoice& value, const char* folder, const char* doc);
+  void varied(const char* key, const VariedKeys& axes, const char* doc);
+  void file(const char* key, const char* doc);
 
   template <class T>
   void operator()(const char* key, T& value, const char* doc) {
@@ -54,6 +59,12 @@ class Documenter {
     prefix_ += std::string(key) + ".";
     value.visit(*this);
     prefix_ = outer;
+  }
+
+  // `doc` says which keys the maps have.
+  template <class T>
+  void operator()(const char* key, std::vector<T>&, const char* doc) {
+    add(key, "list of maps", "", "", doc);
   }
 
   template <class T>

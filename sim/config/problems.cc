@@ -14,6 +14,11 @@ constexpr std::size_t kMostProblems = 20;
 
 }  // namespace
 
+int Problems::add_source(std::string name) {
+  sources_.push_back(std::move(name));
+  return static_cast<int>(sources_.size()) - 1;
+}
+
 void Problems::add(Position at, const std::string& sentence) {
   if (problems_.size() < kMostProblems) {
     problems_.push_back({at, sentence});
@@ -32,19 +37,20 @@ void Problems::raise_if_any() const {
   if (problems_.empty()) return;
   std::vector<Problem> sorted = problems_;
   std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
-    return std::tie(a.at.line, a.at.column) < std::tie(b.at.line, b.at.column);
+    return std::tie(a.at.source, a.at.line, a.at.column) <
+           std::tie(b.at.source, b.at.line, b.at.column);
   });
   std::string message;
   for (const Problem& problem : sorted) {
     if (!message.empty()) message += '\n';
-    message += file_ + ":";
+    message += sources_.at(static_cast<std::size_t>(problem.at.source)) + ":";
     if (problem.at.line > 0) {
       message += std::to_string(problem.at.line) + ":" + std::to_string(problem.at.column) + ":";
     }
     message += " " + problem.sentence;
   }
   if (left_out_ > 0) {
-    message += "\n" + file_ + ": and " + std::to_string(left_out_) + " more problems.";
+    message += "\n" + file() + ": and " + std::to_string(left_out_) + " more problems.";
   }
   throw ScenarioError(message);
 }

@@ -10,12 +10,17 @@ namespace dodgesim {
 struct Position {
   int line = 0;
   int column = 0;
+  int source = 0;  // which file, or which setting of the command line: see Problems::add_source()
 };
 
 class Problems {
  public:
   // `file` is the file's name as the user gave it; it opens every message.
-  explicit Problems(std::string file) : file_(std::move(file)) {}
+  explicit Problems(std::string file) : sources_{std::move(file)} {}
+
+  // Another file, or a setting of the command line, that the scenario is made of. Returns its
+  // number for Position::source; that of the file itself is 0.
+  int add_source(std::string name);
 
   // `sentence` is one full sentence. Beyond a bounded number, further ones are only counted.
   void add(Position at, const std::string& sentence);
@@ -23,17 +28,19 @@ class Problems {
   // Adds the sentence and throws at once: nothing after it could be judged.
   [[noreturn]] void fail(Position at, const std::string& sentence);
 
-  // Throws ScenarioError with one line a problem, "file:line:column: sentence", in file order.
+  // Throws ScenarioError with one line a problem, "file:line:column: sentence", in the
+  // order of the sources and of their lines.
   void raise_if_any() const;
 
-  const std::string& file() const { return file_; }
+  bool empty() const { return problems_.empty(); }
+  const std::string& file() const { return sources_.front(); }
 
  private:
   struct Problem {
     Position at;
     std::string sentence;
   };
-  std::string file_;
+  std::vector<std::string> sources_;
   std::vector<Problem> problems_;
   int left_out_ = 0;
 };

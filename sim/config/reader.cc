@@ -54,6 +54,19 @@ std::optional<Number> parse_number(const std::string& text) {
 
 std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
+// The dotted path that `word` most likely means: one that ends so, or one that it misspells.
+std::string closest_key(const std::string& word, const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (last_part(path) == word) return path;
+  }
+  const std::string near = closest_name(word, paths);
+  if (!near.empty()) return near;
+  std::vector<std::string> last_parts;
+  for (const std::string& path : paths) last_parts.push_back(last_part(path));
+  const std::string part = closest_name(word, last_parts);
+  return part.empty() ? "" : closest_key(part, paths);
+}
+
 }  // namespace
 
 void Reader::finish() {
@@ -89,9 +102,25 @@ const YamlNode* Reader::take(const char* key) {
 
 const YamlNode* Reader::take_map(const char* key) {
   const YamlNode* node = take(key);
+  return node != nullptr && is_map(*node, full(key)) ? node : nullptr;
+}
+
+bool Reader::is_map(const YamlNode& node, const std::string& name) {
+  if (node.kind == Kind::kMap && node.tag.empty()) return true;
+  problem(node, name, "must be a map of keys");
+  return false;
+}
+
+const YamlNode* Reader::take_list(const char* key, const char* wanted) {
+  constexpr std::size_t kMostItems = 100;
+  const YamlNode* node = take(key);
   if (node == nullptr) return nullptr;
-  if (node->kind == Kind::kMap && node->tag.empty()) return node;
-  problem(*node, full(key), "must be a map of keys");
+  if (node->kind == Kind::kSequence && node->tag.empty() && !node->items.empty() &&
+      node->items.size() <= kMostItems) {
+    return node;
+  }
+  problem(*node, full(key),
+          std::string("must be ") + wanted + ", 1 to " + std::to_string(kMostItems) + " of them");
   return nullptr;
 }
 
@@ -205,6 +234,16 @@ void Reader::operator()(const char* key, std::optional<Eigen::Vector3d>& value, 
   if (read_vector(*node, full(key), vector, min, max)) value = vector;
 }
 
+void Reader::operator()(const char* key, std::vector<Eigen::Vector3d>& value, double min,
+                        double max, const char*) {
+  const YamlNode* list = take_list(key, "a list of [x, y, z]");
+  if (list == nullptr) return;
+  value.assign(list->items.size(), Eigen::Vector3d::Zero());
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    read_vector(list->items[i], full(key) + "[" + std::to_string(i) + "]", value[i], min, max);
+  }
+}
+
 namespace {
 
 // The keys of !normal.
@@ -262,7 +301,7 @@ bool Reader::read_distribution(const YamlNode& node, const std::string& name, Di
       return false;
     }
     NormalKeys keys{min, 1, min, max, min, max};
-    read_nested(last_part(name).c_str(), node, keys);
+    read_nested(last_part(name), node, keys);
     if (keys.min >= keys.max || keys.mean < keys.min || keys.mean > keys.max) {
       problem(node, name, "must have min < max and its mean between them");
       return false;
@@ -356,6 +395,52 @@ void Reader::model(const char* key, NameChoice& value, const char* folder, const
     return;
   }
   value.names = names;
+}
+
+bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const VariedKeys& before,
+                         VariedKey& axis) {
+  const std::vector<std::string>& keys = context_.variable_keys;
+  axis.at = key.at;
+  for (const std::string& path : {key.name, "throw." + key.name}) {
+    if (std::find(keys.begin(), keys.end(), path) != keys.end()) axis.key = path;
+  }
+  const std::string name = full(key.name);
+  const auto refuse = [&](const std::string& sentence) {
+    context_.problems.add(key.at, sentence);
+    return false;
+  };
+  if (axis.key.empty()) {
+    const std::string near = closest_key(key.name, keys);
+    return refuse(name + " is not a key that can take several values" +
+                  (near.empty() ? "." : "; did you mean " + near + "?"));
+  }
+  for (const VariedKey& other : before) {
+    if (other.key == axis.key) return refuse(name + " is given twice.");
+  }
+  if (node.kind != Kind::kSequence || !node.tag.empty() || node.items.empty()) {
+    problem(node, name, "must be a list of values, such as [0.1, 0.2]");
+    return false;
+  }
+  for (const YamlNode& item : node.items) {
+    const auto same = [&](const YamlNode& other) { return to_text(other) == to_text(item); };
+    if (std::any_of(axis.values.begin(), axis.values.end(), same)) {
+      problem(item, name + "[" + std::to_string(axis.values.size()) + "]",
+              "this value is in the list already");
+      return false;
+    }
+    axis.values.push_back(item);
+  }
+  return true;
+}
+
+void Reader::varied(const char* key, VariedKeys& list, const char*) {
+  const YamlNode* map = take_map(key);
+  if (map == nullptr) return;
+  Reader inside(*map, full(key), context_);
+  for (std::size_t i = 0; i < map->keys.size(); ++i) {
+    VariedKey varied;
+    if (inside.read_varied(map->items[i], map->keys[i], list, varied)) list.push_back(varied);
+  }
 }
 
 }  // namespace dodgesim

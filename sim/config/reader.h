@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/config/distribution.h"
+#include "sim/config/varied_key.h"
 #include "sim/config/yaml_tree.h"
 
 namespace dodgesim {
@@ -20,9 +21,10 @@ struct ReadContext {
   explicit ReadContext(std::string file) : problems(std::move(file)) {}
 
   Problems problems;
-  std::map<std::string, Position> where;  // of the value of every key given, by its dotted path
-  std::vector<std::string> all_keys;      // dotted paths of all keys there are, for suggestions
-  std::string models_dir;                 // when set, named models must exist below it
+  std::map<std::string, Position> where;   // of the value of every key given, by its dotted path
+  std::vector<std::string> all_keys;       // dotted paths of all keys there are, for suggestions
+  std::vector<std::string> variable_keys;  // of those that grid and sweep may have
+  std::string models_dir;                  // when set, named models must exist below it
 };
 
 class Reader {
@@ -47,6 +49,10 @@ class Reader {
   void operator()(const char* key, std::optional<Eigen::Vector3d>& value, double min, double max,
                   const char*);
 
+  // A list of up to 100.
+  void operator()(const char* key, std::vector<Eigen::Vector3d>& value, double min, double max,
+                  const char*);
+
   // A number or a distribution whose whole support lies in [min, max].
   void operator()(const char* key, Distribution& value, double min, double max, const char*);
   // One such, or a list of value.count of them.
@@ -57,6 +63,11 @@ class Reader {
   // The name of the model file models/<folder>/<name>.xml; several: !choice [a, b].
   void model(const char* key, std::string& value, const char* folder, const char*);
   void model(const char* key, NameChoice& value, const char* folder, const char*);
+  // Keys with a list of values each. A key of `throw` may stand without that word. Values are not
+  // checked (see check_scenario.h).
+  void varied(const char* key, VariedKeys& list, const char*);
+  // The name of another file, which is read before (see scenario_tree.h).
+  void file(const char* key, const char*) { known_.emplace_back(key); }
 
   template <class T>
   void operator()(const char* key, T& value, const char*) {
@@ -68,13 +79,26 @@ class Reader {
   void operator()(const char* key, std::optional<T>& value, const char*) {
     const YamlNode* map = take_map(key);
     if (map == nullptr) return;
-    value.emplace();
+    if (!value) value.emplace();
     read_nested(key, *map, *value);
+  }
+
+  // A list of parts.
+  template <class T>
+  void operator()(const char* key, std::vector<T>& values, const char*) {
+    const YamlNode* list = take_list(key, "a list of maps");
+    if (list == nullptr) return;
+    values.clear();
+    for (const YamlNode& item : list->items) {
+      const std::string name = key + ("[" + std::to_string(values.size()) + "]");
+      values.emplace_back();
+      if (is_map(item, full(name))) read_nested(name, item, values.back());
+    }
   }
 
  private:
   template <class T>
-  void read_nested(const char* key, const YamlNode& map, T& value) {
+  void read_nested(const std::string& key, const YamlNode& map, T& value) {
     Reader nested(map, full(key), context_);
     value.visit(nested);
     nested.finish();
@@ -83,6 +107,8 @@ class Reader {
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   const YamlNode* take(const char* key);
   const YamlNode* take_map(const char* key);
+  const YamlNode* take_list(const char* key, const char* wanted);  // not empty
+  bool is_map(const YamlNode& node, const std::string& name);
   void problem(const YamlNode& node, const std::string& name, const std::string& complaint);
 
   // The functions below return whether `value` was read; if not, there is a problem.
@@ -95,6 +121,8 @@ class Reader {
                    double min, double max);
   bool read_model(const YamlNode& node, const std::string& name, const char* folder,
                   std::string& value);
+  bool read_varied(const YamlNode& node, const YamlNode::Key& key, const VariedKeys& before,
+                   VariedKey& axis);
 
   const YamlNode& map_;
   std::string path_;

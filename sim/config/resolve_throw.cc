@@ -10,7 +10,11 @@ namespace {
 
 class Draws {
  public:
-  Draws(std::uint64_t seed, int index) : seed_(seed), index_(static_cast<std::uint64_t>(index)) {}
+  // Of one of the objects of throw `index`.
+  Draws(std::uint64_t seed, int index, std::size_t object)
+      : seed_(seed),
+        index_(static_cast<std::uint64_t>(index)),
+        prefix_(object == 0 ? "throw/" : "throw" + std::to_string(object) + "/") {}
 
   double number(const std::string& key, const Distribution& distribution) const {
     RandomStream stream = named(key);
@@ -21,11 +25,12 @@ class Draws {
     return number(key + "/" + std::to_string(i), components.part(i));
   }
 
-  RandomStream named(const std::string& key) const { return {seed_, index_, "throw/" + key}; }
+  RandomStream named(const std::string& key) const { return {seed_, index_, prefix_ + key}; }
 
  private:
   std::uint64_t seed_;
   std::uint64_t index_;
+  std::string prefix_;
 };
 
 // Uniform on the unit sphere (Archimedes: the height is uniform).
@@ -49,11 +54,7 @@ TimeUs whole_ticks_us(double time_s) {
   return static_cast<TimeUs>(std::llround(time_s * 1e6 / static_cast<double>(kTickUs))) * kTickUs;
 }
 
-}  // namespace
-
-Throw resolve_throw(const Scenario& scenario, int index) {
-  const ThrowSpec& spec = scenario.toss.value();
-  const Draws draws(scenario.seed, index);
+Throw resolve(const ThrowSpec& spec, const Draws& draws) {
   Throw toss;
   RandomStream object = draws.named("object");
   toss.object.kind = spec.object.draw(object);
@@ -67,6 +68,20 @@ Throw resolve_throw(const Scenario& scenario, int index) {
   toss.launch_height_m = draws.number("launch_height_m", spec.launch_height_m);
   toss.launch_us = whole_ticks_us(draws.number("launch_s", spec.launch_s));
   return toss;
+}
+
+}  // namespace
+
+std::vector<Throw> resolve_throws(const Scenario& scenario, int index) {
+  std::vector<Throw> throws;
+  for (const ThrowSpec& spec : scenario.throw_specs()) {
+    const std::size_t first = throws.size();
+    for (int k = 0; k < spec.count; ++k) {
+      throws.push_back(resolve(spec, Draws(scenario.seed, index, throws.size())));
+      throws.back().launch_us = throws[first].launch_us + whole_ticks_us(k * spec.interval_s);
+    }
+  }
+  return throws;
 }
 
 }  // namespace dodgesim

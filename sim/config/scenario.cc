@@ -1,9 +1,10 @@
 #include "sim/config/scenario.h"
 
+#include <algorithm>
 #include <filesystem>
-#include <stdexcept>
+#include <iterator>
 
-#include "sim/config/numbers.h"
+#include "sim/config/check_scenario.h"
 #include "sim/config/reader.h"
 #include "sim/config/writer.h"
 
@@ -11,68 +12,49 @@ namespace dodgesim {
 
 namespace {
 
-Position position_of(const ReadContext& context, const std::string& key) {
-  const auto found = context.where.find(key);
-  return found == context.where.end() ? Position{} : found->second;
-}
-
-// R_BC of a camera whose z looks along x of B.
-Eigen::Matrix3d looking_forward() {
-  Eigen::Matrix3d R_BC;
-  R_BC << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return R_BC;
-}
-
-// What a single range per key cannot say.
-void check_consistency(const Scenario& scenario, ReadContext& context) {
-  if (scenario.mission.type == "goal" && !scenario.mission.goal_m) {
-    context.problems.add(position_of(context, "mission.type"),
-                         "mission.goal_m is missing, but mission.type goal needs it.");
-  }
-  if (scenario.mission.type == "hover" && scenario.mission.goal_m) {
-    context.problems.add(position_of(context, "mission.goal_m"),
-                         "mission.goal_m is given, but mission.type hover does not fly to a goal.");
-  }
-}
-
-// The flight core checks its own configuration. Which cameras it gets is known only with the
-// vehicle's model; a rectified pair stands for them.
-void check_dodger(const Scenario& scenario, ReadContext& context) {
-  dodge::Config config = scenario.dodger;
-  config.cameras.resize(2);
-  config.cameras[0].X_BC.translation().z() = 0.15;
-  for (dodge::CameraModel& camera : config.cameras) camera.X_BC.linear() = looking_forward();
-  try {
-    dodge::validate(config);
-  } catch (const std::invalid_argument& error) {
-    context.problems.add(position_of(context, "dodger"),
-                         std::string("dodger does not fit together: ") + error.what());
-  }
+// Neither what names the campaign or its throws can have several values, nor what is no value.
+bool may_vary(const ParameterDoc& doc) {
+  constexpr const char* kSingle[] = {"extends", "name", "description", "seed",
+                                     "repeats", "grid", "sweep",       "throws"};
+  return !doc.is_group() &&
+         std::find(std::begin(kSingle), std::end(kSingle), doc.path) == std::end(kSingle);
 }
 
 }  // namespace
 
-Scenario parse_scenario(const std::string& text, const std::string& file,
-                        const std::string& models_dir) {
+namespace {
+
+Scenario read(const std::string& text, const std::string& file, const std::string& models_dir,
+              const std::vector<Setting>& settings) {
   ReadContext context(file);
   context.models_dir = models_dir;
-  for (const ParameterDoc& doc : scenario_docs()) context.all_keys.push_back(doc.path);
-  const YamlNode root = parse_yaml(text, context.problems);
+  for (const ParameterDoc& doc : scenario_docs()) {
+    context.all_keys.push_back(doc.path);
+    if (may_vary(doc)) context.variable_keys.push_back(doc.path);
+  }
+  const YamlNode root = scenario_tree(text, file, settings, context.problems);
   Scenario scenario;
   scenario.models_dir = models_dir;
   Reader reader(root, "", context);
   scenario.visit(reader);
   reader.finish();
   context.problems.raise_if_any();
-  check_consistency(scenario, context);
-  check_dodger(scenario, context);
+  check_scenario(scenario, context);
   context.problems.raise_if_any();
   if (scenario.name.empty()) scenario.name = std::filesystem::path(file).stem().string();
   return scenario;
 }
 
-Scenario load_scenario(const std::string& path, const std::string& models_dir) {
-  return parse_scenario(read_scenario_text(path), path, models_dir);
+}  // namespace
+
+Scenario parse_scenario(const std::string& text, const std::string& file,
+                        const std::string& models_dir) {
+  return read(text, file, models_dir, {});
+}
+
+Scenario load_scenario(const std::string& path, const std::string& models_dir,
+                       const std::vector<Setting>& settings) {
+  return read(read_scenario_text(path), path, models_dir, settings);
 }
 
 std::string to_yaml(const Scenario& scenario) {

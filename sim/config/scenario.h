@@ -14,6 +14,8 @@
 #include "sim/bridge/oracle_spec.h"
 #include "sim/config/distribution.h"
 #include "sim/config/parameter_docs.h"
+#include "sim/config/scenario_tree.h"
+#include "sim/config/varied_key.h"
 #include "sim/control/flight_controller.h"
 #include "sim/control/velocity_controller.h"
 #include "sim/events/spec.h"
@@ -23,6 +25,7 @@
 #include "sim/sensors/imu.h"
 #include "sim/sensors/range_sensor.h"
 #include "sim/sensors/state_estimator.h"
+#include "sim/world/vehicle_overrides.h"
 
 namespace dodgesim {
 
@@ -68,16 +71,24 @@ struct MissionSpec {
   Eigen::Vector3d start_m{0, 0, 2};
   double heading_deg = 0;
   std::optional<Eigen::Vector3d> goal_m;
+  std::vector<Eigen::Vector3d> waypoints_m;
+  double waypoint_radius_m = 0.3;
   double speed_mps = 1.5;
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v("type", type, {"hover", "goal"}, "Stay at start_m, or fly from there to goal_m.");
+    v("type", type, {"hover", "goal", "waypoints"},
+      "Stay at start_m, or fly from there to goal_m or along waypoints_m.");
     v("start_m", start_m, -100, 100, "Where the vehicle starts, in world coordinates (z up).");
     v("heading_deg", heading_deg, -180, 180,
       "Heading of the vehicle and its cameras: 0 along world x, positive to the left.");
     v("goal_m", goal_m, -100, 100, "Where to fly; required for the type goal.");
-    v("speed_mps", speed_mps, 0.1, 10, "Cruise speed towards the goal (1.5 in the paper).");
+    v("waypoints_m", waypoints_m, -100, 100,
+      "Where to fly one after the other, to hover at the last; required for the type waypoints.");
+    v("waypoint_radius_m", waypoint_radius_m, 0.05, 10,
+      "How near its estimated position must come to a waypoint for the vehicle to go on.");
+    v("speed_mps", speed_mps, 0.1, 10,
+      "Cruise speed towards the goal or a waypoint (1.5 in the paper).");
   }
 };
 
@@ -91,6 +102,8 @@ struct ThrowSpec {
   Components spin_radps = {3, {Distribution::constant(0)}};
   Distribution launch_height_m = Distribution::constant(1.5);
   Distribution launch_s = Distribution::constant(1);
+  int count = 1;
+  double interval_s = 0;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -112,20 +125,29 @@ struct ThrowSpec {
     v("launch_height_m", launch_height_m, 0.05, 10,
       "Height of the hand above the floor when it lets go.");
     v("launch_s", launch_s, 0.1, 600, "Time of the launch after the start of the flight.");
+    v("count", count, 1, 16,
+      "How many of these are thrown in one flight, each with draws of its own.");
+    v("interval_s", interval_s, 0, 60,
+      "From one of their launches to the next; 0: all at once, at launch_s of the first.");
   }
 };
 
+// What a campaign flies; expand.h has what one of its throws needs.
 struct Scenario {
   std::string name;
   std::string description;
   std::uint64_t seed = 1;
   int repeats = 1;
+  VariedKeys grid;
+  VariedKeys sweep;
   std::string pilot = "falanga2020";
   bool fly_oracle = true;
   std::string room = "room";
   std::string vehicle = "qav_rxl";
   MissionSpec mission;
-  std::optional<ThrowSpec> toss;  // the key `throw`; absent: nobody throws
+  VehicleOverrides vehicle_overrides;
+  std::optional<ThrowSpec> toss;  // the key `throw`
+  std::vector<ThrowSpec> throws;  // in its place; without both, nobody throws
   double after_s = 1;
   double duration_s = 10;
   SensorsSpec sensors;
@@ -138,13 +160,29 @@ struct Scenario {
 
   std::string models_dir;  // folder of rooms, vehicles and objects; not part of the file
 
+  // One for each throw or group of throws of a flight, whichever key they stand under.
+  std::vector<ThrowSpec> throw_specs() const {
+    return toss ? std::vector<ThrowSpec>{*toss} : throws;
+  }
+  bool anyone_throws() const { return toss || !throws.empty(); }
+
   template <class Visitor>
   void visit(Visitor& v) {
+    v.file("extends",
+           "Another scenario, relative to this file, whose keys hold where this file has none.");
     v.text("name", name, "Title of the campaign in tables; the file's name when empty.");
     v.text("description", description, "What the scenario is for.");
     v("seed", seed, 0, UINT64_MAX,
       "Names the random numbers: the same seed and scenario give the same results.");
-    v("repeats", repeats, 1, 1000000, "Number of throws (of quiet flights, when nobody throws).");
+    v("repeats", repeats, 1, 1000000,
+      "Number of throws (of quiet flights, when nobody throws); with a grid, of each cell.");
+    v.varied(
+        "grid", grid,
+        "Keys to lists of values, such as {size_m: [0.1, 0.2]}; every combination is a cell of "
+        "throws of its own. Keys of throw may stand without that word.");
+    v.varied("sweep", sweep,
+             "Likewise; but every combination flies the same throws again, with the same noise, so "
+             "that its values can be compared throw by throw. They are never pooled.");
     v("pilot", pilot, {"falanga2020", "oracle", "none"},
       "Who flies: the paper's dodger, one that is told the true obstacle, or one that never "
       "dodges.");
@@ -152,9 +190,13 @@ struct Scenario {
       "Fly every throw with the pilot oracle too, which bounds what perception can cost.");
     v.model("room", room, "rooms", "The world around the vehicle.");
     v.model("vehicle", vehicle, "vehicles", "The quadrotor.");
+    v("vehicle_overrides", vehicle_overrides, "What is different from the vehicle's model.");
     v("mission", mission, "What the vehicle does when it does not dodge.");
     v("throw", toss, "What is thrown at the vehicle; without this key nobody throws.");
-    v("after_s", after_s, 0.1, 60, "Flown on after the object's predicted arrival.");
+    v("throws", throws,
+      "Several throws in one flight, in place of throw: a list of maps, each with the keys of "
+      "throw. Up to 16 objects in all; launch_s says which come together.");
+    v("after_s", after_s, 0.1, 60, "Flown on after the last object's predicted arrival.");
     v("duration_s", duration_s, 0.1, 3600,
       "Length of a flight when nobody throws (with a throw, after_s ends it).");
     v("sensors", sensors, "What the vehicle senses, and how badly.");
@@ -169,8 +211,9 @@ struct Scenario {
 
 // Reads and checks a scenario. Every problem is one sentence with file, line, column and key; all
 // are reported together in one ScenarioError. Named models must exist in `models_dir` (empty: not
-// checked).
-Scenario load_scenario(const std::string& path, const std::string& models_dir);
+// checked). `settings` are laid over the file in their order.
+Scenario load_scenario(const std::string& path, const std::string& models_dir,
+                       const std::vector<Setting>& settings = {});
 Scenario parse_scenario(const std::string& text, const std::string& file,
                         const std::string& models_dir);
 

@@ -21,6 +21,15 @@ std::string list(const std::vector<double>& values) {
   return list(items);
 }
 
+// Names of models are letters, digits, _ and -, but YAML reads some of those as something else.
+std::string name_text(const std::string& name) {
+  const bool letter = (name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z');
+  const bool null = name == "null" || name == "Null" || name == "NULL";
+  return letter && !null ? name : in_quotes(name);
+}
+
+}  // namespace
+
 std::string in_quotes(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
@@ -45,15 +54,6 @@ std::string in_quotes(const std::string& text) {
   }
   return quoted + "\"";
 }
-
-// Names of models are letters, digits, _ and -, but YAML reads some of those as something else.
-std::string name_text(const std::string& name) {
-  const bool letter = (name[0] >= 'a' && name[0] <= 'z') || (name[0] >= 'A' && name[0] <= 'Z');
-  const bool null = name == "null" || name == "Null" || name == "NULL";
-  return letter && !null ? name : in_quotes(name);
-}
-
-}  // namespace
 
 std::string to_yaml(const Distribution& distribution) {
   const std::vector<double>& values = distribution.values;
@@ -91,6 +91,8 @@ std::string to_yaml(const Eigen::Vector3d& vector) {
 
 void Writer::line(const char* key, const std::string& value) {
   yaml_.append(kIndent * static_cast<std::size_t>(level_), ' ');
+  if (item_) yaml_.replace(yaml_.size() - kIndent, kIndent, "- ");
+  item_ = false;
   yaml_ += key;
   yaml_ += ":";
   if (!value.empty()) yaml_ += " " + value;
@@ -134,6 +136,14 @@ void Writer::operator()(const char* key, const std::optional<Eigen::Vector3d>& v
   if (value) line(key, to_yaml(*value));
 }
 
+void Writer::operator()(const char* key, const std::vector<Eigen::Vector3d>& value, double, double,
+                        const char*) {
+  if (value.empty()) return;
+  std::vector<std::string> items;
+  for (const Eigen::Vector3d& vector : value) items.push_back(to_yaml(vector));
+  line(key, list(items));
+}
+
 void Writer::operator()(const char* key, const Distribution& value, double, double, const char*) {
   line(key, to_yaml(value));
 }
@@ -152,6 +162,18 @@ void Writer::model(const char* key, const std::string& value, const char*, const
 
 void Writer::model(const char* key, const NameChoice& value, const char*, const char*) {
   line(key, to_yaml(value));
+}
+
+void Writer::varied(const char* key, const VariedKeys& axes, const char*) {
+  if (axes.empty()) return;
+  line(key, "");
+  ++level_;
+  for (const VariedKey& axis : axes) {
+    std::vector<std::string> values;
+    for (const YamlNode& value : axis.values) values.push_back(to_text(value));
+    line(axis.key.c_str(), list(values));
+  }
+  --level_;
 }
 
 }  // namespace dodgesim

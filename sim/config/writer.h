@@ -9,6 +9,7 @@
 #include <string>
 
 #include "sim/config/distribution.h"
+#include "sim/config/varied_key.h"
 
 namespace dodgesim {
 
@@ -27,11 +28,15 @@ class Writer {
   void operator()(const char* key, const Eigen::Vector3d& value, double, double, const char*);
   void operator()(const char* key, const std::optional<Eigen::Vector3d>& value, double, double,
                   const char*);
+  void operator()(const char* key, const std::vector<Eigen::Vector3d>& value, double, double,
+                  const char*);
   void operator()(const char* key, const Distribution& value, double, double, const char*);
   void operator()(const char* key, const Components& value, double, double, const char*);
   void text(const char* key, const std::string& value, const char*);
   void model(const char* key, const std::string& value, const char*, const char*);
   void model(const char* key, const NameChoice& value, const char*, const char*);
+  void varied(const char* key, const VariedKeys& axes, const char*);
+  void file(const char*, const char*) {}  // its contents are written
 
   template <class T>
   void operator()(const char* key, T& value, const char*) {
@@ -39,6 +44,18 @@ class Writer {
     ++level_;
     value.visit(*this);
     --level_;
+  }
+
+  template <class T>
+  void operator()(const char* key, std::vector<T>& values, const char*) {
+    if (values.empty()) return;
+    line(key, "");
+    level_ += 2;
+    for (T& value : values) {
+      item_ = true;
+      value.visit(*this);
+    }
+    level_ -= 2;
   }
 
   template <class T>
@@ -51,7 +68,11 @@ class Writer {
 
   std::string yaml_;
   int level_ = 0;
+  bool item_ = false;  // the next line begins an item of a list
 };
+
+// Text as a YAML scalar in double quotes.
+std::string in_quotes(const std::string& text);
 
 // As they stand in YAML: "0.3", "!uniform [0.1, 0.3]", "[0.1, 0, !normal {...}]".
 std::string to_yaml(const Distribution& distribution);

@@ -5,11 +5,13 @@
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/config/writer.h"
 
 namespace dodgesim {
 
@@ -19,7 +21,16 @@ constexpr std::size_t kMostBytes = 256 * 1024;  // a long scenario has 10 kB
 constexpr std::size_t kMostNodes = 5000;
 constexpr std::size_t kDeepest = 16;
 
-Position position(const YAML::Mark& mark) { return {mark.line + 1, mark.column + 1}; }
+// What the positions of a text say.
+struct Place {
+  int source = 0;
+  bool lines = true;  // whether they name line and column
+
+  Position whole() const { return {0, 0, source}; }
+  Position at(const YAML::Mark& mark) const {
+    return lines && !mark.is_null() ? Position{mark.line + 1, mark.column + 1, source} : whole();
+  }
+};
 
 // Raised inside yaml-cpp's parser to leave it; never seen by the caller.
 struct Stop {
@@ -29,7 +40,7 @@ struct Stop {
 
 class TreeBuilder : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(Problems& problems) : problems_(problems) {}
+  TreeBuilder(Problems& problems, const Place& place) : problems_(problems), place_(place) {}
 
   YamlNode take_root() { return std::move(root_); }
 
@@ -72,7 +83,7 @@ class TreeBuilder : public YAML::EventHandler {
   YamlNode make(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag,
                 YAML::anchor_t anchor) {
     if (++nodes_ > kMostNodes) {
-      throw Stop{position(mark), "The file has more than " + std::to_string(kMostNodes) +
+      throw Stop{position(mark), "There are more than " + std::to_string(kMostNodes) +
                                      " values, which no scenario needs."};
     }
     if (anchor != 0) {
@@ -88,7 +99,7 @@ class TreeBuilder : public YAML::EventHandler {
   void open(YamlNode node) {
     if (!open_.empty()) require_key_if_due(node);
     if (open_.size() >= kDeepest) {
-      throw Stop{node.at, "The file is nested more than " + std::to_string(kDeepest) +
+      throw Stop{node.at, "This is nested more than " + std::to_string(kDeepest) +
                               " levels deep, which no scenario needs."};
     }
     open_.push_back({std::move(node)});
@@ -155,7 +166,10 @@ class TreeBuilder : public YAML::EventHandler {
     return path;
   }
 
+  Position position(const YAML::Mark& mark) const { return place_.at(mark); }
+
   Problems& problems_;
+  Place place_;
   YamlNode root_;
   std::vector<Open> open_;
   std::size_t nodes_ = 0;
@@ -183,16 +197,17 @@ std::size_t utf8_length(std::string_view text) {
   return overlong || surrogate || code > 0x10ffff ? 0 : length;
 }
 
-void check_encoding(std::string_view text, Problems& problems) {
-  Position at{1, 1};
+void check_encoding(std::string_view text, Problems& problems, const Place& place) {
+  Position at{1, 1, place.source};
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = utf8_length(text.substr(i));
     if (length == 0) {
       const int byte = static_cast<unsigned char>(text[i]);
-      problems.fail(at, "The file is not UTF-8 text (byte " + std::to_string(byte) + ").");
+      problems.fail(place.lines ? at : place.whole(),
+                    "This is not UTF-8 text (byte " + std::to_string(byte) + ").");
     }
     if (text[i] == '\n') {
-      at = {at.line + 1, 1};
+      at = {at.line + 1, 1, place.source};
     } else {
       ++at.column;
     }
@@ -200,36 +215,80 @@ void check_encoding(std::string_view text, Problems& problems) {
   }
 }
 
-}  // namespace
-
-YamlNode parse_yaml(std::string_view text, Problems& problems) {
+// The only document of the text.
+YamlNode parse_document(std::string_view text, Problems& problems, const Place& place) {
   if (text.size() > kMostBytes) {
-    problems.fail({}, "The file has " + std::to_string(text.size()) +
-                          " bytes; a scenario has at most " + std::to_string(kMostBytes) + ".");
+    problems.fail(place.whole(), "The file has " + std::to_string(text.size()) +
+                                     " bytes; a scenario has at most " +
+                                     std::to_string(kMostBytes) + ".");
   }
-  check_encoding(text, problems);
-  YamlNode root;
+  check_encoding(text, problems, place);
   try {
     std::istringstream stream{std::string(text)};
     YAML::Parser parser(stream);
-    TreeBuilder builder(problems);
-    if (!parser.HandleNextDocument(builder)) problems.fail({}, "The file is empty.");
-    root = builder.take_root();
-    TreeBuilder second(problems);
-    if (parser.HandleNextDocument(second)) {
-      problems.fail(second.take_root().at, "The file holds more than one YAML document (---).");
+    TreeBuilder builder(problems, place);
+    if (!parser.HandleNextDocument(builder)) {
+      YamlNode nothing;
+      nothing.at = place.whole();
+      return nothing;
     }
+    YamlNode root = builder.take_root();
+    TreeBuilder second(problems, place);
+    if (parser.HandleNextDocument(second)) {
+      problems.fail(second.take_root().at, "This is more than one YAML document (---).");
+    }
+    return root;
   } catch (const Stop& stop) {
     problems.fail(stop.at, stop.sentence);
   } catch (const YAML::Exception& error) {
-    problems.fail(error.mark.is_null() ? Position{} : position(error.mark),
-                  "The file is not valid YAML (" + error.msg + ").");
+    problems.fail(place.at(error.mark), "This is not valid YAML (" + error.msg + ").");
   }
-  if (root.kind == YamlNode::Kind::kNull) problems.fail({}, "The file is empty.");
+}
+
+// Whether a scalar can stand without quotes wherever a value may stand.
+bool is_plain(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '.' || c == '+' || c == '-';
+  });
+}
+
+}  // namespace
+
+YamlNode parse_yaml(std::string_view text, Problems& problems, int source) {
+  const Place place{source};
+  YamlNode root = parse_document(text, problems, place);
+  if (root.kind == YamlNode::Kind::kNull) problems.fail(place.whole(), "The file is empty.");
   if (root.kind != YamlNode::Kind::kMap) {
     problems.fail(root.at, "The file must be a map of keys, one a line, such as \"seed: 1\".");
   }
   return root;
+}
+
+YamlNode parse_yaml_value(std::string_view text, Problems& problems, int source) {
+  return parse_document(text, problems, {source, false});
+}
+
+std::string to_text(const YamlNode& node) {
+  using Kind = YamlNode::Kind;
+  std::string text = node.tag.empty() ? "" : node.tag + " ";
+  switch (node.kind) {
+    case Kind::kNull:
+      return text + "~";
+    case Kind::kScalar:
+      return text + (node.quoted || !is_plain(node.text) ? in_quotes(node.text) : node.text);
+    case Kind::kSequence:
+    case Kind::kMap:
+      break;
+  }
+  const bool map = node.kind == Kind::kMap;
+  text += map ? "{" : "[";
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (i > 0) text += ", ";
+    if (map) text += node.keys[i].name + ": ";
+    text += to_text(node.items[i]);
+  }
+  return text + (map ? "}" : "]");
 }
 
 std::string read_scenario_text(const std::string& path) {

@@ -28,11 +28,18 @@ struct YamlNode {
   std::vector<Key> keys;        // of a map: keys[i] names items[i]
 };
 
-// Parses one document whose root is a map. Duplicate keys, anchors, aliases and merge keys are
-// added to `problems`; what cannot be parsed at all (not UTF-8, syntax, empty, several documents,
-// too deep, too large) throws ScenarioError at once. Time and memory are bounded by limits on size
-// and depth.
-YamlNode parse_yaml(std::string_view text, Problems& problems);
+// Parses one document whose root is a map; its positions have the given source. Duplicate keys,
+// anchors, aliases and merge keys are added to `problems`; what cannot be parsed at all (not UTF-8,
+// syntax, empty, several documents, too deep, too large) throws ScenarioError at once. Time and
+// memory are bounded by limits on size and depth.
+YamlNode parse_yaml(std::string_view text, Problems& problems, int source = 0);
+
+// The same for a value of any kind, such as the `[1, 2]` of a command line. The positions name the
+// source only.
+YamlNode parse_yaml_value(std::string_view text, Problems& problems, int source);
+
+// The node on one line, as parse_yaml_value() reads it: `!uniform [0.1, 0.3]`.
+std::string to_text(const YamlNode& node);
 
 // Whole contents of a file of bounded size. Throws ScenarioError when there is no such file or it
 // is a directory or too large for a scenario, and IoError when reading fails.

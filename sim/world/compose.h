@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/base/mujoco.h"
+#include "sim/world/vehicle_overrides.h"
 
 namespace dodgesim {
 
@@ -27,6 +28,7 @@ struct WorldSpec {
   std::string vehicle = "qav_rxl";  // models/vehicles/<vehicle>.xml
   std::vector<ObjectSpec> objects;
   bool air_drag = true;  // of thrown objects; off only to compare with the parabola
+  VehicleOverrides vehicle_overrides = {};
 };
 
 // Conventions of the model files. Contact bits: room geoms have contype 1 and conaffinity 6, the

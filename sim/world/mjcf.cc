@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -16,6 +18,8 @@ namespace dodgesim {
 namespace {
 
 constexpr std::uintmax_t kMaxModelBytes = 1 << 20;
+constexpr std::uintmax_t kMaxAssetBytes = 32 << 20;
+constexpr std::uint32_t kMaxTexturePx = 4096;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
@@ -127,11 +131,52 @@ class Reader {
   mutable int line_ = 1;
 };
 
+// Width and height of a PNG file; nothing for any other file.
+std::optional<std::array<std::uint32_t, 2>> png_size(const std::string& path) {
+  constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  std::array<unsigned char, 24> head{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
+  if (!file || !std::equal(kSignature.begin(), kSignature.end(), head.begin())) {
+    return std::nullopt;
+  }
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | head[i];
+    return value;
+  };
+  return std::array<std::uint32_t, 2>{number(16), number(20)};
+}
+
+// What would take MuJoCo and the renderer more memory than any model needs.
+void check_asset(const std::string& path, const std::string& where) {
+  std::error_code error;
+  if (std::filesystem::file_size(path, error) > kMaxAssetBytes || error) {
+    throw ScenarioError(where + "The file " + path + " is larger than 32 MB.");
+  }
+  const auto size = png_size(path);
+  if (size && std::max((*size)[0], (*size)[1]) > kMaxTexturePx) {
+    throw ScenarioError(where + "The texture " + path + " has " + std::to_string((*size)[0]) +
+                        " x " + std::to_string((*size)[1]) + " pixels; at most " +
+                        std::to_string(kMaxTexturePx) + " x " + std::to_string(kMaxTexturePx) +
+                        " are allowed.");
+  }
+}
+
 // A path stays inside the models folder if it is relative and never goes up.
 bool leaves_folder(const std::string& path) {
   const std::filesystem::path p(path);
   return p.is_absolute() || path.find('\\') != std::string::npos ||
          std::find(p.begin(), p.end(), std::filesystem::path("..")) != p.end();
+}
+
+// Neither may a link lead out of it.
+bool is_inside(const std::string& path, const std::string& directory) {
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::canonical(path, error);
+  const std::filesystem::path folder = std::filesystem::canonical(directory, error);
+  return !error && std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
+                       folder.end();
 }
 
 // <compiler> could move the folders of assets, and change the meaning of angles in other files.
@@ -143,6 +188,13 @@ void check_paths(const std::vector<MjcfTag>& tags, const std::string& directory,
       throw ScenarioError(where + "A model file must not use <" + tag.name + ">.");
     }
     for (const auto& [name, value] : tag.attributes) {
+      if (tag.name == "texture" && (name == "width" || name == "height")) {
+        for (const double pixels : parse_numbers(value, label)) {
+          if (pixels <= kMaxTexturePx) continue;
+          throw ScenarioError(where + "A texture has at most " + std::to_string(kMaxTexturePx) +
+                              " x " + std::to_string(kMaxTexturePx) + " pixels.");
+        }
+      }
       if (name.compare(0, 4, "file") != 0) continue;
       if (leaves_folder(value)) {
         throw ScenarioError(where + "The path '" + value + "' leaves the models folder.");
@@ -151,6 +203,10 @@ void check_paths(const std::vector<MjcfTag>& tags, const std::string& directory,
       if (!std::filesystem::is_regular_file(directory + "/" + value, error)) {
         throw ScenarioError(where + "The file " + directory + "/" + value + " does not exist.");
       }
+      if (!is_inside(directory + "/" + value, directory)) {
+        throw ScenarioError(where + "The path '" + value + "' leaves the models folder.");
+      }
+      check_asset(directory + "/" + value, where);
     }
   }
 }

@@ -30,8 +30,8 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& la
 
 // Reads the model file `directory`/`file` and returns what is inside its <mujoco> element.
 // Asset paths are relative to `directory`. Throws ScenarioError, naming the file, when it is
-// missing, too large, not MJCF, uses <include> or <compiler>, or names an asset that does not exist
-// or lies outside `directory`.
+// missing, too large, not MJCF, uses <include> or <compiler>, or names an asset that does not
+// exist, lies outside `directory` or is larger than any model needs.
 std::vector<MjcfTag> read_model_file(const std::string& directory, const std::string& file);
 
 // Value of <numeric name=`name`>. Throws ScenarioError, naming `label`, when it is absent.

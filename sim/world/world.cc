@@ -38,7 +38,7 @@ World::World(const WorldSpec& spec)
   if (!data_) throw SimulationError("MuJoCo cannot allocate its data.");
   contype_.assign(model_->geom_contype, model_->geom_contype + model_->ngeom);
   conaffinity_.assign(model_->geom_conaffinity, model_->geom_conaffinity + model_->ngeom);
-  read_vehicle();
+  read_vehicle(spec.vehicle_overrides);
   for (int i = 0; i < static_cast<int>(spec.objects.size()); ++i) {
     label_ =
         spec.models_dir + "/objects/" + spec.objects[static_cast<std::size_t>(i)].kind + ".xml";
@@ -87,8 +87,31 @@ World::FreeBody World::find_free_body(int body) const {
   return out;
 }
 
-void World::read_vehicle() {
+// Changes the model itself, so that whatever reads it agrees.
+void World::override_vehicle(const VehicleOverrides& overrides) {
+  model_->body_mass[vehicle_body_] *= overrides.mass_scale;
+  for (int axis = 0; axis < 3; ++axis) {
+    model_->body_inertia[3 * vehicle_body_ + axis] *= overrides.inertia_scale;
+  }
+  if (overrides.max_thrust_n > 0) {
+    for (int rotor = 0; rotor < model_->nu; ++rotor) {
+      model_->actuator_ctrlrange[2 * rotor + 1] = overrides.max_thrust_n;
+    }
+  }
+  if (overrides.stereo_baseline_m > 0) {
+    Map3 top(model_->cam_pos + 3 * find(mjOBJ_CAMERA, "top"));
+    Map3 bottom(model_->cam_pos + 3 * find(mjOBJ_CAMERA, "bottom"));
+    const Eigen::Vector3d middle = 0.5 * (top + bottom);
+    const Eigen::Vector3d up = (top - bottom).normalized();
+    top = middle + 0.5 * overrides.stereo_baseline_m * up;
+    bottom = middle - 0.5 * overrides.stereo_baseline_m * up;
+  }
+  mj_setConst(model_.get(), data_.get());  // what MuJoCo derives from these
+}
+
+void World::read_vehicle(const VehicleOverrides& overrides) {
   vehicle_body_ = find(mjOBJ_BODY, "vehicle");
+  override_vehicle(overrides);
   vehicle_free_ = find_free_body(vehicle_body_);
   vehicle_.mass_kg = model_->body_mass[vehicle_body_];
   vehicle_.inertia_kgm2 = vehicle_free_.J_kgm2.diagonal();
@@ -105,7 +128,15 @@ void World::read_vehicle() {
     vehicle_.max_thrust_n = model_->actuator_ctrlrange[2 * actuator + 1];
     vehicle_.drag_1ps[std::min(k, 2)] = numeric("rotor_drag_1ps", std::min(k, 2), 3);
   }
-  vehicle_.drag_kh_1pm = numeric("rotor_drag_kh_1pm", 0, 1);
+  vehicle_.drag_kh_1pm = numeric("rotor_drag_kh_1pm", 0, 1) / overrides.mass_scale;
+  vehicle_.drag_1ps /= overrides.mass_scale;  // accelerations by the same forces
+  constexpr double kLeastLift = 1.2;
+  const double lift = 4 * vehicle_.max_thrust_n / (vehicle_.mass_kg * kGravityMps2);
+  if (lift < kLeastLift) {
+    throw ScenarioError(label_ + ": the rotors lift only " + std::to_string(lift) +
+                        " times the vehicle's weight; it needs at least 1.2 to fly" +
+                        " (vehicle_overrides.mass_scale, max_thrust_n).");
+  }
   for (const char* name : {"top", "bottom"}) {
     const int camera = find(mjOBJ_CAMERA, name);
     Eigen::Isometry3d X = pose(model_->cam_pos + 3 * camera, model_->cam_quat + 4 * camera);

@@ -70,7 +70,8 @@ class World {
   };
 
   FreeBody find_free_body(int body) const;
-  void read_vehicle();
+  void read_vehicle(const VehicleOverrides& overrides);
+  void override_vehicle(const VehicleOverrides& overrides);
   void read_object(int i);
   double numeric(const std::string& name, int index, int count) const;
   int find(mjtObj type, const std::string& name) const;

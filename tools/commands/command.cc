@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "sim/base/error.h"
+
 namespace dodgesim {
 
 namespace {
@@ -20,6 +22,24 @@ void add_models_option(CLI::App& command, std::string& models_dir) {
       ->envname("DODGESIM_MODELS")
       ->capture_default_str()
       ->type_name("DIR");
+}
+
+void add_set_option(CLI::App& command, std::vector<std::string>& set) {
+  command
+      .add_option(
+          "--set", set,
+          "Set a key of the scenario, whatever its file says; the value is YAML; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+Setting parse_setting(const std::string& option, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) {
+    throw ScenarioError(option + " " + text +
+                        ": This must be KEY=VALUE, such as throw.speed_mps=6.");
+  }
+  return {text.substr(0, equals), text.substr(equals + 1), option + " " + text};
 }
 
 std::string count_of_throws(int n) { return std::to_string(n) + (n == 1 ? " throw" : " throws"); }

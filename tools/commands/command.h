@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "sim/campaign/result.h"
 #include "sim/config/scenario.h"
@@ -18,6 +19,7 @@ inline constexpr int kIoError = 4;     // a file could not be read or written
 
 // Each adds its subcommand, which sets `exit_code` when it is run. Errors leave as exceptions.
 void add_run_command(CLI::App& program, const std::string& command_line, int& exit_code);
+void add_sweep_command(CLI::App& program, const std::string& command_line, int& exit_code);
 void add_merge_command(CLI::App& program, const std::string& command_line, int& exit_code);
 void add_compare_command(CLI::App& program, int& exit_code);
 void add_gate_command(CLI::App& program, const std::string& command_line, int& exit_code);
@@ -32,6 +34,12 @@ void add_check_sensor_command(CLI::App& program, const std::string& command_line
 
 // Adds --models: where rooms, vehicles and objects are.
 void add_models_option(CLI::App& command, std::string& models_dir);
+
+// Adds --set: keys of the scenario given on the command line, as KEY=VALUE.
+void add_set_option(CLI::App& command, std::vector<std::string>& set);
+
+// A setting from KEY=VALUE as it stands behind `option`. Throws ScenarioError without a `=`.
+Setting parse_setting(const std::string& option, const std::string& text);
 
 // Two lines about precision and recall, without the last line's end.
 std::string truth_text(const EventTruthSums& sums);

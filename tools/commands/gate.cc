@@ -41,7 +41,9 @@ GateRules rules_of(const Arguments& arguments, const std::optional<Baseline>& ba
 // Other throws cannot be compared one by one: found out before hours of flying.
 void expect_same_throws(const Scenario& scenario, const Baseline& baseline, const fs::path& where) {
   std::string text = csv_header<ThrowResult>();
-  for (int i = 0; i < scenario.repeats; ++i) text += csv_row(blank_result(scenario, i));
+  for (int i = 0; i < throw_count(scenario); ++i) {
+    text += csv_row(blank_result(case_of(scenario, i)));
+  }
   const auto drawn = outcomes(CsvTable(text, "the scenario's throws"));
   const auto before = outcomes(baseline.throws);
   const std::string remedy = "; to make a new baseline of this scenario, add --update.";

@@ -7,11 +7,13 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/csv.h"
+#include "sim/config/expand.h"
 #include "sim/event_truth.h"
 #include "sim/files/labelled_event_file.h"
 #include "sim/film.h"
 #include "sim/loop.h"
 #include "sim/poster.h"
+#include "sim/try_models.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -94,8 +96,13 @@ std::string recorded_row(const std::string& path, int throw_index) {
 
 int replay(const Arguments& arguments) {
   const std::string& directory = arguments.directory;
-  const Scenario scenario =
+  const Scenario campaign =
       load_scenario(directory + "/scenario.resolved.yaml", arguments.models_dir);
+  if (arguments.throw_index >= throw_count(campaign)) {
+    throw ScenarioError(directory + " has no throw " + std::to_string(arguments.throw_index) + ".");
+  }
+  try_models(campaign);
+  const Scenario scenario = case_of(campaign, arguments.throw_index).scenario;
   const std::string recorded = recorded_row(directory + "/throws.csv", arguments.throw_index);
 
   Observers observers;
@@ -118,7 +125,7 @@ int replay(const Arguments& arguments) {
     observers.add(recorder.get());
     observers.add(&truth);
   }
-  const ThrowResult result = fly_throw(scenario, arguments.throw_index, &observers);
+  const ThrowResult result = fly_throw(campaign, arguments.throw_index, &observers);
   if (!arguments.picture.empty()) poster.save(arguments.picture);
   if (recorder) {
     recorder->finish();

@@ -24,7 +24,7 @@ int report(const Arguments& arguments) {
   std::cout << "Report: " << out << "\n";
   if (campaign.complete()) return kOk;
   std::cerr << arguments.directory << " has " << campaign.results.size() << " of "
-            << count_of_throws(campaign.scenario.repeats) << " only.\n";
+            << count_of_throws(throw_count(campaign.scenario)) << " only.\n";
   return kIncomplete;
 }
 

@@ -7,6 +7,7 @@
 
 #include "sim/campaign/progress.h"
 #include "sim/campaign/report.h"
+#include "sim/try_models.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -20,6 +21,8 @@ struct Arguments {
   CampaignOptions options;
   std::optional<int> throws;
   std::optional<std::uint64_t> seed;
+  std::vector<std::string> set;
+  std::vector<std::string> over;
   std::string shard;
 };
 
@@ -37,10 +40,30 @@ void warn_of_lost_events(const std::vector<ThrowResult>& results) {
       static_cast<long long>(lost), count_of_throws(throws).c_str());
 }
 
+// What the command line changes about the file, in the order in which it counts.
+std::vector<Setting> settings_of(const Arguments& arguments) {
+  std::vector<Setting> settings;
+  for (const std::string& text : arguments.set) settings.push_back(parse_setting("--set", text));
+  for (const std::string& text : arguments.over) {
+    Setting setting = parse_setting("--over", text);
+    setting.key = "sweep." + setting.key;
+    if (!setting.value.starts_with("[")) setting.value = "[" + setting.value + "]";
+    settings.push_back(setting);
+  }
+  const auto add_number = [&](const std::string& option, const char* key, const auto& number) {
+    if (!number) return;
+    const std::string text = std::to_string(*number);
+    settings.push_back({key, text, option + " " + text});
+  };
+  add_number("--throws", "repeats", arguments.throws);
+  add_number("--seed", "seed", arguments.seed);
+  return settings;
+}
+
 int run(const Arguments& arguments) {
-  Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir);
-  if (arguments.throws) scenario.repeats = *arguments.throws;
-  if (arguments.seed) scenario.seed = *arguments.seed;
+  const Scenario scenario =
+      load_scenario(arguments.scenario, arguments.models_dir, settings_of(arguments));
+  try_models(scenario);
 
   CampaignOptions options = arguments.options;
   if (!arguments.shard.empty()) {
@@ -50,10 +73,11 @@ int run(const Arguments& arguments) {
   const CampaignSummary summary = fly_campaign(scenario, options);
   if (!summary.complete()) return report_stop(summary);
   std::cout << summary.table;
-  std::printf("%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n"
-              "Report, for any browser: %s\n",
-              count_of_throws(summary.wanted).c_str(), duration_text(summary.wall_s).c_str(),
-              summary.real_time_factor, options.out.c_str(), (options.out / kReportFile).c_str());
+  std::printf(
+      "%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n"
+      "Report, for any browser: %s\n",
+      count_of_throws(summary.wanted).c_str(), duration_text(summary.wall_s).c_str(),
+      summary.real_time_factor, options.out.c_str(), (options.out / kReportFile).c_str());
   if (summary.flown > 0) {
     std::printf("Memory of a worker: %.0f MB after its first throw, %.0f MB after its last\n",
                 summary.memory.first_mb, summary.memory.last_mb);
@@ -68,19 +92,25 @@ int run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_run_command(CLI::App& program, const std::string& command_line, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+namespace {
+
+// What run and sweep share.
+CLI::App* add_campaign_command(CLI::App& program, const std::string& name, const std::string& what,
+                               const std::string& command_line,
+                               const std::shared_ptr<Arguments>& arguments) {
   CampaignOptions& options = arguments->options;
   options.command_line = command_line;
-  CLI::App* command =
-      program.add_subcommand("run", "Fly all throws of a scenario and write tables of success");
+  CLI::App* command = program.add_subcommand(name, what);
   command->add_option("scenario", arguments->scenario, "The scenario's YAML file")
       ->required()
       ->type_name("SCENARIO.yaml");
   add_campaign_options(*command, options);
-  command->add_option("--throws", arguments->throws, "Number of throws, in place of repeats")
+  command
+      ->add_option("--throws", arguments->throws,
+                   "Number of throws (with a grid, of each cell), in place of repeats")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--seed", arguments->seed, "Seed, in place of the scenario's");
+  add_set_option(*command, arguments->set);
   command
       ->add_option("--shard", arguments->shard,
                    "Fly only a part: INDEX/COUNT (from 0), auto/COUNT (the index from\n"
@@ -91,17 +121,52 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
                     "Also write truth.csv: of the events that the pilot takes for an obstacle's,\n"
                     "how many an object made, and of those that it made, how many are found");
   add_models_option(*command, arguments->models_dir);
+  return command;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, const std::string& command_line, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_campaign_command(
+      program, "run", "Fly all throws of a scenario and write tables of success", command_line,
+      arguments);
   command->footer(
       "Writes to DIR: table.md and table.csv (dodged / would have hit, with 95 % intervals),\n"
-      "report.html (charts, and every throw in 3-D), throws.csv (a row a throw), detections.csv,\n"
-      "timing.csv, scenario.resolved.yaml and manifest.json (commit, versions, machine).\n"
-      "results.bin has every result as it comes: after\n"
+      "report.html (charts, and every throw in 3-D), throws.csv (a row a throw), objects.csv (a "
+      "row\n"
+      "an object), detections.csv, timing.csv, scenario.resolved.yaml and manifest.json (commit,\n"
+      "versions, machine). results.bin has every result as it comes: after\n"
       "Ctrl-C, a kill or a full disk, --resume goes on from there. A throw that crashes, hangs or\n"
       "needs too much memory fails with its reason and never counts as a success.\n\n"
       "Examples:\n"
       "  dodgesim run scenarios/demo.yaml --out out/demo\n"
       "  dodgesim run scenarios/demo.yaml --out out/quick --throws 4 -j 2\n"
+      "  dodgesim run scenarios/demo.yaml --out out/fast --set 'throw.speed_mps=!uniform [8, 10]'\n"
       "  dodgesim replay out/demo --throw 3 --video throw3.mp4     look at one of them");
+  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+}
+
+void add_sweep_command(CLI::App& program, const std::string& command_line, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = add_campaign_command(
+      program, "sweep", "Fly the same throws again with each of several values of a key",
+      command_line, arguments);
+  command
+      ->add_option("--over", arguments->over,
+                   "A key and its values; with several of these, every combination")
+      ->required()
+      ->type_name("KEY=VALUE,VALUE,...")
+      ->allow_extra_args(false);
+  command->footer(
+      "The same as run with the key sweep in the scenario. Every value meets the same throws with\n"
+      "the same noise. The tables have a part for each value; throws.csv names it in every row.\n\n"
+      "Examples:\n"
+      "  dodgesim sweep scenarios/demo.yaml --over delays.compute_us=0,3500,10000 --out "
+      "out/latency\n"
+      "  dodgesim sweep scenarios/demo.yaml --over 'throw.speed_mps=!uniform [4, 5], !uniform [6, "
+      "7]' --out out/speed\n"
+      "  dodgesim sweep scenarios/demo.yaml --over pilot=falanga2020,oracle --out out/pilots");
   command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
 }
 

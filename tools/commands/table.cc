@@ -1,4 +1,5 @@
 // dodgesim table: the statistics of a campaign, by whatever was varied, in several formats.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -27,11 +28,17 @@ std::string formatted(const StatisticsTable& table, const std::string& format) {
 
 int table(const Arguments& arguments) {
   const LoadedCampaign campaign = load_campaign(arguments.directory);
+  const std::vector<Part> parts = parts_of(campaign.results, campaign.scenario.pilot);
   std::vector<Axis> axes;
-  for (const std::string& key : arguments.by) axes.emplace_back(key, campaign.results);
-  const StatisticsTable grouped =
-      group_by(pointers_to(campaign.results), axes, campaign.scenario.pilot);
-  const std::string text = formatted(grouped, arguments.format);
+  for (const std::string& key : arguments.by) {
+    // What is swept stands apart in any case.
+    const std::vector<AxisValue>& swept = parts.front().values;
+    if (std::any_of(swept.begin(), swept.end(), [&](const auto& v) { return v.key == key; })) {
+      continue;
+    }
+    axes.emplace_back(key, campaign.results);
+  }
+  const std::string text = formatted(group_by(parts, axes), arguments.format);
   if (arguments.out.empty()) {
     std::cout << text;
   } else {
@@ -39,7 +46,7 @@ int table(const Arguments& arguments) {
   }
   if (campaign.complete()) return kOk;
   std::cerr << arguments.directory << " has " << campaign.results.size() << " of "
-            << count_of_throws(campaign.scenario.repeats) << " only.\n";
+            << count_of_throws(throw_count(campaign.scenario)) << " only.\n";
   return kIncomplete;
 }
 
@@ -58,7 +65,8 @@ void add_table_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("--by", arguments->by,
                    "What tells the groups apart, with commas: size_m, distance_m, speed_mps,\n"
-                   "bearing_deg, launch_height_m, object")
+                   "bearing_deg, launch_height_m, object, or a key of the scenario's grid; the\n"
+                   "values of a sweep always stand apart")
       ->delimiter(',')
       ->capture_default_str()
       ->type_name("KEYS");

@@ -2,6 +2,8 @@
 #include <iostream>
 #include <memory>
 
+#include "sim/config/expand.h"
+#include "sim/try_models.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -12,21 +14,27 @@ struct Arguments {
   std::string scenario;
   std::string models_dir;
   bool resolved = false;
+  std::vector<std::string> set;
 };
 
 void validate(const Arguments& arguments) {
-  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir);
+  std::vector<Setting> settings;
+  for (const std::string& text : arguments.set) settings.push_back(parse_setting("--set", text));
+  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir, settings);
+  try_models(scenario);
   if (arguments.resolved) {
     std::cout << to_yaml(scenario);
     return;
   }
   std::cout << arguments.scenario << ": a valid scenario";
-  if (scenario.toss) {
-    std::cout << " of " << count_of_throws(scenario.repeats) << ", pilot " << scenario.pilot
-              << ".\n";
+  if (scenario.anyone_throws()) {
+    std::cout << " of " << count_of_throws(throw_count(scenario));
   } else {
-    std::cout << " in which nobody throws, pilot " << scenario.pilot << ".\n";
+    std::cout << " in which nobody throws";
   }
+  if (!scenario.grid.empty()) std::cout << ", " << cell_count(scenario) << " cells";
+  if (!scenario.sweep.empty()) std::cout << ", " << sweep_count(scenario) << " values of the sweep";
+  std::cout << ", pilot " << scenario.pilot << ".\n";
 }
 
 }  // namespace
@@ -40,6 +48,7 @@ void add_validate_command(CLI::App& program, int& exit_code) {
       ->type_name("SCENARIO.yaml");
   command->add_flag("--resolved", arguments->resolved,
                     "Print the scenario with every value spelled out");
+  add_set_option(*command, arguments->set);
   add_models_option(*command, arguments->models_dir);
   command->callback([arguments, &exit_code] {
     validate(*arguments);

@@ -103,13 +103,14 @@ function fillCurves() {
     series: pilots.map((p) => ({name: p.name,
                                 points: p.by_speed.map((rate, k) => [data.speeds[k], rate])})),
     xLabel: 'speed [m/s]', label: 'Rate of dodged throws over speed'}));
-  if (data.sections.length < 2 || !data.sweep_is_number) return;
-  byId('sweep-section').hidden = false;
+  // A curve over the sweep, if its values are numbers.
   const at = data.sections.map((s) => Number(s.value));
+  if (at.length < 2 || !data.sweep_key || !at.every(Number.isFinite)) return;
+  byId('sweep-section').hidden = false;
   const overall = pilots.map((p, k) => ({
     name: p.name, points: data.sections.map((s, i) => [at[i], s.pilots[k].total])}));
   const ofSpeed = data.speeds.length < 2 || data.speeds.length > 5 ? [] :
-      data.speeds.map((speed, j) => ({
+      data.speed_texts.map((speed, j) => ({
         name: `${data.pilot}, ${speed} m/s`,
         points: data.sections.map((s, i) => [at[i], s.pilots[0].by_speed[j]])}));
   byId('sweep-curve').replaceChildren(rateCurves({
@@ -121,7 +122,8 @@ function fillHistograms() {
   const mine = indices();
   const dangerous = mine.filter((i) => has(i, 'none_hit'));
   const values = (name, of = mine) => of.map((i) => throws[name][i]);
-  const clearances = [{name: data.pilot, values: values('clearance', dangerous)}];
+  const pilot = section().pilots[0].name;
+  const clearances = [{name: pilot, values: values('clearance', dangerous)}];
   if (mine.some((i) => has(i, 'oracle_flew'))) {
     clearances.push({name: 'oracle', values: values('oracle_clearance', dangerous)});
   }
@@ -129,15 +131,15 @@ function fillHistograms() {
     series: clearances, most: 2, xLabel: 'smallest distance of the surfaces [m]; 0 is a hit',
     label: 'Clearances of throws that would have hit'}));
   byId('range').replaceChildren(histogram({
-    series: [{name: data.pilot, values: values('detection_distance')}], most: 20,
+    series: [{name: pilot, values: values('detection_distance')}], most: 20,
     xLabel: 'true distance at the first detection [m]', label: 'Detection range'}));
   byId('contact').replaceChildren(histogram({
-    series: [{name: data.pilot, values: values('contact')}], most: 3,
+    series: [{name: pilot, values: values('contact')}], most: 3,
     xLabel: 'time left, had it not dodged [s]', label: 'Time to contact at the first detection'}));
   byId('speedup').replaceChildren(
       make('p', {textContent: `${number(data.real_time_factor)} simulated seconds in a second of ` +
           'one core, over the whole campaign.'}),
-      histogram({series: [{name: data.pilot, values: values('real_time_factor')}], most: 1000,
+      histogram({series: [{name: pilot, values: values('real_time_factor')}], most: 1000,
                  xLabel: 'simulated time / computing time, by throw', label: 'Real-time factor'}));
 }
 

@@ -62,6 +62,15 @@ TEST(Axis, OfBinsHasTheirMiddles) {
   EXPECT_THAT(speed.middles(), ElementsAre(4.5, 5.5));
 }
 
+TEST(Axis, MayBeAKeyOfTheGridInItsOrder) {
+  std::vector<ThrowResult> results = {ball(0, 0.1, 3, 4), ball(1, 0.1, 3, 4), ball(2, 0.1, 3, 4)};
+  results[0].cell_values = results[2].cell_values = {{"throw.speed_mps", "!uniform [8, 9]"}};
+  results[1].cell_values = {{"throw.speed_mps", "!uniform [4, 5]"}};
+  const Axis speed("throw.speed_mps", results);
+  EXPECT_THAT(speed.values(), ElementsAre("!uniform [8, 9]", "!uniform [4, 5]"));
+  EXPECT_EQ(speed.of(results[2]), 0u);
+}
+
 TEST(Axis, ThatThereIsNoneOfIsAnErrorThatListsThem) {
   try {
     Axis("colour", {});

@@ -41,7 +41,7 @@ class CampaignTest : public testing::Test {
   // finish out of order.
   ThrowResult fly(int index) const {
     std::this_thread::sleep_for(std::chrono::milliseconds(index < 3 ? 30 : 1));
-    ThrowResult result = blank_result(scenario_, index);
+    ThrowResult result = blank_result(case_of(scenario_, index));
     result.flown = flown(index % 3 == 0);
     result.none = flown(true);
     result.duration_us = 2000000;
@@ -63,7 +63,7 @@ class CampaignTest : public testing::Test {
 };
 
 // The files that are the same for the same results.
-inline const char* const kReproducible[] = {"scenario.resolved.yaml", "throws.csv",
-                                            "detections.csv", "table.md", "table.csv"};
+inline const char* const kReproducible[] = {"scenario.resolved.yaml", "throws.csv", "objects.csv",
+                                            "detections.csv",         "table.md",   "table.csv"};
 
 }  // namespace dodgesim

@@ -80,7 +80,7 @@ TEST_F(CampaignTest, ACrashCostsItsThrowOnlyAndIsRecorded) {
     const ThrowResult& result = summary.results[static_cast<std::size_t>(i)];
     EXPECT_EQ(result.index, i);
     EXPECT_EQ(result.flown.failed(), i == 4 || i == 7) << i;
-    EXPECT_EQ(result.size_m, blank_result(scenario_, i).size_m) << i;
+    EXPECT_EQ(result.size_m, blank_result(case_of(scenario_, i)).size_m) << i;
   }
   EXPECT_EQ(summary.results[4].flown.error, "The worker process was killed by signal 9 (Killed).");
   EXPECT_EQ(summary.results[7].flown.error, "The worker process ended with exit code 9.");
@@ -119,8 +119,8 @@ TEST_F(CampaignTest, AScenarioErrorEndsTheCampaignAndNoWorkerSurvives) {
 TEST_F(CampaignTest, AFullDiskIsReportedAndNothingIsClaimed) {
   const fs::path out = root_ / "full";
   fs::create_directories(out);
-  for (const char* name : {"throws.csv", "detections.csv", "timing.csv", "table.md", "table.csv",
-                           "manifest.json", "scenario.resolved.yaml"}) {
+  for (const char* name : {"throws.csv", "objects.csv", "detections.csv", "timing.csv", "table.md",
+                           "table.csv", "manifest.json", "scenario.resolved.yaml"}) {
     fs::remove(out / name);  // what the case before left
     const fs::path link = out / (std::string(name) + ".partial");
     fs::create_symlink("/dev/full", link);

@@ -113,6 +113,19 @@ TEST(ReportPage, ChartsShowTheCountsOfTheTables) {
   EXPECT_EQ(would_have_hit, 48);
 }
 
+TEST(ReportPage, ValuesOfASweepHaveChartsOfTheirOwn) {
+  LoadedCampaign swept = campaign(20);
+  for (ThrowResult& result : swept.results) {
+    result.sweep = result.index / 10;
+    result.sweep_values = {{"delays.compute_us", result.sweep == 0 ? "0" : "10000"}};
+  }
+  const auto data = data_of(report_html(swept, "out/x"));
+  EXPECT_EQ(data["sweep_key"], "delays.compute_us");
+  ASSERT_EQ(data["sections"].size(), 2u);
+  EXPECT_EQ(data["sections"][1]["value"], "10000");
+  EXPECT_EQ(data["sections"][1]["pilots"][2]["total"][1], 10);
+}
+
 TEST(ReportPage, OfNoThrowsAndOfQuietFlightsIsAPage) {
   EXPECT_THAT(report_html(campaign(0), "out/x"), HasSubstr("</html>"));
   LoadedCampaign quiet = campaign(0);

@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 // Two balls and a flight in which nobody threw.
-StatisticsTable table(const std::string& pilot = "falanga2020") {
+StatisticsTable table() {
   std::vector<ThrowResult> results = {ball(0, 0.1, 2, 4), ball(1, 0.2, 2, 4), ThrowResult{}};
   results[0].object = "a_b & \"c\" | \\ 50%, \xff";
   for (ThrowResult& result : results) result.flown = flown(false);
@@ -21,7 +21,7 @@ StatisticsTable table(const std::string& pilot = "falanga2020") {
   results[1].flown = flown(true);
   results[1].cause = "seen late";
   const Axis object("object", results), size("size_m", results);
-  return group_by(pointers_to(results), {object, size}, pilot);
+  return group_by(parts_of(results, "falanga2020"), {object, size});
 }
 
 std::vector<std::string> lines(const std::string& text) {
@@ -38,6 +38,19 @@ TEST(GroupBy, HasARowForEachCombinationThatOccursAndOneOfAll) {
   EXPECT_THAT(grouped.rows[2].values, testing::ElementsAre("all", "all"));
   EXPECT_EQ(grouped.rows[2].statistics.flown().tally.throws, 2);
   EXPECT_EQ(grouped.rows[2].statistics.false_alarms.of, 3);
+}
+
+TEST(GroupBy, KeepsValuesOfASweepApart) {
+  std::vector<ThrowResult> results = {ball(0, 0.1, 2, 4), ball(1, 0.1, 2, 4)};
+  results[0].sweep_values = {{"delays.compute_us", "0"}};
+  results[1].sweep_values = {{"delays.compute_us", "3500"}};
+  results[1].sweep = 1;
+  const StatisticsTable grouped =
+      group_by(parts_of(results, "falanga2020"), {Axis("size_m", results)});
+  EXPECT_THAT(grouped.keys, testing::ElementsAre("delays.compute_us", "size_m"));
+  ASSERT_EQ(grouped.rows.size(), 4u);
+  EXPECT_THAT(grouped.rows[1].values, testing::ElementsAre("0", "all"));
+  EXPECT_THAT(grouped.rows[2].values, testing::ElementsAre("3500", "0.1"));
 }
 
 TEST(TableFormats, CsvHasEqualColumnsAndEmptyCellsForTheUnknown) {

@@ -45,6 +45,10 @@ TEST(Rate, CarriesItsCountAndInterval) {
   EXPECT_EQ(rate_text({0, 0}), "0 / 0");
 }
 
+ThrowStatistics statistics(const std::vector<ThrowResult>& results) {
+  return statistics_of(parts_of(results, "falanga2020").front().results, "falanga2020");
+}
+
 // Seen at 1.0 s, detected at 1.2 s from an image of 1.185 s, evaded at 1.21 s.
 ThrowResult detected(int index) {
   ThrowResult result = ball(index, 0.2, 3, 6);
@@ -62,7 +66,7 @@ ThrowResult detected(int index) {
 
 TEST(ThrowStatistics, MeasureTheChainFromViewToCommand) {
   const std::vector<ThrowResult> results = {detected(0), detected(1)};
-  const ThrowStatistics sum = statistics_of(pointers_to(results), "falanga2020");
+  const ThrowStatistics sum = statistics(results);
   const auto median = [](const Sample& sample) { return sample.quantile(0.5)->value; };
   EXPECT_DOUBLE_EQ(median(sum.view_to_detection_s), 0.2);
   EXPECT_DOUBLE_EQ(median(sum.image_to_detection_s), 0.015);
@@ -77,7 +81,7 @@ TEST(ThrowStatistics, DetectionsAreCountedOfThrowsThatCameIntoView) {
   results[1].first_detection_us.reset();
   results[2].first_in_view_us.reset();
   results[2].first_detection_us.reset();
-  const ThrowStatistics sum = statistics_of(pointers_to(results), "falanga2020");
+  const ThrowStatistics sum = statistics(results);
   EXPECT_EQ(sum.detected.count, 1);
   EXPECT_EQ(sum.detected.of, 2);
 }
@@ -86,16 +90,28 @@ TEST(ThrowStatistics, AFalseAlarmIsNoAnswerToTheDetectionThatFollows) {
   std::vector<ThrowResult> results = {detected(0)};
   results[0].first_command_us = 900000;
   results[0].false_alarm = true;
-  const ThrowStatistics sum = statistics_of(pointers_to(results), "falanga2020");
+  const ThrowStatistics sum = statistics(results);
   EXPECT_EQ(sum.false_alarms.count, 1);
   EXPECT_EQ(sum.detection_to_command_s.count(), 0u);
+}
+
+TEST(Parts, ValuesOfASweepAreNeverPooled) {
+  std::vector<ThrowResult> results = {detected(0), detected(1), detected(2)};
+  results[1].sweep = 1;
+  results[1].sweep_values = {{"pilot", "oracle"}};
+  const std::vector<Part> parts = parts_of(results, "falanga2020");
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].results.size(), 2u);
+  EXPECT_EQ(parts[0].pilot, "falanga2020");
+  EXPECT_EQ(parts[1].results.front()->index, 1);
+  EXPECT_EQ(parts[1].pilot, "oracle");  // the sweep says who flew
 }
 
 TEST(ThrowStatistics, FailedFlightsSayNothingOfThePilot) {
   std::vector<ThrowResult> results = {detected(0)};
   results[0].flown = failed("diverged");
   results[0].cause = "seen late";
-  const ThrowStatistics sum = statistics_of(pointers_to(results), "falanga2020");
+  const ThrowStatistics sum = statistics(results);
   EXPECT_EQ(sum.detected.of, 0);
   EXPECT_EQ(sum.false_alarms.of, 0);
   EXPECT_TRUE(sum.causes.empty());

@@ -39,6 +39,13 @@ std::string repeat(const std::string& text, int times) {
   return all;
 }
 
+// "0.51, 0.52, ..."
+std::string numbers(int count) {
+  std::string all;
+  for (int i = 1; i <= count; ++i) all += (i > 1 ? ", 0.5" : "0.5") + std::to_string(1000 + i);
+  return all;
+}
+
 const BadScenario kBadScenarios[] = {
     // Ranges.
     {"NegativeSize", "seed: 1\nthrow:\n  size_m: -1\n",
@@ -108,7 +115,7 @@ const BadScenario kBadScenarios[] = {
     {"MergeKey", "throw:\n  <<: {size_m: 0.1}\n",
      "bad.yaml:2:3: Merge keys (<<) are not supported"},
     {"Anchor", "throw: &t {size_m: 0.1}\n", "bad.yaml:1:8: Anchors (&name) are not supported"},
-    {"TwoDocuments", "seed: 1\n---\nseed: 2\n", "bad.yaml:3:1: The file holds more than one YAML"},
+    {"TwoDocuments", "seed: 1\n---\nseed: 2\n", "bad.yaml:3:1: This is more than one YAML"},
     // Not a scenario at all.
     {"Empty", "", "bad.yaml: The file is empty."},
     {"OnlyComments", "# nothing\n", "bad.yaml: The file is empty."},
@@ -116,10 +123,10 @@ const BadScenario kBadScenarios[] = {
     {"Text", "hello\n", "bad.yaml:1:1: The file must be a map of keys"},
     {"Syntax", "throw: {size_m: 0.1\nseed: 1\n", "bad.yaml:2:"},
     {"Tab", "throw:\n\tsize_m: 0.1\n", "bad.yaml:2:"},
-    {"NotUtf8", "name: \"\xff\"\n", "bad.yaml:1:8: The file is not UTF-8 text (byte 255)."},
-    {"Overlong", "name: \"\xc0\xaf\"\n", "bad.yaml:1:8: The file is not UTF-8 text"},
-    {"Zero", std::string("name: a\0b\n", 10), "bad.yaml:1:8: The file is not UTF-8 text (byte 0)."},
-    {"Utf16", std::string("\xff\xfes\0e\0e\0d\0", 10), "bad.yaml:1:1: The file is not UTF-8 text"},
+    {"NotUtf8", "name: \"\xff\"\n", "bad.yaml:1:8: This is not UTF-8 text (byte 255)."},
+    {"Overlong", "name: \"\xc0\xaf\"\n", "bad.yaml:1:8: This is not UTF-8 text"},
+    {"Zero", std::string("name: a\0b\n", 10), "bad.yaml:1:8: This is not UTF-8 text (byte 0)."},
+    {"Utf16", std::string("\xff\xfes\0e\0e\0d\0", 10), "bad.yaml:1:1: This is not UTF-8 text"},
     // Bounded time and memory.
     {"DeepFlow", "throw: " + repeat("[", 100000), "bad.yaml:1:"},
     {"DeepBlock", repeat("a: \n ", 1) + "b: " + repeat("{a: ", 1000) + repeat("}", 1000),
@@ -173,7 +180,94 @@ const BadScenario kBadScenarios[] = {
     {"GoalMissing", "mission: {type: goal}\n",
      "bad.yaml:1:17: mission.goal_m is missing, but mission.type goal needs it."},
     {"GoalWithoutUse", "mission: {goal_m: [1, 2, 3]}\n",
-     "bad.yaml:1:19: mission.goal_m is given, but mission.type hover does not fly to a goal."},
+     "bad.yaml:1:19: mission.goal_m is given, but mission.type hover does not fly there."},
+    {"WaypointsMissing", "mission: {type: waypoints}\n",
+     "bad.yaml:1:17: mission.waypoints_m is missing, but mission.type waypoints needs it."},
+    {"WaypointsWithoutUse", "mission: {waypoints_m: [[1, 2, 3]]}\n",
+     "bad.yaml:1:24: mission.waypoints_m is given, but mission.type hover does not fly there."},
+    {"WaypointOfTwo", "mission: {type: waypoints, waypoints_m: [[0, 0, 1], [1, 2]]}\n",
+     "bad.yaml:1:53: mission.waypoints_m[1] is a list of 2, but must be [x, y, z]"},
+    {"NoWaypoints", "mission: {type: waypoints, waypoints_m: []}\n",
+     "bad.yaml:1:41: mission.waypoints_m is a list of 0, but must be a list of [x, y, z], 1 to "
+     "100"},
+    // Several objects.
+    {"ThrowAndThrows", "throw: {}\nthrows: [{}]\n",
+     "bad.yaml:2:9: throws and throw are both given; one of them is enough."},
+    {"ThrowsIsNoList", "throws: {size_m: 0.1}\n",
+     "bad.yaml:1:9: throws is a map, but must be a list of maps, 1 to 100 of them."},
+    {"EmptyThrows", "throws: []\n", "bad.yaml:1:9: throws is a list of 0, but must be a list of"},
+    {"ManyThrows", "throws: [" + repeat("{}, ", 100) + "{}]\n",
+     "bad.yaml:1:9: throws is a list of 101, but must be a list of maps, 1 to 100 of them."},
+    {"ThrowsOfNumbers", "throws: [{}, 3]\n",
+     "bad.yaml:1:14: throws[1] is 3, but must be a map of keys."},
+    {"KeyOfOneOfTheThrows", "throws: [{}, {sise_m: 3}]\n",
+     "bad.yaml:1:15: throws[1].sise_m is not a known key; did you mean throws[1].size_m?"},
+    {"ValueOfOneOfTheThrows", "throws: [{}, {size_m: 3}]\n",
+     "bad.yaml:1:23: throws[1].size_m is 3, but must be between 0.01 and 1."},
+    {"TooManyObjects", "throws: [{count: 9}, {count: 8}]\n",
+     "bad.yaml:1:9: throws has 17 objects; at most 16 can fly."},
+    // Grid and sweep.
+    {"GridIsNoMap", "grid: [1]\n", "bad.yaml:1:7: grid is a list of 1, but must be a map of keys."},
+    {"GridOfUnknownKey", "throw: {}\ngrid: {sise_m: [0.1]}\n",
+     "bad.yaml:2:8: grid.sise_m is not a key that can take several values; did you mean "
+     "throw.size_m?"},
+    {"SweepOfMisplacedKey", "sweep: {compute_us: [1]}\n",
+     "bad.yaml:1:9: sweep.compute_us is not a key that can take several values; did you mean "
+     "delays.compute_us?"},
+    {"GridOfAGroup", "throw: {}\ngrid: {throw: [{size_m: 1}]}\n",
+     "bad.yaml:2:8: grid.throw is not a key that can take several values"},
+    {"SweepOfTheSeed", "sweep: {seed: [1, 2]}\n",
+     "bad.yaml:1:9: sweep.seed is not a key that can take several values"},
+    {"SweepOfASweep", "sweep: {sweep: [1, 2]}\n", "bad.yaml:1:9: sweep.sweep is not a key"},
+    {"GridOfANumber", "throw: {}\ngrid: {size_m: 0.1}\n",
+     "bad.yaml:2:16: grid.size_m is 0.1, but must be a list of values, such as [0.1, 0.2]."},
+    {"GridOfAChoice", "throw: {}\ngrid: {size_m: !choice [0.1, 0.2]}\n",
+     "bad.yaml:2:16: grid.size_m is !choice a list of 2, but must be a list of values"},
+    {"GridOfNothing", "throw: {}\ngrid: {size_m: []}\n",
+     "bad.yaml:2:16: grid.size_m is a list of 0, but must be a list of values"},
+    {"GridValueOutOfRange", "throw: {}\ngrid:\n  size_m: [0.1, 3]\n",
+     "bad.yaml:3:17: throw.size_m is 3, but must be between 0.01 and 1."},
+    {"SweepValueOfWrongType", "sweep:\n  delays.compute_us: [0, 3.5]\n",
+     "bad.yaml:2:26: delays.compute_us is 3.5, but must be a whole number"},
+    {"SweepValueNan", "sweep: {after_s: [.nan]}\n", "bad.yaml:1:19: after_s is .nan, but must be"},
+    {"GridDistributionOutOfRange", "throw: {}\ngrid: {size_m: [!uniform [0.1, 7]]}\n",
+     "bad.yaml:2:32: throw.size_m[1] is 7, but must be between 0.01 and 1."},
+    {"GridModelMissing", "throw: {}\ngrid: {object: [ball, anvil]}\n",
+     "bad.yaml:2:23: throw.object is \"anvil\", but there is no model file "},
+    {"SweepRoomOutside", "sweep: {room: [../../etc/passwd]}\n",
+     "bad.yaml:1:16: room is \"../../etc/passwd\", but must be the name of a file"},
+    {"GridTwiceTheSame", "throw: {}\ngrid: {size_m: [0.1, 0.2, 0.1]}\n",
+     "bad.yaml:2:27: grid.size_m[2] is 0.1, but this value is in the list already."},
+    {"GridByBothNames", "throw: {}\ngrid: {size_m: [0.1], throw.size_m: [0.2]}\n",
+     "bad.yaml:2:23: grid.throw.size_m is given twice."},
+    {"GridAndSweep", "throw: {}\ngrid: {size_m: [0.1]}\nsweep: {size_m: [0.2]}\n",
+     "bad.yaml:2:8: throw.size_m is in grid and in sweep."},
+    {"GridOfPilots", "grid: {pilot: [none, oracle]}\n",
+     "bad.yaml:1:8: pilot belongs into sweep: pilots are compared, not pooled."},
+    {"GridWithoutThrow", "grid: {size_m: [0.1]}\n",
+     "bad.yaml:1:8: throw.size_m has several values, but nobody throws; add throw: {}."},
+    {"SweepContradiction",
+     "dodger: {position: {min_range_m: 0.2}}\nsweep:\n"
+     "  dodger.position.max_range_m: [0.1, 1]\n",
+     "bad.yaml:3:33: dodger does not fit together: The parameter position.min_range_m must be less "
+     "than position.max_range_m.\n"
+     "bad.yaml:3:33: That is so with dodger.position.max_range_m 0.1."},
+    {"GridTooLarge", "throw: {}\nrepeats: 1000000\ngrid: {size_m: [" + numbers(11) + "]}\n",
+     "bad.yaml:3:7: repeats, grid and sweep make more than 10000000 throws."},
+    {"GridBomb",
+     "throw: {}\ngrid: {size_m: [" + numbers(99) + "], speed_mps: [" + numbers(99) +
+         "], distance_m: [" + numbers(99) + "]}\nsweep: {after_s: [" + numbers(99) +
+         "], duration_s: [" + numbers(99) + "]}\n",
+     "bad.yaml:2:7: grid and sweep have more than 10000 combinations of values."},
+    // Files and vehicles.
+    {"ExtendsNowhere", "extends: no_such.yaml\n",
+     "bad.yaml:1:10: extends is \"no_such.yaml\", but there is no such file."},
+    {"ExtendsOutside", "extends: ../../../../../../../../etc/passwd\n",
+     "bad.yaml:1:10: extends is \"../../../../../../../../etc/passwd\", but must end in .yaml or"},
+    {"ExtendsAbsolute", "extends: /etc/hosts.yaml\n",
+     "bad.yaml:1:10: extends is \"/etc/hosts.yaml\", but must be relative"},
+    {"NegativeMass", "vehicle_overrides: {mass_scale: -1}\n",
+     "bad.yaml:1:33: vehicle_overrides.mass_scale is -1, but must be between 0.1 and 10."},
     {"CoreContradiction", "dodger: {position: {min_range_m: 2, max_range_m: 1}}\n",
      "bad.yaml:1:9: dodger does not fit together: "},
 };

@@ -19,6 +19,10 @@ constexpr const char* kRandom =
     "  launch_height_m: !uniform [1, 2]\n"
     "  launch_s: !uniform [0.5, 1.5]\n";
 
+Throw resolve_throw(const Scenario& scenario, int index) {
+  return resolve_throws(scenario, index).front();
+}
+
 Scenario parse(const std::string& yaml) { return parse_scenario(yaml, "test.yaml", ""); }
 
 TEST(ResolveThrow, IsAPureFunctionOfSeedAndIndex) {

@@ -1,0 +1,146 @@
+#include "sim/config/check_scenario.h"
+
+#include <stdexcept>
+
+#include "sim/config/expand.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr std::int64_t kMostCombinations = 10000;
+constexpr std::int64_t kMostThrows = 10000000;
+constexpr int kMostObjects = 16;
+
+Position position_of(const ReadContext& context, const std::string& key) {
+  const auto found = context.where.find(key);
+  return found == context.where.end() ? Position{} : found->second;
+}
+
+// R_BC of a camera whose z looks along x of B.
+Eigen::Matrix3d looking_forward() {
+  Eigen::Matrix3d R_BC;
+  R_BC << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return R_BC;
+}
+
+// A key that one type of mission needs, and the others must not have.
+void check_mission_key(const Scenario& scenario, const std::string& type, const std::string& key,
+                       bool given, ReadContext& context) {
+  const std::string& mission = scenario.mission.type;
+  if (mission == type && !given) {
+    context.problems.add(position_of(context, "mission.type"),
+                         key + " is missing, but mission.type " + type + " needs it.");
+  }
+  if (mission != type && given) {
+    context.problems.add(position_of(context, key),
+                         key + " is given, but mission.type " + mission + " does not fly there.");
+  }
+}
+
+void check_throws(const Scenario& scenario, ReadContext& context) {
+  if (scenario.toss && !scenario.throws.empty()) {
+    context.problems.add(position_of(context, "throws"),
+                         "throws and throw are both given; one of them is enough.");
+  }
+  int objects = 0;
+  for (const ThrowSpec& spec : scenario.throw_specs()) objects += spec.count;
+  if (objects > kMostObjects) {
+    context.problems.add(position_of(context, "throws"),
+                         "throws has " + std::to_string(objects) + " objects; at most " +
+                             std::to_string(kMostObjects) + " can fly.");
+  }
+}
+
+// The flight core checks its own configuration. Which cameras it gets is known only with the
+// vehicle's model; a rectified pair stands for them.
+void check_dodger(const Scenario& scenario, ReadContext& context) {
+  dodge::Config config = scenario.dodger;
+  config.cameras.resize(2);
+  config.cameras[0].X_BC.translation().z() = 0.15;
+  for (dodge::CameraModel& camera : config.cameras) camera.X_BC.linear() = looking_forward();
+  try {
+    dodge::validate(config);
+  } catch (const std::invalid_argument& error) {
+    context.problems.add(position_of(context, "dodger"),
+                         std::string("dodger does not fit together: ") + error.what());
+  }
+}
+
+void check_keys_together(const Scenario& scenario, ReadContext& context) {
+  const MissionSpec& mission = scenario.mission;
+  check_mission_key(scenario, "goal", "mission.goal_m", mission.goal_m.has_value(), context);
+  check_mission_key(scenario, "waypoints", "mission.waypoints_m", !mission.waypoints_m.empty(),
+                    context);
+  check_throws(scenario, context);
+  check_dodger(scenario, context);
+}
+
+std::int64_t product(const VariedKeys& axes) {
+  std::int64_t count = 1;
+  for (const VariedKey& axis : axes) {
+    count *= static_cast<std::int64_t>(axis.values.size());
+    if (count > kMostCombinations) break;
+  }
+  return count;
+}
+
+// Whether there are so few combinations that the counts of expand.h are right.
+bool check_counts(const Scenario& scenario, ReadContext& context) {
+  const std::int64_t combinations = product(scenario.grid) * product(scenario.sweep);
+  const Position at = position_of(context, scenario.grid.empty() ? "sweep" : "grid");
+  if (combinations > kMostCombinations) {
+    context.problems.add(at, "grid and sweep have more than " + std::to_string(kMostCombinations) +
+                                 " combinations of values.");
+    return false;
+  }
+  if (combinations * scenario.repeats > kMostThrows) {
+    context.problems.add(
+        at, "repeats, grid and sweep make more than " + std::to_string(kMostThrows) + " throws.");
+    return false;
+  }
+  return true;
+}
+
+void check_axis(const Scenario& scenario, const VariedKey& axis, bool in_grid,
+                ReadContext& context) {
+  if (axis.key.starts_with("throw.") && !scenario.anyone_throws()) {
+    context.problems.add(axis.at,
+                         axis.key + " has several values, but nobody throws; add throw: {}.");
+    return;
+  }
+  if (in_grid && axis.key == "pilot") {
+    context.problems.add(axis.at, "pilot belongs into sweep: pilots are compared, not pooled.");
+  }
+  for (const VariedKey& other : scenario.sweep) {
+    if (in_grid && other.key == axis.key) {
+      context.problems.add(axis.at, axis.key + " is in grid and in sweep.");
+    }
+  }
+  for (const YamlNode& value : axis.values) with_values(scenario, {{axis.key, &value}}, context);
+}
+
+}  // namespace
+
+void check_scenario(const Scenario& scenario, ReadContext& context) {
+  for (const VariedKey& axis : scenario.grid) check_axis(scenario, axis, true, context);
+  for (const VariedKey& axis : scenario.sweep) check_axis(scenario, axis, false, context);
+  context.problems.raise_if_any();
+  if (!check_counts(scenario, context)) return;
+  for (int cell = 0; cell < cell_count(scenario); ++cell) {
+    for (int sweep = 0; sweep < sweep_count(scenario); ++sweep) {
+      Assignments values = combination(scenario.grid, cell);
+      const Assignments sweep_values = combination(scenario.sweep, sweep);
+      values.insert(values.end(), sweep_values.begin(), sweep_values.end());
+      check_keys_together(with_values(scenario, values, context), context);
+      if (context.problems.empty()) continue;
+      if (!values.empty()) {
+        context.problems.add(values.back().second->at,
+                             "That is so with " + label(as_text(values)) + ".");
+      }
+      return;  // others would say the same
+    }
+  }
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,90 @@
+#include "sim/config/expand.h"
+
+#include "sim/config/layers.h"
+
+namespace dodgesim {
+
+namespace {
+
+int combinations(const VariedKeys& axes) {
+  int count = 1;
+  for (const VariedKey& axis : axes) count *= static_cast<int>(axis.values.size());
+  return count;
+}
+
+}  // namespace
+
+std::vector<AxisValue> as_text(const Assignments& values) {
+  std::vector<AxisValue> texts;
+  for (const auto& [key, value] : values) texts.push_back({key, to_text(*value)});
+  return texts;
+}
+
+int cell_count(const Scenario& scenario) { return combinations(scenario.grid); }
+
+int sweep_count(const Scenario& scenario) { return combinations(scenario.sweep); }
+
+int throw_count(const Scenario& scenario) {
+  return cell_count(scenario) * scenario.repeats * sweep_count(scenario);
+}
+
+Assignments combination(const VariedKeys& axes, int index) {
+  Assignments values(axes.size());
+  for (std::size_t k = axes.size(); k-- > 0;) {
+    const auto count = static_cast<int>(axes[k].values.size());
+    values[k] = {axes[k].key, &axes[k].values[static_cast<std::size_t>(index % count)]};
+    index /= count;
+  }
+  return values;
+}
+
+Scenario with_values(Scenario scenario, const Assignments& values, ReadContext& context) {
+  YamlNode patch;
+  patch.kind = YamlNode::Kind::kMap;
+  for (const auto& [key, value] : values) set_value(patch, key, *value);
+  const auto read = [&context](const YamlNode& map, const std::string& path, auto& part) {
+    Reader reader(map, path, context);
+    part.visit(reader);
+    reader.finish();
+  };
+  for (std::size_t i = 0; i < patch.keys.size() && !scenario.throws.empty(); ++i) {
+    if (patch.keys[i].name != "throw") continue;
+    for (ThrowSpec& spec : scenario.throws) read(patch.items[i], "throw", spec);
+    patch.keys.erase(patch.keys.begin() + static_cast<std::ptrdiff_t>(i));
+    patch.items.erase(patch.items.begin() + static_cast<std::ptrdiff_t>(i));
+    break;
+  }
+  read(patch, "", scenario);
+  return scenario;
+}
+
+ThrowCase case_of(const Scenario& scenario, int t) {
+  const int cells = cell_count(scenario);
+  const int throws_of_a_value = cells * scenario.repeats;
+  ThrowCase result;
+  result.index = t;
+  result.stream = t % throws_of_a_value;
+  result.cell = result.stream % cells;
+  result.sweep = t / throws_of_a_value;
+  Assignments values = combination(scenario.grid, result.cell);
+  result.cell_values = as_text(values);
+  const Assignments sweep_values = combination(scenario.sweep, result.sweep);
+  result.sweep_values = as_text(sweep_values);
+  values.insert(values.end(), sweep_values.begin(), sweep_values.end());
+  ReadContext context(scenario.name);
+  result.scenario = with_values(scenario, values, context);
+  context.problems.raise_if_any();
+  result.scenario.grid.clear();
+  result.scenario.sweep.clear();
+  return result;
+}
+
+std::string label(const std::vector<AxisValue>& values) {
+  std::string text;
+  for (const AxisValue& value : values) {
+    text += (text.empty() ? "" : ", ") + value.key + " " + value.value;
+  }
+  return text;
+}
+
+}  // namespace dodgesim

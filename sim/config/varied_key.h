@@ -1,0 +1,29 @@
+// Keys of a scenario that take several values: grid and sweep.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/config/yaml_tree.h"
+
+namespace dodgesim {
+
+// One key and its values, as they stand in YAML: numbers, distributions, names, lists.
+struct VariedKey {
+  std::string key;  // dotted path: "throw.size_m"
+  Position at;
+  std::vector<YamlNode> values;  // not empty
+};
+
+// Every combination of their values is wanted; the last one changes fastest.
+using VariedKeys = std::vector<VariedKey>;
+
+// A key and the value that it has, as in YAML: {"throw.speed_mps", "!uniform [4, 6]"}.
+struct AxisValue {
+  std::string key;
+  std::string value;
+
+  bool operator==(const AxisValue&) const = default;
+};
+
+}  // namespace dodgesim

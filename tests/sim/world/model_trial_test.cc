@@ -1,0 +1,158 @@
+#include "sim/world/model_trial.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "sim/base/error.h"
+#include "tests/sim/world/test_world.h"
+
+namespace dodgesim {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+// A copy of the models with an object of the test's own.
+class ModelTrial : public testing::Test {
+ protected:
+  ModelTrial() {
+    directory_ =
+        fs::path(testing::TempDir()) /
+        (std::string("trial_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(directory_);
+    fs::copy(test_spec().models_dir, directory_, fs::copy_options::recursive);
+    fs::create_directories(directory_ / "meshes");
+    spec_ = test_spec({{"ball", 0.2}, {"own", 0.2}});
+    spec_.models_dir = directory_.string();
+  }
+  ~ModelTrial() override { fs::remove_all(directory_); }
+
+  void write(const std::string& file, const std::string& text) const {
+    std::ofstream(directory_ / file, std::ios::binary) << text;
+  }
+  void write_object(const std::string& geom, const std::string& asset = "",
+                    const std::string& inertia = "1 1 1") const {
+    write("objects/own.xml",
+          "<mujoco><custom><numeric name='reference_size_m' data='0.1'/>"
+          "<numeric name='mass_exponent' data='3'/><numeric name='drag_coefficient' data='1'/>"
+          "<numeric name='frontal_area_m2' data='0.01'/></custom><asset>" +
+              asset +
+              "</asset><worldbody><body name='body'><freejoint/><inertial pos='0 0 0' mass='1' "
+              "diaginertia='" +
+              inertia + "'/>" + geom + "</body></worldbody></mujoco>");
+  }
+  // An object that is a mesh, with a ball that can collide.
+  void write_mesh(const std::string& obj) const {
+    write("meshes/own.obj", obj);
+    write_object(std::string(kBall) + "<geom type='mesh' mesh='m' group='1'/>",
+                 "<mesh name='m' file='meshes/own.obj'/>");
+  }
+  std::string complaint(const TrialLimits& limits = {}) const {
+    try {
+      try_world(spec_, limits);
+    } catch (const ScenarioError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  static constexpr const char* kBall = "<geom size='0.1' group='1' contype='4' conaffinity='7'/>";
+  fs::path directory_;
+  WorldSpec spec_;
+};
+
+constexpr const char* kTetrahedron =
+    "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+TEST_F(ModelTrial, GoodModelsPass) {
+  write_object(kBall);
+  EXPECT_EQ(complaint(), "");
+  write_mesh(kTetrahedron);
+  EXPECT_EQ(complaint(), "");
+}
+
+TEST_F(ModelTrial, AMeshThatCrashesMujocoCostsASentence) {
+  write_mesh(std::string(kTetrahedron) + "f 1 2 4000000\n");
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("objects/own.xml"), testing::EndsWith(".")));
+}
+
+TEST_F(ModelTrial, BrokenMeshesCostASentence) {
+  for (const std::string& obj :
+       {std::string(), std::string("not a mesh"), std::string("v 0 0 0\nv nan 0 0\nv 0 1 0\n"),
+        std::string("f -5 -6 -7\n"), std::string(100000, '\xff')}) {
+    write_mesh(obj);
+    const std::string found = complaint();
+    EXPECT_THAT(found, AllOf(HasSubstr("own"), testing::EndsWith("."))) << obj.substr(0, 80);
+    EXPECT_EQ(found.find('\n'), std::string::npos) << found;
+  }
+}
+
+TEST_F(ModelTrial, NumbersThatAreNoneCostASentence) {
+  write_object("<geom size='0.1' pos='nan 0 0' group='1' contype='4' conaffinity='7'/>");
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("own.xml"), testing::EndsWith(".")));
+  write_object(kBall, "", "1 1 nan");
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("own.xml"), testing::EndsWith(".")));
+  write_object(kBall, "", "1 1 1e300");
+  EXPECT_THAT(complaint(), testing::EndsWith("."));
+}
+
+// As a decoder would have to unpack them: a PNG says its size in its first bytes.
+std::string png_head(unsigned char size_high_byte) {
+  std::string head("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+  for (int k = 0; k < 2; ++k) head += std::string{'\0', static_cast<char>(size_high_byte), '\0', 1};
+  return head + std::string("\x08\x02\0\0\0", 5) + "rest";
+}
+
+TEST_F(ModelTrial, HugeAndBrokenTexturesCostASentence) {
+  const auto with_texture = [&](const std::string& attributes) {
+    write_object("<geom size='0.1' material='m' group='1' contype='4' conaffinity='7'/>",
+                 "<texture name='t' " + attributes + "/><material name='m' texture='t'/>");
+    return complaint();
+  };
+  write("textures/own.png", png_head(1));  // 65537 pixels
+  EXPECT_THAT(with_texture("type='2d' file='textures/own.png'"),
+              HasSubstr("own.png has 65537 x 65537 pixels; at most 4096 x 4096 are allowed."));
+  write("textures/own.png", png_head(0));
+  EXPECT_THAT(with_texture("type='2d' file='textures/own.png'"),
+              AllOf(HasSubstr("own"), testing::EndsWith(".")));
+  write("textures/own.png", std::string(1000, 'x'));
+  EXPECT_THAT(with_texture("type='2d' file='textures/own.png'"),
+              AllOf(HasSubstr("own"), testing::EndsWith(".")));
+  EXPECT_THAT(with_texture("type='cube' builtin='flat' width='100000' height='100000'"),
+              HasSubstr("own.xml:1: A texture has at most 4096 x 4096 pixels."));
+  write("textures/own.png", std::string((32 << 20) + 1, 'x'));
+  EXPECT_THAT(with_texture("type='2d' file='textures/own.png'"), HasSubstr("larger than 32 MB"));
+}
+
+TEST_F(ModelTrial, NoLinkLeadsOutOfTheFolder) {
+  fs::create_symlink("/etc/hosts", directory_ / "textures/link.png");
+  write_object(kBall, "<texture name='t' type='2d' file='textures/link.png'/>");
+  EXPECT_THAT(complaint(), HasSubstr("The path 'textures/link.png' leaves the models folder."));
+}
+
+TEST_F(ModelTrial, TakesNoMoreTimeThanAllowed) {
+  write_object(kBall);
+  TrialLimits limits;
+  limits.wall_ms = 0;
+  EXPECT_THAT(complaint(limits), HasSubstr("take longer than 0 s to load."));
+}
+
+TEST_F(ModelTrial, TakesNoMoreMemoryThanAllowed) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "Sanitizers reserve more address space than any limit allows.";
+#endif
+  write_object(kBall,  // 302 MB
+               "<texture name='t' type='cube' builtin='flat' width='4096' height='4096'/>");
+  EXPECT_EQ(complaint(), "");
+  TrialLimits limits;
+  limits.memory_mb = 256;
+  EXPECT_THAT(complaint(limits), AllOf(HasSubstr("own"), testing::EndsWith(".")));
+}
+
+}  // namespace
+}  // namespace dodgesim
