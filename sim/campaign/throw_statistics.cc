@@ -25,11 +25,16 @@ void add_flight(const FlightResult& flight, const ThrowResult& result, PilotStat
   if (flight.ok()) sum.clearance_m.add(flight.clearance_m);
 }
 
+// Who is told the truth, or wants to know nothing, detects nothing.
+bool perceives(const std::string& pilot) { return pilot != "oracle" && pilot != "none"; }
+
 void add_perception(const ThrowResult& result, ThrowStatistics& sum) {
   sum.false_alarms.add(result.false_alarm);
   if (!result.cause.empty()) ++sum.causes[result.cause];
   if (!result.thrown()) return;
-  if (result.first_in_view_us) sum.detected.add(result.first_detection_us.has_value());
+  if (result.first_in_view_us && perceives(sum.flown().pilot)) {
+    sum.detected.add(result.first_detection_us.has_value());
+  }
   sum.detection_distance_m.add(result.first_detection_distance_m);
   if (result.time_to_contact_us) sum.time_to_contact_s.add(seconds(*result.time_to_contact_us));
   sum.view_to_detection_s.add(seconds_between(result.first_in_view_us, result.first_detection_us));

@@ -86,6 +86,12 @@ TEST(ThrowStatistics, DetectionsAreCountedOfThrowsThatCameIntoView) {
   EXPECT_EQ(sum.detected.of, 2);
 }
 
+TEST(ThrowStatistics, TheOracleIsNotBlamedForDetectingNothing) {
+  std::vector<ThrowResult> results = {detected(0)};
+  results[0].first_detection_us.reset();
+  EXPECT_EQ(statistics_of({&results[0]}, "oracle").detected.of, 0);
+}
+
 TEST(ThrowStatistics, AFalseAlarmIsNoAnswerToTheDetectionThatFollows) {
   std::vector<ThrowResult> results = {detected(0)};
   results[0].first_command_us = 900000;
