@@ -14,9 +14,9 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-constexpr TimeUs kTruthEveryUs = 1000;   // how often the pilot that knows the truth looks
-constexpr double kTrueDetectionM = 0.5;  // a detection this near to an object is one of it
-constexpr TimeUs kHistoryUs = 1000000;   // longer than any sensing delay that makes sense
+constexpr TimeUs kTruthEveryUs = 1000;     // how often the pilot that knows the truth looks
+constexpr TimeUs kHistoryUs = 1000000;     // longer than any sensing delay that makes sense
+constexpr TimeUs kShownBeforeUs = 100000;  // of the trajectory before the first launch
 
 double seconds_since(WallClock::time_point start) {
   return std::chrono::duration<double>(WallClock::now() - start).count();
@@ -60,6 +60,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
       state_estimator_(scenario.sensors.state_estimate, scenario.seed, index()),
       range_sensor_(scenario.sensors.range, scenario.seed, index()),
       computer_(scenario.delays, make_pilot()),
+      witness_(world_, witness_setup()),
       rig_(make_rig()),
       mission_(scenario.mission),
       controller_states_(scenario.delays.state_estimate_us),
@@ -127,10 +128,24 @@ std::unique_ptr<EventRig> Flight::make_rig() const {
   setup.sampling = scenario_.sensors.sampling;
   setup.packet_us = scenario_.delays.packet_us;
   setup.keep_causes = observer_ != nullptr && observer_->wants_causes();
-  setup.cameras = scenario_.dodger.position.depth == "stereo" ? 2 : 1;
+  setup.cameras = cameras();
   setup.seed = scenario_.seed;
   setup.throw_index = index();
   return std::make_unique<EventRig>(world_, setup);
+}
+
+int Flight::cameras() const { return scenario_.dodger.position.depth == "stereo" ? 2 : 1; }
+
+Witness::Setup Flight::witness_setup() const {
+  Witness::Setup setup;
+  setup.intrinsics = intrinsics(scenario_.sensors.camera);
+  setup.cameras = cameras();
+  setup.end_us = plan_.end_us;
+  if (plan_.launches.empty()) return setup;
+  TimeUs first_us = plan_.end_us;
+  for (const auto& launch : plan_.launches) first_us = std::min(first_us, launch.toss.launch_us);
+  setup.start_us = std::max<TimeUs>(0, first_us - kShownBeforeUs) / kTickUs * kTickUs;
+  return setup;
 }
 
 bool Flight::over() const {
@@ -216,17 +231,23 @@ void Flight::control() {
   const TimeUs now = now_us();
   controller_states_.deliver(now, [&](const StateReading& state) {
     if (mission_.update(state.p_W)) computer_.set_goal(mission_.goal());
-    rate_commands_.push(now, {controller_.update(state, reference_), reference_.evading});
+    rate_commands_.push(now, {controller_.update(state, reference_), reference_});
   });
   rate_commands_.deliver(now, [&](const SentCommand& sent) {
     rate_command_ = sent.command;
-    if (observer_ != nullptr) observer_->on_command(now, sent.evading);
-    if (sent.evading && !record_.first_command_us) record_.first_command_us = now;
+    const bool evading = sent.reference.evading;
+    if (observer_ != nullptr) observer_->on_command(now, evading);
+    if (!evading) return;
+    if (!record_.first_command_us) record_.first_command_us = now;
+    witness_.add_command(world_.snapshot(), sent.reference.v_W);
   });
   motors_.set_command(now, flight_controller_.step(now, rate_command_, gyro_B_radps_));
 }
 
-void Flight::judge() { referee_.observe(world_); }
+void Flight::judge() {
+  referee_.observe(world_);
+  witness_.observe(world_, reference_);
+}
 
 double Flight::true_range_m() const {
   const Eigen::Isometry3d X_WR = world_.snapshot().vehicle.pose() * world_.vehicle().X_BR;
@@ -254,6 +275,7 @@ void Flight::log_detections() {
     row.depth_m = detection.depth_m;
     row.depth_sigma_m = detection.depth_sigma_m;
     if (const Snapshot* truth = truth_at(detection.t_us)) add_truth(*truth, detection, row);
+    witness_.add_detection(row);
     record_.rows.push_back(row);
   }
 }
@@ -276,6 +298,7 @@ void Flight::add_truth(const Snapshot& truth, const dodge::Detection& detection,
   const double distance_m = (truth.objects[object].p_W - X_WC.translation()).norm();
   if (!record_.first_detection_us) {
     record_.first_detection_us = row.output_us;
+    record_.first_detection_t_us = row.t_us;
     record_.first_detection_distance_m = distance_m;
   }
   Sighting& sighting = record_.sightings[object];
@@ -286,6 +309,9 @@ FlightRecord Flight::record() const {
   FlightRecord record = record_;
   record.verdict = referee_.verdict();
   record.last = world_.snapshot();
+  record.testimony = witness_.testimony();
+  record.agility = agility_of(world_.vehicle(), scenario_.motors);
+  record.hull = referee_.hull();
   if (rig_) {
     record.events = {rig_->event_count(0), rig_->event_count(1)};
     record.events_lost = {rig_->lost_count(0), rig_->lost_count(1)};

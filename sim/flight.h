@@ -10,6 +10,7 @@
 
 #include "sim/bridge/onboard_computer.h"
 #include "sim/bridge/truth_pilot.h"
+#include "sim/campaign/collision_cause.h"
 #include "sim/campaign/result.h"
 #include "sim/config/scenario.h"
 #include "sim/control/flight_controller.h"
@@ -20,6 +21,7 @@
 #include "sim/sensors/imu.h"
 #include "sim/sensors/range_sensor.h"
 #include "sim/sensors/state_estimator.h"
+#include "sim/witness.h"
 #include "sim/world/referee.h"
 #include "sim/world/throw.h"
 #include "sim/world/world.h"
@@ -72,7 +74,11 @@ struct Sighting {
 struct FlightRecord {
   Verdict verdict;
   Snapshot last;
+  Testimony testimony;
+  Agility agility;
+  std::vector<Convex> hull;                  // of the vehicle, in B
   std::optional<TimeUs> first_detection_us;  // output of the first detection of a true object
+  std::optional<TimeUs> first_detection_t_us;
   std::optional<double> first_detection_distance_m;
   std::vector<Sighting> sightings;         // of each object
   std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
@@ -118,13 +124,15 @@ class Flight {
  private:
   struct SentCommand {
     RateThrustCommand command;
-    bool evading;
+    VelocityReference reference;  // what it is to bring about
   };
 
   std::uint64_t index() const;
   std::unique_ptr<dodge::Pilot> make_pilot();
   std::unique_ptr<dodge::Pilot> make_dodger() const;
   std::unique_ptr<EventRig> make_rig() const;
+  int cameras() const;  // in use
+  Witness::Setup witness_setup() const;
   void require_packet();
   double true_range_m() const;
   const Snapshot* truth_at(TimeUs t_us) const;
@@ -145,6 +153,7 @@ class Flight {
   RangeSensor range_sensor_;
   TruthPilot* truth_pilot_ = nullptr;  // owned by computer_, when the pilot knows the truth
   OnboardComputer computer_;
+  Witness witness_;
   std::unique_ptr<EventRig> rig_;  // none for pilots that need no eyes
 
   Snapshot before_;  // the tick's start

@@ -6,6 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/campaign/campaign.h"
 #include "sim/config/resolve_throw.h"
+#include "sim/explain_throw.h"
 #include "sim/world/room_ray.h"
 
 namespace dodgesim {
@@ -109,8 +110,9 @@ void copy_object(const FlightRecord& record, ObjectRow& row) {
   row.first_detection_distance_m = record.sightings[i].distance_m;
 }
 
-void copy_record(FlightRecord&& record, ThrowResult& result) {
+void copy_record(const FlightRecord& record, ThrowResult& result) {
   result.first_detection_us = record.first_detection_us;
+  result.first_detection_t_us = record.first_detection_t_us;
   result.first_detection_distance_m = record.first_detection_distance_m;
   result.first_command_us = record.first_command_us;
   result.evaded = record.first_command_us.has_value();
@@ -119,7 +121,7 @@ void copy_record(FlightRecord&& record, ThrowResult& result) {
   result.events_lost = record.events_lost;
   result.events_hash = record.events_hash;
   result.duration_us = record.last.t_us;
-  result.detection_rows = std::move(record.rows);
+  result.detection_rows = record.rows;
 }
 
 }  // namespace
@@ -165,8 +167,8 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
   FlightRecord record;
   FlightTiming timing;
   result.flown = attempt(scenario, plan, scenario.pilot, observer, &record, &timing);
+  FlightRecord none = scenario.pilot == "none" ? record : FlightRecord{};
   if (!plan.launches.empty()) {
-    FlightRecord none = scenario.pilot == "none" ? record : FlightRecord{};
     const auto also = [&](const std::string& pilot, FlightRecord* seen) {
       if (pilot == scenario.pilot) return result.flown;
       return attempt(scenario, plan, pilot, nullptr, seen);
@@ -177,7 +179,11 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
   }
   for (ObjectRow& row : result.object_rows) copy_object(record, row);
   for (DetectionRow& row : record.rows) row.throw_index = index;
-  copy_record(std::move(record), result);
+  copy_record(record, result);
+  if (result.flown.ok()) {
+    explain_throw(plan, result.none.ok() ? &none : nullptr, record, result);
+    result.trajectory = to_bytes(record.testimony.trajectory);
+  }
   result.wall_s = timing.total_s;
   return result;
 }

@@ -52,6 +52,8 @@ int run_program(int argc, char** argv) {
   add_merge_command(program, joined(argc, argv), exit_code);
   add_compare_command(program, exit_code);
   add_gate_command(program, joined(argc, argv), exit_code);
+  add_table_command(program, exit_code);
+  add_report_command(program, exit_code);
   add_replay_command(program, exit_code);
   add_validate_command(program, exit_code);
   add_explain_command(program, exit_code);

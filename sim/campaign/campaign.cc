@@ -41,7 +41,8 @@ std::vector<int> throws_of(const Scenario& scenario, const Shard& shard) {
 void expect_throws_of(const Shard& shard, const Scenario& scenario, const JournalIndex& index,
                       const fs::path& out) {
   for (const auto& [number, record] : index.throws) {
-    if (number >= 0 && number < scenario.repeats && number % shard.count == shard.index) continue;
+    if (number >= 0 && number < throw_count(scenario) && number % shard.count == shard.index)
+      continue;
     throw ScenarioError(out.string() + " holds a result of throw " + std::to_string(number) +
                         ", which is not one of shard " + std::to_string(shard.index) + " of " +
                         std::to_string(shard.count) +

@@ -5,6 +5,7 @@
 //   throws.csv, objects.csv, detections.csv, table.md, table.csv, and truth.csv on request
 //   (result_files.h):
 //                           byte-identical for any number of workers, shards and resumes
+//   report.html             charts, and every throw in 3-D (report.h)
 //   timing.csv              computing time of each throw
 //   manifest.json           commit, versions, machine, command line, throughput; written last, so a
 //                           directory that has it is complete

@@ -98,7 +98,7 @@ int expect_complete(const std::vector<fs::path>& directories) {
   const Sources sources = collect(directories);
   const Scenario scenario = parse_scenario(sources.identity.scenario, kScenarioFile, "");
   expect_all(scenario, sources);
-  return scenario.repeats;
+  return throw_count(scenario);
 }
 
 CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,

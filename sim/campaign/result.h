@@ -210,10 +210,17 @@ struct ThrowResult {
   FlightResult oracle;  // perfect perception, same avoidance and controller
 
   // Of the flown pilot.
-  std::optional<TimeUs> first_detection_us;          // of the true object
+  std::optional<TimeUs> first_in_view_us;      // an object was in view of a camera, 1 px wide
+  std::optional<TimeUs> first_detection_us;    // output of the first detection of a true object
+  std::optional<TimeUs> first_detection_t_us;  // the instant it speaks of
   std::optional<double> first_detection_distance_m;  // true distance object to camera then
+  // From its output to the contact if nobody dodged (to the closest approach, if that is none).
+  std::optional<TimeUs> time_to_contact_us;
   std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
   bool evaded = false;                     // any evasive command
+  bool false_alarm = false;  // an evasive command before any detection of a true object
+  std::string cause;         // of a hit or crash (collision_cause.h)
+  std::optional<double> escape_left_s, escape_needed_s;  // CollisionVerdict
   int detections = 0;
   std::array<std::int64_t, 2> events{};       // of the top and bottom camera
   std::array<std::int64_t, 2> events_lost{};  // by a readout that could not serve them
@@ -223,6 +230,7 @@ struct ThrowResult {
   std::vector<ObjectRow> object_rows;
   std::vector<DetectionRow> detection_rows;
   std::vector<EventTruthRow> truth_rows;  // on request
+  std::string trajectory;                 // of the flown pilot, for the report (trajectory.h)
   double wall_s = 0;  // computing time of the flown pilot: in timing.csv, never in throws.csv
 
   bool thrown() const { return !object.empty(); }
@@ -249,10 +257,17 @@ struct ThrowResult {
     v("flown", flown);
     v("none", none);
     v("oracle", oracle);
+    v("first_in_view_us", first_in_view_us);
     v("first_detection_us", first_detection_us);
+    v("first_detection_t_us", first_detection_t_us);
     v("first_detection_distance_m", first_detection_distance_m);
+    v("time_to_contact_us", time_to_contact_us);
     v("first_command_us", first_command_us);
     v("evaded", evaded);
+    v("false_alarm", false_alarm);
+    v("cause", cause);
+    v("escape_left_s", escape_left_s);
+    v("escape_needed_s", escape_needed_s);
     v("detections", detections);
     v("events", events);
     v("events_lost", events_lost);

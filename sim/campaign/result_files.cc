@@ -4,6 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/csv.h"
+#include "sim/campaign/report.h"
 #include "sim/campaign/tables.h"
 #include "sim/files/output_file.h"
 
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kResultFiles[] = {"manifest.json",  "throws.csv", "objects.csv",
                                         "detections.csv", "timing.csv", "table.md",
-                                        "table.csv",      "truth.csv"};
+                                        "table.csv",      "truth.csv",  kReportFile};
 
 // The files with rows of throws.
 class RowFiles {
@@ -97,6 +98,9 @@ void write_result_files(const fs::path& out, const Scenario& scenario, const Jou
   rows.commit();
   write_file(out / "table.md", tables.markdown);
   write_file(out / "table.csv", tables.csv);
+  LoadedCampaign campaign = {scenario, index.identity.program, std::move(summary.results)};
+  write_file(out / kReportFile, report_html(campaign, out.string()));
+  summary.results = std::move(campaign.results);
 }
 
 }  // namespace dodgesim

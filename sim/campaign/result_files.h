@@ -11,9 +11,9 @@ namespace dodgesim {
 // Removes them: what an earlier run has left must not stand beside another journal.
 void remove_result_files(const std::filesystem::path& out);
 
-// Writes throws.csv, objects.csv, detections.csv, timing.csv, table.md, table.csv and, with
-// `truth`, truth.csv, and fills in what the summary says about the results. The same bytes for the
-// same results, but for timing.csv.
+// Writes throws.csv, objects.csv, detections.csv, timing.csv, table.md, table.csv, report.html and,
+// with `truth`, truth.csv, and fills in what the summary says about the results. The same bytes for
+// the same results, but for timing.csv and report.html, which say how long it took.
 void write_result_files(const std::filesystem::path& out, const Scenario& scenario,
                         const JournalIndex& index, bool truth, CampaignSummary& summary);
 

@@ -138,6 +138,7 @@ std::string to_bytes(const ThrowResult& result) {
   ThrowResult copy = result;
   ByteWriter writer;
   copy.visit(writer);
+  writer("", copy.trajectory);
   writer("", copy.wall_s);
   write_rows(writer, copy.object_rows);
   write_rows(writer, copy.detection_rows);
@@ -149,6 +150,7 @@ ThrowResult result_from_bytes(std::string_view bytes) {
   ThrowResult result;
   ByteReader reader(bytes);
   result.visit(reader);
+  reader("", result.trajectory);
   reader("", result.wall_s);
   read_rows(reader, result.object_rows);
   read_rows(reader, result.detection_rows);

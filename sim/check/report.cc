@@ -2,6 +2,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "sim/files/base64.h"
+
 namespace dodgesim {
 
 namespace {
@@ -58,24 +60,11 @@ std::string table(const Check& check) {
 std::string picture(const Plot& plot) {
   std::vector<unsigned char> png;
   cv::imencode(".png", draw(plot), png);
-  return "<img alt=\"" + escaped(plot.title) + "\" src=\"data:image/png;base64," + base64(png) +
-         "\">\n";
+  return "<img alt=\"" + escaped(plot.title) + "\" src=\"data:image/png;base64," +
+         base64({reinterpret_cast<const char*>(png.data()), png.size()}) + "\">\n";
 }
 
 }  // namespace
-
-std::string base64(const std::vector<unsigned char>& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned three = 0;
-    for (std::size_t j = i; j < i + 3; ++j) three = three << 8 | (j < bytes.size() ? bytes[j] : 0U);
-    for (std::size_t j = 0; j < 4; ++j) {
-      text += i + j <= bytes.size() ? kDigits[three >> (18 - 6 * j) & 63U] : '=';
-    }
-  }
-  return text;
-}
 
 std::string html_report(const std::string& subject, const std::vector<Check>& checks) {
   std::string html = kHead;

@@ -11,7 +11,4 @@ namespace dodgesim {
 // `subject` says which camera was tested and how, for the head of the page.
 std::string html_report(const std::string& subject, const std::vector<Check>& checks);
 
-// RFC 4648.
-std::string base64(const std::vector<unsigned char>& bytes);
-
 }  // namespace dodgesim

@@ -49,6 +49,9 @@ class Referee {
   // the object is not launched.
   double clearance(const World& world, int object) const;
 
+  // The vehicle's hull, in B.
+  const std::vector<Convex>& hull() const { return hull_.parts; }
+
  private:
   struct Body {
     std::vector<Convex> parts;

@@ -14,6 +14,7 @@ struct Outcome {
   std::string output;  // standard output and error
 };
 
+// Of a shell's command.
 inline Outcome shell(const std::string& command) {
   FILE* pipe = ::popen((command + " 2>&1 </dev/null").c_str(), "r");
   Outcome outcome;

@@ -1,5 +1,6 @@
 #include "sim/config/scenario.h"
 
+#include "sim/config/expand.h"
 #include "sim/config/resolve_throw.h"
 #include "tests/fuzz/inputs.h"
 
@@ -14,7 +15,10 @@ bool scenario(Bytes bytes) {
   require(accepts([&] { again = parse_scenario(resolved, "resolved.yaml", ""); }),
           "a resolved scenario is a scenario");
   require(to_yaml(again) == resolved, "resolving a resolved scenario changes nothing");
-  if (scenario.toss) accepts([&] { resolve_throw(scenario, 0); });
+  for (const int t : {0, throw_count(scenario) - 1}) {
+    const ThrowCase thrown = case_of(scenario, t);
+    if (thrown.scenario.anyone_throws()) resolve_throws(thrown.scenario, thrown.stream);
+  }
   return true;
 }
 

@@ -23,6 +23,8 @@ void add_sweep_command(CLI::App& program, const std::string& command_line, int& 
 void add_merge_command(CLI::App& program, const std::string& command_line, int& exit_code);
 void add_compare_command(CLI::App& program, int& exit_code);
 void add_gate_command(CLI::App& program, const std::string& command_line, int& exit_code);
+void add_table_command(CLI::App& program, int& exit_code);
+void add_report_command(CLI::App& program, int& exit_code);
 void add_replay_command(CLI::App& program, int& exit_code);
 void add_validate_command(CLI::App& program, int& exit_code);
 void add_explain_command(CLI::App& program, int& exit_code);

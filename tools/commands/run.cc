@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sim/campaign/progress.h"
+#include "sim/campaign/report.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -70,9 +71,11 @@ int run(const Arguments& arguments) {
   const CampaignSummary summary = fly_campaign(scenario, options);
   if (!summary.complete()) return report_stop(summary);
   std::cout << summary.table;
-  std::printf("%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n",
-              count_of_throws(summary.wanted).c_str(), duration_text(summary.wall_s).c_str(),
-              summary.real_time_factor, options.out.c_str());
+  std::printf(
+      "%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n"
+      "Report, for any browser: %s\n",
+      count_of_throws(summary.wanted).c_str(), duration_text(summary.wall_s).c_str(),
+      summary.real_time_factor, options.out.c_str(), (options.out / kReportFile).c_str());
   if (summary.flown > 0) {
     std::printf("Memory of a worker: %.0f MB after its first throw, %.0f MB after its last\n",
                 summary.memory.first_mb, summary.memory.last_mb);
@@ -124,12 +127,12 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
       arguments);
   command->footer(
       "Writes to DIR: table.md and table.csv (dodged / would have hit, with 95 % intervals),\n"
-      "throws.csv (a row a throw), objects.csv (a row an object), detections.csv, timing.csv,\n"
-      "scenario.resolved.yaml and manifest.json (commit, versions, machine). results.bin has "
-      "every\n"
-      "result as it comes: after Ctrl-C, a kill or a full disk, --resume goes on from there. A\n"
-      "throw that crashes, hangs or needs too much memory fails with its reason and never counts\n"
-      "as a success.\n\n"
+      "report.html (charts, and every throw in 3-D), throws.csv (a row a throw), objects.csv (a\n"
+      "row an object), detections.csv, timing.csv, scenario.resolved.yaml and manifest.json\n"
+      "(commit, versions, machine). results.bin has every result as it comes: after Ctrl-C, a "
+      "kill\n"
+      "or a full disk, --resume goes on from there. A throw that crashes, hangs or needs too much\n"
+      "memory fails with its reason and never counts as a success.\n\n"
       "Examples:\n"
       "  dodgesim run scenarios/demo.yaml --out out/demo\n"
       "  dodgesim run scenarios/demo.yaml --out out/quick --throws 4 -j 2\n"

@@ -95,16 +95,6 @@ TEST(Plot, DrawsNothingThatIsNoNumberOrNotPositiveOnALogarithmicAxis) {
   EXPECT_EQ(coloured(draw({"", {"", 0, 0, false}, {"", 0, 0, false}, {}})), 0);
 }
 
-TEST(Report, EncodesBytesAsTheRfcDoes) {
-  const auto encoded = [](const std::string& text) { return base64({text.begin(), text.end()}); };
-  EXPECT_EQ(encoded(""), "");
-  EXPECT_EQ(encoded("f"), "Zg==");
-  EXPECT_EQ(encoded("fo"), "Zm8=");
-  EXPECT_EQ(encoded("foo"), "Zm9v");
-  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(encoded("\xff\xfe\xfd"), "//79");
-}
-
 TEST(Report, HoldsEveryLineAndPlotInOnePage) {
   Check check{"A <title>", "How & why", {}, {}};
   check.within("one.line", 2, 1, 0.5, "us", 1);

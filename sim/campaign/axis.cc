@@ -1,0 +1,135 @@
+#include "sim/campaign/axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "sim/base/error.h"
+#include "sim/config/numbers.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr std::size_t kMostSingleValues = 6;  // more become bins
+
+struct NumericKey {
+  const char* name;
+  double ThrowResult::*value;
+  double bin;
+};
+constexpr std::array<NumericKey, 5> kNumericKeys = {
+    {{"size_m", &ThrowResult::size_m, 0.1},
+     {"distance_m", &ThrowResult::distance_m, 1},
+     {"speed_mps", &ThrowResult::speed_mps, 1},
+     {"bearing_deg", &ThrowResult::bearing_deg, 10},
+     {"launch_height_m", &ThrowResult::launch_height_m, 0.5}}};
+
+// A value that somebody wrote, rather than one drawn from a continuous distribution.
+bool is_round(double value) { return std::abs(value - std::round(value * 1e3) / 1e3) < 1e-12; }
+
+std::string names_of_keys(const std::vector<ThrowResult>& results) {
+  std::string names;
+  for (const NumericKey& key : kNumericKeys) names += std::string(key.name) + ", ";
+  names += "object";
+  if (results.empty()) return names;
+  for (const AxisValue& value : results.front().cell_values) names += ", " + value.key;
+  return names;
+}
+
+}  // namespace
+
+bool Bin::contains(double value) const {
+  return lo == hi ? value == lo : value >= lo && value < hi;
+}
+
+std::string Bin::text() const {
+  return lo == hi ? to_text(lo) : to_text(lo) + " to " + to_text(hi);
+}
+
+std::vector<Bin> make_bins(const std::vector<double>& values, double width) {
+  const std::set<double> distinct(values.begin(), values.end());
+  std::vector<Bin> bins;
+  if (distinct.empty()) return bins;
+  const bool all_round = std::all_of(distinct.begin(), distinct.end(), is_round);
+  if (distinct.size() <= kMostSingleValues && all_round) {
+    for (const double value : distinct) bins.push_back({value, value});
+    return bins;
+  }
+  const auto cell_of = [&](double value) {
+    return static_cast<std::int64_t>(std::floor(value / width));
+  };
+  // Multiples such as 3 * 0.1 would print as 0.30000000000000004.
+  const auto edge = [&](std::int64_t k) {
+    return std::round(static_cast<double>(k) * width * 1e9) / 1e9;
+  };
+  for (std::int64_t i = cell_of(*distinct.begin()); i <= cell_of(*distinct.rbegin()); ++i) {
+    bins.push_back({edge(i), edge(i + 1)});
+  }
+  return bins;
+}
+
+Axis::Axis(const std::string& name, const std::vector<ThrowResult>& results) : name_(name) {
+  const auto key = std::find_if(kNumericKeys.begin(), kNumericKeys.end(),
+                                [&](const NumericKey& k) { return k.name == name; });
+  if (key != kNumericKeys.end()) {
+    set_numeric(results, key->value, key->bin);
+  } else if (name == "object") {
+    set_names(results, [](const ThrowResult& r) {
+      return r.thrown() ? std::optional(r.object) : std::nullopt;
+    });
+  } else {
+    const auto value = [name](const ThrowResult& r) -> std::optional<std::string> {
+      for (const AxisValue& of_cell : r.cell_values) {
+        if (of_cell.key == name) return of_cell.value;
+      }
+      return std::nullopt;
+    };
+    if (results.empty() || !value(results.front())) {
+      throw ScenarioError("Throws cannot be told apart by \"" + name +
+                          "\"; known: " + names_of_keys(results) + ".");
+    }
+    set_names(results, value);
+  }
+}
+
+void Axis::set_names(const std::vector<ThrowResult>& results, const NameOf& name_of) {
+  for (const ThrowResult& result : results) {
+    const auto name = name_of(result);
+    if (name && std::find(values_.begin(), values_.end(), *name) == values_.end()) {
+      values_.push_back(*name);
+    }
+  }
+  of_ = [values = values_, name_of](const ThrowResult& result) -> std::optional<std::size_t> {
+    const auto name = name_of(result);
+    if (!name) return std::nullopt;
+    const auto at = std::find(values.begin(), values.end(), *name);
+    if (at == values.end()) return std::nullopt;
+    return static_cast<std::size_t>(at - values.begin());
+  };
+}
+
+void Axis::set_numeric(const std::vector<ThrowResult>& results, double ThrowResult::*key,
+                       double width) {
+  std::vector<double> values;
+  for (const ThrowResult& result : results) {
+    if (result.thrown()) values.push_back(result.*key);
+  }
+  const std::vector<Bin> bins = make_bins(values, width);
+  for (const Bin& bin : bins) {
+    values_.push_back(bin.text());
+    middles_.push_back(0.5 * (bin.lo + bin.hi));
+  }
+  of_ = [bins, key](const ThrowResult& result) -> std::optional<std::size_t> {
+    if (!result.thrown()) return std::nullopt;
+    const auto at = std::find_if(bins.begin(), bins.end(),
+                                 [&](const Bin& bin) { return bin.contains(result.*key); });
+    if (at == bins.end()) return std::nullopt;
+    return static_cast<std::size_t>(at - bins.begin());
+  };
+}
+
+std::optional<std::size_t> Axis::of(const ThrowResult& result) const { return of_(result); }
+
+}  // namespace dodgesim

@@ -1,0 +1,276 @@
+#include "sim/campaign/report.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "sim/campaign/axis.h"
+#include "sim/campaign/collision_cause.h"
+#include "sim/campaign/report_files.h"
+#include "sim/campaign/statistics_table.h"
+#include "sim/files/base64.h"
+
+namespace dodgesim {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "The page reads its numbers so.");
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint8_t kNone = 255;
+
+// What is true of a throw, as bits of the column "flags".
+constexpr const char* kFlags[] = {"thrown",   "failed",      "hit",    "crashed",
+                                  "none_hit", "oracle_flew", "evaded", "false_alarm"};
+
+unsigned flags_of(const ThrowResult& r) {
+  const bool set[] = {r.thrown(), r.flown.failed(), r.flown.hit, r.flown.crashed,
+                      r.none.hit, r.oracle.ok(),    r.evaded,    r.false_alarm};
+  unsigned flags = 0;
+  for (std::size_t i = 0; i < std::size(set); ++i) flags |= set[i] ? 1U << i : 0U;
+  return flags;
+}
+
+float number(std::optional<double> value) {
+  return static_cast<float>(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
+float time(std::optional<TimeUs> value) {
+  return value ? static_cast<float>(seconds(*value)) : number(std::nullopt);
+}
+
+std::uint8_t place(std::optional<std::size_t> at) {
+  return at && *at < kNone ? static_cast<std::uint8_t>(*at) : kNone;
+}
+
+std::uint8_t cause_of(const ThrowResult& result) {
+  for (std::size_t i = 0; i < kCollisionCauses.size(); ++i) {
+    if (to_text(kCollisionCauses[i]) == result.cause) return static_cast<std::uint8_t>(i);
+  }
+  return kNone;
+}
+
+struct Axes {
+  explicit Axes(const std::vector<ThrowResult>& results)
+      : size("size_m", results),
+        distance("distance_m", results),
+        speed("speed_mps", results),
+        object("object", results) {}
+  Axis size, distance, speed, object;
+};
+
+// Numbers of all throws as base64, by name.
+class Columns {
+ public:
+  explicit Columns(const std::vector<ThrowResult>& results) : results_(results) {}
+
+  template <class Of>
+  void add(const char* name, Of of) {
+    using T = decltype(of(results_.front()));
+    std::string bytes(results_.size() * sizeof(T), '\0');
+    for (std::size_t i = 0; i < results_.size(); ++i) {
+      const T value = of(results_[i]);
+      std::memcpy(bytes.data() + i * sizeof(T), &value, sizeof(T));
+    }
+    const char* type = std::is_same_v<T, float> ? "f32"
+                       : sizeof(T) == 1         ? "u8"
+                       : sizeof(T) == 2         ? "u16"
+                                                : "u32";
+    json_[name] = {{"type", type}, {"values", base64(bytes)}};
+  }
+  Json take() { return std::move(json_); }
+
+ private:
+  const std::vector<ThrowResult>& results_;
+  Json json_ = Json::object();
+};
+
+Json columns_of(const std::vector<ThrowResult>& results, const Axes& axes) {
+  using R = ThrowResult;
+  Columns columns(results);
+  columns.add("number", [](const R& r) { return static_cast<std::uint32_t>(r.index); });
+  columns.add("sweep", [](const R& r) { return static_cast<std::uint16_t>(r.sweep); });
+  columns.add("flags", [](const R& r) { return static_cast<std::uint16_t>(flags_of(r)); });
+  columns.add("cause", cause_of);
+  columns.add("size_bin", [&](const R& r) { return place(axes.size.of(r)); });
+  columns.add("distance_bin", [&](const R& r) { return place(axes.distance.of(r)); });
+  columns.add("object", [&](const R& r) { return place(axes.object.of(r)); });
+  columns.add("size", [](const R& r) { return number(r.size_m); });
+  columns.add("distance", [](const R& r) { return number(r.distance_m); });
+  columns.add("speed", [](const R& r) { return number(r.speed_mps); });
+  columns.add("clearance", [](const R& r) { return number(r.flown.clearance_m); });
+  columns.add("oracle_clearance", [](const R& r) { return number(r.oracle.clearance_m); });
+  columns.add("detection_distance",
+              [](const R& r) { return number(r.first_detection_distance_m); });
+  columns.add("contact", [](const R& r) { return time(r.time_to_contact_us); });
+  columns.add("left", [](const R& r) { return number(r.escape_left_s); });
+  columns.add("needed", [](const R& r) { return number(r.escape_needed_s); });
+  columns.add("launch", [](const R& r) {
+    return time(r.thrown() ? std::optional(r.launch_us) : std::nullopt);
+  });
+  columns.add("in_view", [](const R& r) { return time(r.first_in_view_us); });
+  columns.add("detected", [](const R& r) { return time(r.first_detection_us); });
+  columns.add("command", [](const R& r) { return time(r.first_command_us); });
+  columns.add("hit", [](const R& r) { return time(r.flown.hit_us); });
+  columns.add("closest", [](const R& r) { return time(r.flown.closest_us); });
+  columns.add("real_time_factor", [](const R& r) {
+    return number(r.wall_s > 0 ? std::optional(seconds(r.duration_us) / r.wall_s) : std::nullopt);
+  });
+  std::uint32_t at = 0;
+  columns.add("track_at", [&](const R& r) {
+    const std::uint32_t start = at;
+    at += static_cast<std::uint32_t>(r.trajectory.size());
+    return start;
+  });
+  columns.add("track_size",
+              [](const R& r) { return static_cast<std::uint32_t>(r.trajectory.size()); });
+  return columns.take();
+}
+
+// [count, of, lo, hi]
+Json rate_of(const Rate& rate) {
+  return {rate.count, rate.of, rate.interval().lo, rate.interval().hi};
+}
+
+// What the charts show of one pilot.
+Json pilot_rate(const ThrowStatistics* statistics, std::size_t pilot) {
+  if (statistics == nullptr) return rate_of({});
+  return rate_of(statistics->pilots[pilot].tally.shown(pilot == 2));
+}
+
+const ThrowStatistics* find(const StatisticsTable& table, const std::vector<std::string>& values) {
+  const auto row = std::find_if(table.rows.begin(), table.rows.end(),
+                                [&](const auto& r) { return r.values == values; });
+  return row == table.rows.end() ? nullptr : &row->statistics;
+}
+
+Json section_of(const Part& part, const Axes& axes) {
+  const StatisticsTable by_cell = group_by(part, {axes.size, axes.distance});
+  const StatisticsTable by_speed = group_by(part, {axes.speed});
+  const ThrowStatistics& all = by_cell.rows.back().statistics;
+  Json pilots = Json::array();
+  for (const std::size_t k : shown_pilots(by_cell)) {
+    Json cells = Json::array(), speeds = Json::array();
+    for (const std::string& size : axes.size.values()) {
+      Json row = Json::array();
+      for (const std::string& distance : axes.distance.values()) {
+        row.push_back(pilot_rate(find(by_cell, {size, distance}), k));
+      }
+      cells.push_back(std::move(row));
+    }
+    for (const std::string& speed : axes.speed.values()) {
+      speeds.push_back(pilot_rate(find(by_speed, {speed}), k));
+    }
+    pilots.push_back({{"name", all.pilots[k].pilot},
+                      {"total", pilot_rate(&all, k)},
+                      {"cells", std::move(cells)},
+                      {"by_speed", std::move(speeds)}});
+  }
+  return {{"label", label(part.values)},
+          {"sweep", part.sweep},
+          {"value", part.values.size() == 1 ? part.values[0].value : ""},
+          {"pilots", std::move(pilots)},
+          {"detected", rate_of(all.detected)},
+          {"false_alarms", rate_of(all.false_alarms)}};
+}
+
+// An argument as a shell takes it.
+std::string quoted(const std::string& text) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("_-./=+,", c) != nullptr;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
+  const Scenario& scenario = campaign.scenario;
+  const std::vector<ThrowResult>& results = campaign.results;
+  const Axes axes(results);
+  double simulated_s = 0, computing_s = 0;
+  Json errors = Json::object();
+  for (const ThrowResult& result : results) {
+    simulated_s += seconds(result.duration_us);
+    computing_s += result.wall_s;
+    if (result.flown.failed()) errors[std::to_string(result.index)] = result.flown.error;
+  }
+  const std::vector<Part> parts = parts_of(results, scenario.pilot);
+  Json sections = Json::array();
+  for (const Part& part : parts) sections.push_back(section_of(part, axes));
+  Json causes = Json::array(), flags = Json::object();
+  for (const CollisionCause cause : kCollisionCauses) causes.push_back(to_text(cause));
+  for (std::size_t i = 0; i < std::size(kFlags); ++i) flags[kFlags[i]] = 1U << i;
+  return {{"title", scenario.name},
+          {"description", scenario.description},
+          {"pilot", scenario.pilot},
+          {"seed", std::to_string(scenario.seed)},
+          {"program", "dodgesim " + campaign.program},
+          {"wanted", throw_count(scenario)},
+          {"replay", "dodgesim replay " + quoted(directory) + " --throw "},
+          {"real_time_factor", computing_s > 0 ? simulated_s / computing_s : 0.0},
+          {"sizes", axes.size.values()},
+          {"distances", axes.distance.values()},
+          {"speeds", axes.speed.middles()},
+          {"speed_texts", axes.speed.values()},
+          {"objects", axes.object.values()},
+          {"causes", std::move(causes)},
+          {"flags", std::move(flags)},
+          {"errors", std::move(errors)},
+          {"sweep_key", parts.front().values.size() == 1 ? parts.front().values[0].key : ""},
+          {"sections", std::move(sections)},
+          {"columns", columns_of(results, axes)}};
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+// No text of a JSON document may end the element that it stands in.
+std::string script_safe(std::string json) {
+  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) {
+    json.replace(at, 1, "\\u003c");
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string report_html(const LoadedCampaign& campaign, const std::string& directory) {
+  const std::string data = script_safe(
+      data_of(campaign, directory).dump(-1, ' ', false, Json::error_handler_t::replace));
+  std::string tracks;
+  for (const ThrowResult& result : campaign.results) tracks += result.trajectory;
+
+  // The page's placeholders, in their order.
+  const std::pair<std::string, std::string> parts[] = {{"@TITLE@", escaped(campaign.scenario.name)},
+                                                       {"@STYLE@", kReport_style},
+                                                       {"@DATA@", data},
+                                                       {"@TRACKS@", base64(tracks)},
+                                                       {"@SCRIPT@", kReport_script}};
+  std::string_view page = kReport_page;
+  std::string html;
+  for (const auto& [placeholder, text] : parts) {
+    const std::size_t at = page.find(placeholder);
+    html += page.substr(0, at);
+    html += text;
+    page.remove_prefix(at + placeholder.size());
+  }
+  return html + std::string(page);
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,61 @@
+#include "sim/campaign/statistics_table.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+namespace dodgesim {
+
+StatisticsTable group_by(const Part& part, const std::vector<Axis>& axes) {
+  std::map<std::vector<std::size_t>, Results> groups;
+  for (const ThrowResult* result : part.results) {
+    std::vector<std::size_t> place;
+    for (const Axis& axis : axes) {
+      if (const auto at = axis.of(*result)) place.push_back(*at);
+    }
+    if (!axes.empty() && place.size() == axes.size()) groups[place].push_back(result);
+  }
+  StatisticsTable table;
+  for (const Axis& axis : axes) table.keys.push_back(axis.name());
+  for (const auto& [place, group] : groups) {
+    StatisticsTable::Row& row = table.rows.emplace_back();
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      row.values.push_back(axes[i].values()[place[i]]);
+    }
+    row.statistics = statistics_of(group, part.pilot);
+  }
+  table.rows.push_back(
+      {std::vector<std::string>(axes.size(), "all"), statistics_of(part.results, part.pilot)});
+  return table;
+}
+
+StatisticsTable of_sweep(const Part& part, StatisticsTable table) {
+  std::vector<std::string> keys, values;
+  for (const AxisValue& value : part.values) {
+    keys.push_back(value.key);
+    values.push_back(value.value);
+  }
+  table.keys.insert(table.keys.begin(), keys.begin(), keys.end());
+  for (StatisticsTable::Row& row : table.rows) {
+    row.values.insert(row.values.begin(), values.begin(), values.end());
+  }
+  return table;
+}
+
+StatisticsTable group_by(const std::vector<Part>& parts, const std::vector<Axis>& axes) {
+  StatisticsTable all;
+  for (const Part& part : parts) {
+    StatisticsTable table = of_sweep(part, group_by(part, axes));
+    all.keys = table.keys;
+    std::move(table.rows.begin(), table.rows.end(), std::back_inserter(all.rows));
+  }
+  return all;
+}
+
+std::vector<std::size_t> shown_pilots(const StatisticsTable& table) {
+  const bool oracle = std::any_of(table.rows.begin(), table.rows.end(),
+                                  [](const auto& row) { return row.statistics.oracle_flew; });
+  return oracle ? std::vector<std::size_t>{0, 1, 2} : std::vector<std::size_t>{0, 2};
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,279 @@
+// The formats of statistics_table.h.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "sim/campaign/csv.h"
+#include "sim/campaign/statistics_table.h"
+
+namespace dodgesim {
+
+namespace {
+
+using Cells = std::vector<std::string>;
+
+// Head and rows of a table for people.
+struct TextTable {
+  Cells head;
+  std::vector<Cells> rows;
+};
+
+std::string rounded(double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
+std::string sample_text(const Sample& sample) {
+  if (sample.count() == 0) return "-";
+  return rounded(sample.quantile(0.5)->value) + " (" + rounded(sample.quantile(0.1)->value) +
+         " to " + rounded(sample.quantile(0.9)->value) + "), " + std::to_string(sample.count());
+}
+
+// Dodged by each pilot of those that would have hit; for none, would have hit.
+void add_dodged(const StatisticsTable& table, TextTable& text) {
+  const std::string& first = table.rows.front().statistics.flown().pilot;
+  const bool one_pilot = std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    return row.statistics.flown().pilot == first;
+  });
+  const std::array<std::string, 3> heads = {(one_pilot ? first + ": " : "") + "dodged",
+                                            "oracle: dodged", "none: would have hit"};
+  for (const std::size_t pilot : shown_pilots(table)) {
+    text.head.push_back(heads[pilot]);
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      const Tally& tally = table.rows[i].statistics.pilots[pilot].tally;
+      std::string cell = rate_text(tally.shown(pilot == 2));
+      if (tally.errors > 0) cell += ", " + std::to_string(tally.errors) + " errors";
+      text.rows[i].push_back(cell);
+    }
+  }
+}
+
+TextTable rates_of(const StatisticsTable& table, bool with_dodged) {
+  TextTable text;
+  text.head = table.keys;
+  for (const StatisticsTable::Row& row : table.rows) text.rows.push_back(row.values);
+  if (with_dodged) add_dodged(table, text);
+  for (const char* name : {"hit or crashed", "detected, of those in view", "false alarms"}) {
+    text.head.push_back(name);
+  }
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const ThrowStatistics& statistics = table.rows[i].statistics;
+    for (const Rate& rate :
+         {statistics.flown().tally.collisions, statistics.detected, statistics.false_alarms}) {
+      text.rows[i].push_back(rate_text(rate));
+    }
+  }
+  return text;
+}
+
+TextTable samples_of(const StatisticsTable& table) {
+  TextTable text;
+  text.head = table.keys;
+  for (const NamedSample& named : kSamples) text.head.push_back(named.name);
+  text.head.push_back("clearance_m");
+  for (const StatisticsTable::Row& row : table.rows) {
+    Cells& cells = text.rows.emplace_back(row.values);
+    for (const NamedSample& named : kSamples) {
+      cells.push_back(sample_text(row.statistics.*named.sample));
+    }
+    cells.push_back(sample_text(row.statistics.flown().clearance_m));
+  }
+  return text;
+}
+
+std::string markdown_row(const Cells& cells) {
+  std::string line = "|";
+  for (std::string cell : cells) {
+    for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) {
+      cell.insert(at, "\\");
+    }
+    line += " " + cell + " |";
+  }
+  return line + "\n";
+}
+
+std::string markdown_of(const TextTable& table) {
+  std::string text = markdown_row(table.head) + "|";
+  for (std::size_t i = 0; i < table.head.size(); ++i) text += "---|";
+  text += "\n";
+  for (const Cells& row : table.rows) text += markdown_row(row);
+  return text;
+}
+
+std::string latex_escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '\\') {
+      escaped += "\\textbackslash{}";
+    } else if (c == '~' || c == '^') {
+      escaped += std::string("\\") + c + "{}";
+    } else {
+      if (std::string("&%$#_{}").find(c) != std::string::npos) escaped += '\\';
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string latex_row(const Cells& cells) {
+  std::string line;
+  for (const std::string& cell : cells) {
+    line += (line.empty() ? "  " : " & ") + (cell.empty() ? "{}" : latex_escaped(cell));
+  }
+  return line + " \\\\\n";
+}
+
+std::string latex_of(const TextTable& table) {
+  std::string text = "\\begin{tabular}{" + std::string(table.head.size(), 'l') + "}\n  \\toprule\n";
+  text += latex_row(table.head) + "  \\midrule\n";
+  for (const Cells& row : table.rows) text += latex_row(row);
+  return text + "  \\bottomrule\n\\end{tabular}\n";
+}
+
+std::string cell_of(std::optional<double> value) {
+  return value && std::isfinite(*value) ? to_text(*value) : "";
+}
+
+// Writes the columns of one row; a head is a row of names.
+class CsvRow {
+ public:
+  void text(const std::string& name, const std::string& value) { add(name, csv_cell(value)); }
+  void count(const std::string& name, std::int64_t value) { add(name, std::to_string(value)); }
+  void rate(const std::string& name, const Rate& rate) {
+    add(name, cell_of(rate.value()));
+    add(name + "_lo", cell_of(rate.interval().lo));
+    add(name + "_hi", cell_of(rate.interval().hi));
+  }
+  void sample(const std::string& name, const Sample& sample) {
+    count(name + "_n", static_cast<std::int64_t>(sample.count()));
+    const auto median = sample.quantile(0.5);
+    const auto value = [&](double share) -> std::optional<double> {
+      const auto quantile = sample.quantile(share);
+      return quantile ? std::optional(quantile->value) : std::nullopt;
+    };
+    add(name + "_q10", cell_of(value(0.1)));
+    add(name + "_q50", cell_of(value(0.5)));
+    add(name + "_q50_lo", median ? cell_of(median->interval.lo) : "");
+    add(name + "_q50_hi", median ? cell_of(median->interval.hi) : "");
+    add(name + "_q90", cell_of(value(0.9)));
+  }
+
+  std::string head, row;
+
+ private:
+  void add(const std::string& name, const std::string& value) {
+    if (!head.empty()) {
+      head += ",";
+      row += ",";
+    }
+    head += name;
+    row += value;
+  }
+};
+
+// What only the flown pilot has is empty for the others.
+CsvRow csv_row_of(const StatisticsTable& table, const StatisticsTable::Row& row,
+                  const PilotStatistics& of) {
+  const bool flown = &of == &row.statistics.flown();
+  const ThrowStatistics nothing;
+  const ThrowStatistics& perception = flown ? row.statistics : nothing;
+  CsvRow csv;
+  for (std::size_t i = 0; i < table.keys.size(); ++i) csv.text(table.keys[i], row.values[i]);
+  csv.text("pilot", of.pilot);
+  csv.count("throws", of.tally.throws);
+  csv.count("would_have_hit", of.tally.would_have_hit);
+  csv.count("dodged", of.tally.dodged);
+  csv.rate("rate", of.tally.success());
+  csv.count("errors", of.tally.errors);
+  csv.count("flights", of.tally.collisions.of);
+  csv.count("collisions", of.tally.collisions.count);
+  csv.rate("collision_rate", of.tally.collisions);
+  csv.sample("clearance_m", of.clearance_m);
+  csv.count("in_view", perception.detected.of);
+  csv.count("detected", perception.detected.count);
+  csv.rate("detection_rate", perception.detected);
+  csv.count("false_alarms", perception.false_alarms.count);
+  csv.rate("false_alarm_rate", perception.false_alarms);
+  for (const NamedSample& named : kSamples) csv.sample(named.name, perception.*named.sample);
+  return csv;
+}
+
+using Json = nlohmann::ordered_json;
+
+Json json_number(std::optional<double> value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+Json json_of(const Rate& rate) {
+  return {{"count", rate.count},
+          {"of", rate.of},
+          {"rate", json_number(rate.value())},
+          {"lo", rate.interval().lo},
+          {"hi", rate.interval().hi}};
+}
+
+Json json_of(const Sample& sample) {
+  Json json = {{"count", sample.count()}};
+  for (const auto& [name, share] : {std::pair{"q10", 0.1}, {"q50", 0.5}, {"q90", 0.9}}) {
+    const auto quantile = sample.quantile(share);
+    json[name] = quantile ? Json{{"value", json_number(quantile->value)},
+                                 {"lo", json_number(quantile->interval.lo)},
+                                 {"hi", json_number(quantile->interval.hi)}}
+                          : Json(nullptr);
+  }
+  return json;
+}
+
+Json json_of(const StatisticsTable& table, const StatisticsTable::Row& row) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < table.keys.size(); ++i) json[table.keys[i]] = row.values[i];
+  for (const std::size_t pilot : shown_pilots(table)) {
+    const PilotStatistics& of = row.statistics.pilots[pilot];
+    json["pilots"].push_back({{"pilot", of.pilot},
+                              {"throws", of.tally.throws},
+                              {"dodged", json_of(of.tally.success())},
+                              {"collisions", json_of(of.tally.collisions)},
+                              {"errors", of.tally.errors},
+                              {"clearance_m", json_of(of.clearance_m)}});
+  }
+  json["detected"] = json_of(row.statistics.detected);
+  json["false_alarms"] = json_of(row.statistics.false_alarms);
+  for (const NamedSample& named : kSamples) {
+    json[named.name] = json_of(row.statistics.*named.sample);
+  }
+  json["causes"] = row.statistics.causes;
+  return json;
+}
+
+}  // namespace
+
+std::string to_markdown(const StatisticsTable& table, bool with_dodged) {
+  return markdown_of(rates_of(table, with_dodged)) + "\n" + markdown_of(samples_of(table));
+}
+
+std::string to_latex(const StatisticsTable& table) {
+  return latex_of(rates_of(table, true)) + "\n" + latex_of(samples_of(table));
+}
+
+std::string to_csv(const StatisticsTable& table) {
+  std::string text;
+  for (const StatisticsTable::Row& row : table.rows) {
+    for (const std::size_t pilot : shown_pilots(table)) {
+      const CsvRow csv = csv_row_of(table, row, row.statistics.pilots[pilot]);
+      if (text.empty()) text = csv.head + "\n";
+      text += csv.row + "\n";
+    }
+  }
+  return text;
+}
+
+std::string to_json(const StatisticsTable& table) {
+  Json rows = Json::array();
+  for (const StatisticsTable::Row& row : table.rows) rows.push_back(json_of(table, row));
+  return rows.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace dodgesim

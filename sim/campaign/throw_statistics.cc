@@ -1,0 +1,113 @@
+#include "sim/campaign/throw_statistics.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace dodgesim {
+
+namespace {
+
+std::string fixed(double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.3f", value);
+  return text.data();
+}
+
+std::optional<double> seconds_between(std::optional<TimeUs> from, std::optional<TimeUs> to) {
+  if (!from || !to) return std::nullopt;
+  return seconds(*to - *from);
+}
+
+void add_flight(const FlightResult& flight, const ThrowResult& result, PilotStatistics& sum) {
+  if (!result.thrown() || flight.status == "not flown") return;
+  sum.tally.add(flight, result.none);
+  if (flight.ok()) sum.clearance_m.add(flight.clearance_m);
+}
+
+// Who is told the truth, or wants to know nothing, detects nothing.
+bool perceives(const std::string& pilot) { return pilot != "oracle" && pilot != "none"; }
+
+void add_perception(const ThrowResult& result, ThrowStatistics& sum) {
+  sum.false_alarms.add(result.false_alarm);
+  if (!result.cause.empty()) ++sum.causes[result.cause];
+  if (!result.thrown()) return;
+  if (result.first_in_view_us && perceives(sum.flown().pilot)) {
+    sum.detected.add(result.first_detection_us.has_value());
+  }
+  sum.detection_distance_m.add(result.first_detection_distance_m);
+  if (result.time_to_contact_us) sum.time_to_contact_s.add(seconds(*result.time_to_contact_us));
+  sum.view_to_detection_s.add(seconds_between(result.first_in_view_us, result.first_detection_us));
+  sum.image_to_detection_s.add(
+      seconds_between(result.first_detection_t_us, result.first_detection_us));
+  if (result.false_alarm) return;
+  sum.detection_to_command_s.add(
+      seconds_between(result.first_detection_us, result.first_command_us));
+}
+
+}  // namespace
+
+std::optional<double> Rate::value() const {
+  if (of == 0) return std::nullopt;
+  return static_cast<double>(count) / static_cast<double>(of);
+}
+
+std::string rate_text(const Rate& rate) {
+  std::string text = std::to_string(rate.count) + " / " + std::to_string(rate.of);
+  if (rate.of == 0) return text;
+  const Interval interval = rate.interval();
+  return text + " (" + fixed(*rate.value()) + ", " + fixed(interval.lo) + " to " +
+         fixed(interval.hi) + ")";
+}
+
+void Tally::add(const FlightResult& flight, const FlightResult& none) {
+  if (flight.failed() || none.failed()) ++errors;
+  if (flight.ok()) collisions.add(!flight.unharmed());
+  if (!none.ok() || flight.status == "not flown") return;
+  ++throws;
+  if (!none.hit) return;
+  ++would_have_hit;
+  if (flight.unharmed()) ++dodged;
+}
+
+std::optional<QuantileEstimate> Sample::quantile(double share) const {
+  std::vector<double> sorted = values_;
+  std::sort(sorted.begin(), sorted.end());
+  return estimate_quantile(sorted, share);
+}
+
+std::vector<Part> parts_of(const std::vector<ThrowResult>& results, const std::string& pilot) {
+  std::map<int, Part> parts;
+  for (const ThrowResult& result : results) {
+    Part& part = parts[result.sweep];
+    part.results.push_back(&result);
+    if (part.results.size() > 1) continue;
+    part.sweep = result.sweep;
+    part.values = result.sweep_values;
+    part.pilot = pilot;
+    for (const AxisValue& value : part.values) {
+      if (value.key == "pilot") part.pilot = value.value;
+    }
+  }
+  if (parts.empty()) parts[0].pilot = pilot;
+  std::vector<Part> in_order;
+  for (auto& [sweep, part] : parts) in_order.push_back(std::move(part));
+  return in_order;
+}
+
+ThrowStatistics statistics_of(const Results& results, const std::string& pilot) {
+  ThrowStatistics sum;
+  sum.pilots[0].pilot = pilot;
+  sum.pilots[1].pilot = "oracle";
+  sum.pilots[2].pilot = "none";
+  for (const ThrowResult* result : results) {
+    sum.oracle_flew = sum.oracle_flew || result->oracle.status != "not flown";
+    add_flight(result->flown, *result, sum.pilots[0]);
+    add_flight(result->oracle, *result, sum.pilots[1]);
+    add_flight(result->none, *result, sum.pilots[2]);
+    if (result->flown.ok()) add_perception(*result, sum);
+  }
+  return sum;
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,113 @@
+// What is counted and measured over throws. "Dodged" means: the pilot `none` was hit on the same
+// throw, and the flown pilot was neither hit nor crashed. A throw whose flight failed with an error
+// never counts as a success and stays in the denominator.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/campaign/quantiles.h"
+#include "sim/campaign/result.h"
+
+namespace dodgesim {
+
+struct Rate {
+  std::int64_t count = 0;
+  std::int64_t of = 0;
+
+  void add(bool success) {
+    ++of;
+    count += success ? 1 : 0;
+  }
+  std::optional<double> value() const;  // empty when nothing was counted
+  Interval interval() const { return wilson(count, of); }
+};
+
+// "25 / 34 (0.735, 0.569 to 0.854)"; "0 / 0" without trials.
+std::string rate_text(const Rate& rate);
+
+// Counts over some throws, for one pilot.
+struct Tally {
+  int throws = 0;          // thrown, flown by the pilot, and judged by the pilot none
+  int would_have_hit = 0;  // of those, hit when nobody dodged
+  int dodged = 0;          // of those that would have hit
+  int errors = 0;          // flights of this pilot, or of the pilot none, that failed
+  Rate collisions;         // hit or crashed, of all flights of the pilot that did not fail
+
+  void add(const FlightResult& flight, const FlightResult& none);
+  Rate success() const { return {dodged, would_have_hit}; }
+  // What tables show. The pilot none dodges nothing: of it, how many throws would have hit.
+  Rate shown(bool none) const { return none ? Rate{would_have_hit, throws} : success(); }
+};
+
+// Numbers of throws that lie on a line, such as the clearance.
+class Sample {
+ public:
+  void add(std::optional<double> value) {
+    if (value) values_.push_back(*value);
+  }
+  std::size_t count() const { return values_.size(); }
+  // Empty for an empty sample.
+  std::optional<QuantileEstimate> quantile(double share) const;
+
+ private:
+  std::vector<double> values_;
+};
+
+struct PilotStatistics {
+  std::string pilot;
+  Tally tally;
+  Sample clearance_m;  // 0 when it was hit
+};
+
+struct ThrowStatistics {
+  std::array<PilotStatistics, 3> pilots;  // the flown one, oracle, none
+  bool oracle_flew = false;
+
+  // Of the flown pilot.
+  Rate detected;                      // of the throws that came into view
+  Rate false_alarms;                  // of all flights: evaded before it had detected an object
+  std::map<std::string, int> causes;  // of its hits and crashes
+  Sample detection_distance_m;        // of the first detection of a true object
+  Sample time_to_contact_s;           // from there, if nobody dodged
+  // The latency chain of the first detection: from the first moment in view to its output, from
+  // the instant that it speaks of to its output, from there to the first evasive command at the
+  // flight controller.
+  Sample view_to_detection_s, image_to_detection_s, detection_to_command_s;
+
+  const PilotStatistics& flown() const { return pilots.front(); }
+};
+
+// The samples with the names that they have in tables.
+struct NamedSample {
+  const char* name;
+  Sample ThrowStatistics::*sample;
+};
+inline constexpr NamedSample kSamples[] = {
+    {"detection_distance_m", &ThrowStatistics::detection_distance_m},
+    {"time_to_contact_s", &ThrowStatistics::time_to_contact_s},
+    {"view_to_detection_s", &ThrowStatistics::view_to_detection_s},
+    {"image_to_detection_s", &ThrowStatistics::image_to_detection_s},
+    {"detection_to_command_s", &ThrowStatistics::detection_to_command_s}};
+
+using Results = std::vector<const ThrowResult*>;
+
+// The throws of one value of the sweep, those that may be pooled: other values of the sweep meet
+// the same throws again.
+struct Part {
+  int sweep = 0;
+  std::vector<AxisValue> values;
+  std::string pilot;  // who flew it
+  Results results;
+};
+
+// In the order of the sweep; one part without a sweep. `pilot` is the scenario's.
+std::vector<Part> parts_of(const std::vector<ThrowResult>& results, const std::string& pilot);
+
+// `pilot` is the flown one's name.
+ThrowStatistics statistics_of(const Results& results, const std::string& pilot);
+
+}  // namespace dodgesim

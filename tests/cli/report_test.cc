@@ -1,0 +1,85 @@
+// The report of a campaign, opened in a browser as its readers open it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/cli/program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using dodgesim::testing::dodgesim;
+using dodgesim::testing::Outcome;
+using testing::HasSubstr;
+using testing::Not;
+
+// Physics only, so that it takes no time: a throw each that is dodged, that hits and that misses.
+constexpr const char* kScenario = R"(
+name: a campaign
+seed: 3
+repeats: 4
+pilot: oracle
+fly_oracle: false
+mission: {start_m: [-2, 0, 2]}
+throw: {size_m: !choice [0.2, 0.3], distance_m: 3, speed_mps: !uniform [4, 9], launch_s: 0.3}
+after_s: 0.2
+)";
+
+class ReportCommandTest : public testing::Test {
+ protected:
+  ReportCommandTest() {
+    fs::create_directories(root_);
+    std::ofstream(root_ / "s.yaml") << kScenario;
+    const Outcome outcome = dodgesim("run " + path("s.yaml") + " -j 1 --out " + path("out"));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+  ~ReportCommandTest() override { fs::remove_all(root_); }
+
+  std::string path(const std::string& name) const { return (root_ / name).string(); }
+
+  // The page as it stands after its program has run, with what the browser said about it.
+  Outcome browse(const std::string& page) const {
+    return dodgesim::testing::shell(
+        "HOME=" + root_.string() +
+        " timeout 60 chromium-headless-shell --no-sandbox --disable-gpu --enable-logging=stderr "
+        "--window-size=1200,900 --dump-dom 'file://" +
+        page + "'");
+  }
+
+  fs::path root_ = fs::temp_directory_path() / ("dodgesim_report_" + std::to_string(::getpid()));
+};
+
+TEST_F(ReportCommandTest, APageOpensWithoutErrorsAndShowsChartsAndAThrow) {
+  const Outcome outcome = browse(path("out/report.html") + "#throw=2");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string& dom = outcome.output;
+  EXPECT_THAT(dom, Not(HasSubstr(":CONSOLE:"))) << dom.substr(0, 4000);
+  EXPECT_THAT(dom, HasSubstr("data-ready=\"true\""));
+  EXPECT_THAT(dom, HasSubstr("<h1 id=\"title\">a campaign</h1>"));
+  EXPECT_THAT(dom, HasSubstr("class=\"cell\" role=\"button\""));  // the heat map
+  EXPECT_THAT(dom, HasSubstr("class=\"band\""));                  // a curve with its band
+  EXPECT_THAT(dom, HasSubstr("class=\"bar\""));                   // a histogram
+  EXPECT_THAT(dom, HasSubstr("<h2 id=\"throw-title\">Throw 2</h2>"));
+  EXPECT_THAT(dom, HasSubstr("dodgesim replay " + path("out") + " --throw 2 --video throw2.mp4"));
+  EXPECT_THAT(dom, HasSubstr(">launch 0.300 s</button>"));
+}
+
+TEST_F(ReportCommandTest, ReportAndTableReadADirectory) {
+  fs::remove(root_ / "out/report.html");
+  const Outcome outcome = dodgesim("report " + path("out"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("Report: " + path("out/report.html")));
+  EXPECT_TRUE(fs::exists(root_ / "out/report.html"));
+
+  const Outcome table = dodgesim("table " + path("out") + " --by speed_mps,size_m --format csv");
+  EXPECT_EQ(table.exit_code, 0);
+  EXPECT_THAT(table.output, testing::StartsWith("speed_mps,size_m,pilot,throws,would_have_hit,"));
+  EXPECT_EQ(dodgesim("table " + path("out") + " --by colour").exit_code, 2);
+  EXPECT_EQ(dodgesim("table " + path("nowhere")).exit_code, 4);
+}
+
+}  // namespace

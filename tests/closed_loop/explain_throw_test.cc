@@ -1,0 +1,80 @@
+// What whole flights say about why they ended as they did.
+#include <gtest/gtest.h>
+
+#include "sim/campaign/trajectory.h"
+#include "tests/closed_loop/flights.h"
+
+namespace dodgesim {
+namespace {
+
+// A head-on throw at a hovering vehicle; few pixels, so that cameras cost little.
+Scenario head_on(const std::string& pilot, const std::string& toss, double size_m = 0.2,
+                 const std::string& more = "") {
+  return scenario("pilot: " + pilot + "\nfly_oracle: false\nmission: {start_m: [-2, 0, 2]}\n" +
+                  "throw: {size_m: " + std::to_string(size_m) + ", distance_m: 2, launch_s: 0.1, " +
+                  toss + "}\n" + "sensors: {camera: {width: 48, height: 36}}\nafter_s: 0.1\n" +
+                  more);
+}
+
+TEST(ExplainThrow, FromBehindNothingIsSeen) {
+  const ThrowResult result = fly_throw(head_on("falanga2020", "speed_mps: 8, bearing_deg: 180"), 0);
+  ASSERT_TRUE(result.flown.hit);
+  EXPECT_FALSE(result.first_in_view_us);
+  EXPECT_EQ(result.cause, "not seen");
+}
+
+TEST(ExplainThrow, WhatComesIntoViewMayStayUndetected) {
+  const std::string blind = "dodger: {time_image: {threshold_b: 1}}\n";
+  const ThrowResult result = fly_throw(head_on("falanga2020", "speed_mps: 8", 0.05, blind), 0);
+  ASSERT_TRUE(result.flown.hit);
+  // At 28.6 px of focal length it is a pixel wide at 1.43 m: 0.45 m after the launch.
+  EXPECT_NEAR(seconds(*result.first_in_view_us), 0.1 + 0.45 / 8, 0.005);
+  EXPECT_FALSE(result.first_detection_us);
+  EXPECT_EQ(result.cause, "not detected");
+  EXPECT_FALSE(result.false_alarm);
+}
+
+TEST(ExplainThrow, ToldOfItAtHalfAMetreItIsTooLate) {
+  const ThrowResult result =
+      fly_throw(head_on("oracle", "speed_mps: 8", 0.2, "oracle: {range_cap_m: 0.8}\n"), 0);
+  ASSERT_TRUE(result.flown.hit);
+  EXPECT_EQ(result.cause, "seen late");
+  EXPECT_LT(*result.escape_left_s, *result.escape_needed_s);
+  // Upward, 9 degrees off the vertical as the ball still climbs: 8 cm of camera housing, 10 cm of
+  // ball and 1 cm of drop at 28 m/s^2, after 40 ms of motors and 17 ms of tilt.
+  EXPECT_NEAR(*result.escape_needed_s, 0.04 + 0.017 + 0.1154, 0.004);
+}
+
+TEST(ExplainThrow, ADodgeHasNoCause) {
+  const ThrowResult result = fly_throw(head_on("oracle", "speed_mps: 4"), 0);
+  ASSERT_TRUE(result.flown.unharmed());
+  EXPECT_EQ(result.cause, "");
+}
+
+TEST(ExplainThrow, NobodyBlamesThePilotThatDoesNothing) {
+  EXPECT_EQ(fly_throw(head_on("none", "speed_mps: 8"), 0).cause, "");
+}
+
+TEST(ExplainThrow, TheTrajectoryShowsTheFlightUntilTheHit) {
+  const ThrowResult result = fly_throw(head_on("none", "speed_mps: 8"), 0);
+  const Trajectory trajectory = trajectory_from_bytes(result.trajectory);
+  EXPECT_EQ(trajectory.start_us, 0);  // 0.1 s before the launch
+  EXPECT_EQ(trajectory.end_us, *result.flown.hit_us);
+  EXPECT_EQ(trajectory.sizes_m, std::vector<double>{0.2});
+  const Trajectory::Sample& last = trajectory.samples.back();
+  const double reach_m = (last.p_W - last.objects[0].value()).norm();
+  EXPECT_GT(reach_m, 0.1);
+  EXPECT_LT(reach_m, 0.1 + 0.26);  // ball and hull
+  EXPECT_FALSE(trajectory.samples[3].objects[0]);
+  EXPECT_TRUE(trajectory.samples[6].objects[0]);
+  EXPECT_LT(result.trajectory.size(), 400u);
+}
+
+TEST(ExplainThrow, AQuietFlightOfTheOracleIsNoFalseAlarm) {
+  const ThrowResult result = fly_throw(scenario("pilot: oracle\nduration_s: 0.5\n"), 0);
+  EXPECT_FALSE(result.false_alarm);
+  EXPECT_EQ(trajectory_from_bytes(result.trajectory).end_us, 500000);
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,84 @@
+#include "sim/campaign/axis.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/base/error.h"
+#include "tests/sim/campaign/fake_throws.h"
+
+namespace dodgesim {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(Bins, AFewRoundValuesStandForThemselves) {
+  const std::vector<Bin> bins = make_bins({0.3, 0.1, 0.1, 0.2}, 0.1);
+  ASSERT_EQ(bins.size(), 3u);
+  EXPECT_EQ(bins[0].text(), "0.1");
+  EXPECT_TRUE(bins[0].contains(0.1));
+  EXPECT_FALSE(bins[0].contains(0.10001));
+}
+
+TEST(Bins, DrawnValuesFallIntoHalfOpenBins) {
+  const std::vector<Bin> bins = make_bins({2.21345678, 4.0, 3.99999}, 1);
+  ASSERT_EQ(bins.size(), 3u);
+  EXPECT_EQ(bins[0].text(), "2 to 3");
+  EXPECT_EQ(bins[2].text(), "4 to 5");
+  EXPECT_TRUE(bins[2].contains(4.0));
+  EXPECT_FALSE(bins[1].contains(4.0));
+}
+
+TEST(Bins, EveryValueIsInExactlyOneBin) {
+  std::vector<double> values;
+  for (int i = 0; i < 1000; ++i) values.push_back(0.01 + 0.00099 * i);
+  for (int i = 1; i < 10; ++i) values.push_back(0.1 * i);
+  const std::vector<Bin> bins = make_bins(values, 0.1);
+  for (const double value : values) {
+    int count = 0;
+    for (const Bin& bin : bins) count += bin.contains(value) ? 1 : 0;
+    EXPECT_EQ(count, 1) << value;
+  }
+}
+
+TEST(Bins, OfNoValuesAreNone) { EXPECT_TRUE(make_bins({}, 1).empty()); }
+
+TEST(Axis, GivesEveryThrowItsPlace) {
+  const std::vector<ThrowResult> results = {ball(0, 0.3, 2.2, 4), ball(1, 0.1, 4.9, 4),
+                                            ThrowResult{}};
+  const Axis size("size_m", results), distance("distance_m", results), object("object", results);
+  EXPECT_THAT(size.values(), ElementsAre("0.1", "0.3"));
+  EXPECT_EQ(size.of(results[0]), 1u);
+  EXPECT_THAT(distance.values(), ElementsAre("2.2", "4.9"));
+  EXPECT_THAT(object.values(), ElementsAre("ball"));
+  EXPECT_FALSE(object.of(results[2]));
+  EXPECT_FALSE(size.of(results[2]));
+}
+
+TEST(Axis, OfBinsHasTheirMiddles) {
+  std::vector<ThrowResult> results;
+  for (int i = 0; i < 10; ++i) results.push_back(ball(i, 0.1, 3, 4.05 + 0.2 * i));
+  const Axis speed("speed_mps", results);
+  EXPECT_THAT(speed.values(), ElementsAre("4 to 5", "5 to 6"));
+  EXPECT_THAT(speed.middles(), ElementsAre(4.5, 5.5));
+}
+
+TEST(Axis, MayBeAKeyOfTheGridInItsOrder) {
+  std::vector<ThrowResult> results = {ball(0, 0.1, 3, 4), ball(1, 0.1, 3, 4), ball(2, 0.1, 3, 4)};
+  results[0].cell_values = results[2].cell_values = {{"throw.speed_mps", "!uniform [8, 9]"}};
+  results[1].cell_values = {{"throw.speed_mps", "!uniform [4, 5]"}};
+  const Axis speed("throw.speed_mps", results);
+  EXPECT_THAT(speed.values(), ElementsAre("!uniform [8, 9]", "!uniform [4, 5]"));
+  EXPECT_EQ(speed.of(results[2]), 0u);
+}
+
+TEST(Axis, ThatThereIsNoneOfIsAnErrorThatListsThem) {
+  try {
+    Axis("colour", {});
+    FAIL();
+  } catch (const ScenarioError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("\"colour\"; known: size_m, distance_m"));
+  }
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,98 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "sim/campaign/statistics_table.h"
+#include "tests/sim/campaign/fake_throws.h"
+
+namespace dodgesim {
+namespace {
+
+using testing::HasSubstr;
+
+// Two balls and a flight in which nobody threw.
+StatisticsTable table() {
+  std::vector<ThrowResult> results = {ball(0, 0.1, 2, 4), ball(1, 0.2, 2, 4), ThrowResult{}};
+  results[0].object = "a_b & \"c\" | \\ 50%, \xff";
+  for (ThrowResult& result : results) result.flown = flown(false);
+  results[0].none = results[1].none = flown(true);
+  results[1].flown = flown(true);
+  results[1].cause = "seen late";
+  const Axis object("object", results), size("size_m", results);
+  return group_by(parts_of(results, "falanga2020"), {object, size});
+}
+
+std::vector<std::string> lines(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> out;
+  for (std::string line; std::getline(stream, line);) out.push_back(line);
+  return out;
+}
+
+TEST(GroupBy, HasARowForEachCombinationThatOccursAndOneOfAll) {
+  const StatisticsTable grouped = table();
+  ASSERT_EQ(grouped.rows.size(), 3u);
+  EXPECT_THAT(grouped.rows[1].values, testing::ElementsAre("ball", "0.2"));
+  EXPECT_THAT(grouped.rows[2].values, testing::ElementsAre("all", "all"));
+  EXPECT_EQ(grouped.rows[2].statistics.flown().tally.throws, 2);
+  EXPECT_EQ(grouped.rows[2].statistics.false_alarms.of, 3);
+}
+
+TEST(GroupBy, KeepsValuesOfASweepApart) {
+  std::vector<ThrowResult> results = {ball(0, 0.1, 2, 4), ball(1, 0.1, 2, 4)};
+  results[0].sweep_values = {{"delays.compute_us", "0"}};
+  results[1].sweep_values = {{"delays.compute_us", "3500"}};
+  results[1].sweep = 1;
+  const StatisticsTable grouped =
+      group_by(parts_of(results, "falanga2020"), {Axis("size_m", results)});
+  EXPECT_THAT(grouped.keys, testing::ElementsAre("delays.compute_us", "size_m"));
+  ASSERT_EQ(grouped.rows.size(), 4u);
+  EXPECT_THAT(grouped.rows[1].values, testing::ElementsAre("0", "all"));
+  EXPECT_THAT(grouped.rows[2].values, testing::ElementsAre("3500", "0.1"));
+}
+
+TEST(TableFormats, CsvHasEqualColumnsAndEmptyCellsForTheUnknown) {
+  const std::vector<std::string> rows = lines(to_csv(table()));
+  ASSERT_EQ(rows.size(), 1 + 3 * 2u);
+  EXPECT_THAT(rows[0], testing::StartsWith("object,size_m,pilot,throws,would_have_hit,dodged,rate,"
+                                           "rate_lo,rate_hi,errors,flights,collisions,"));
+  const auto commas = std::count(rows[0].begin(), rows[0].end(), ',');
+  for (std::size_t i = 3; i < rows.size(); ++i) {
+    EXPECT_EQ(std::count(rows[i].begin(), rows[i].end(), ','), commas) << rows[i];
+  }
+  EXPECT_THAT(rows[3], testing::StartsWith("ball,0.2,falanga2020,1,1,0,0,"));
+  EXPECT_THAT(rows[3], testing::EndsWith(",0,,,,,"));  // a sample of nothing
+}
+
+TEST(TableFormats, JsonIsValidAndHasNullForTheUnknown) {
+  const auto json = nlohmann::json::parse(to_json(table()));
+  ASSERT_EQ(json.size(), 3u);
+  EXPECT_EQ(json[1]["pilots"][0]["dodged"]["rate"], 0);
+  EXPECT_EQ(json[1]["pilots"][0]["dodged"]["of"], 1);
+  EXPECT_TRUE(json[1]["detected"]["rate"].is_null());
+  EXPECT_TRUE(json[1]["time_to_contact_s"]["q50"].is_null());
+  EXPECT_TRUE(json[1]["pilots"][0]["clearance_m"]["q50"]["hi"].is_null());  // unbounded
+  EXPECT_EQ(json[2]["causes"]["seen late"], 1);
+}
+
+TEST(TableFormats, LatexIsEscaped) {
+  const std::string latex = to_latex(table());
+  EXPECT_THAT(latex, HasSubstr("\\begin{tabular}{lllllll}\n  \\toprule\n"));
+  EXPECT_THAT(latex, HasSubstr("  a\\_b \\& \"c\" | \\textbackslash{} 50\\%, "));
+  EXPECT_THAT(latex, HasSubstr("  object & size\\_m & falanga2020: dodged & "));
+  EXPECT_EQ(lines(latex).size(), 2 * (2 + 1 + 1 + 3 + 2) + 1u);
+}
+
+TEST(TableFormats, MarkdownKeepsItsColumns) {
+  const std::vector<std::string> rows = lines(to_markdown(table()));
+  EXPECT_EQ(rows[0],
+            "| object | size_m | falanga2020: dodged | none: would have hit | hit or crashed | "
+            "detected, of those in view | false alarms |");
+  EXPECT_THAT(rows[2], HasSubstr("\\| \\ 50%"));
+  EXPECT_THAT(rows[3], HasSubstr("| ball | 0.2 | 0 / 1 (0.000, 0.000 to 0.793) | 1 / 1 "));
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,129 @@
+#include "sim/campaign/throw_statistics.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/sim/campaign/fake_throws.h"
+
+namespace dodgesim {
+namespace {
+
+TEST(Tally, OnlyAnUnharmedFlightThroughADangerousThrowIsADodge) {
+  Tally sum;
+  sum.add(flown(false), flown(true));        // dodged
+  sum.add(flown(true), flown(true));         // hit
+  sum.add(flown(false, true), flown(true));  // dodged into the wall
+  sum.add(flown(false), flown(false));       // would have missed
+  EXPECT_EQ(sum.throws, 4);
+  EXPECT_EQ(sum.would_have_hit, 3);
+  EXPECT_EQ(sum.dodged, 1);
+  EXPECT_EQ(sum.errors, 0);
+}
+
+TEST(Tally, AnErrorNeverCountsAsASuccess) {
+  Tally sum;
+  sum.add(failed("diverged"), flown(true));   // counts as not dodged
+  sum.add(flown(false), failed("diverged"));  // would it have hit? unknown: not judged
+  sum.add(FlightResult{}, flown(true));       // not flown: not judged
+  EXPECT_EQ(sum.throws, 1);
+  EXPECT_EQ(sum.would_have_hit, 1);
+  EXPECT_EQ(sum.dodged, 0);
+  EXPECT_EQ(sum.errors, 2);
+}
+
+TEST(Tally, CollisionsAreCountedOverAllFlightsThatDidNotFail) {
+  Tally sum;
+  sum.add(flown(true), flown(false));  // would have missed, walked into
+  sum.add(flown(false, true), flown(true));
+  sum.add(flown(false), failed("diverged"));
+  sum.add(failed("diverged"), flown(true));
+  EXPECT_EQ(sum.collisions.count, 2);
+  EXPECT_EQ(sum.collisions.of, 3);
+}
+
+TEST(Rate, CarriesItsCountAndInterval) {
+  EXPECT_EQ(rate_text({92, 100}), "92 / 100 (0.920, 0.850 to 0.959)");
+  EXPECT_EQ(rate_text({0, 0}), "0 / 0");
+}
+
+ThrowStatistics statistics(const std::vector<ThrowResult>& results) {
+  return statistics_of(parts_of(results, "falanga2020").front().results, "falanga2020");
+}
+
+// Seen at 1.0 s, detected at 1.2 s from an image of 1.185 s, evaded at 1.21 s.
+ThrowResult detected(int index) {
+  ThrowResult result = ball(index, 0.2, 3, 6);
+  result.flown = flown(false);
+  result.none = flown(true);
+  result.first_in_view_us = 1000000;
+  result.first_detection_t_us = 1185000;
+  result.first_detection_us = 1200000;
+  result.first_detection_distance_m = 1.5;
+  result.time_to_contact_us = 250000;
+  result.first_command_us = 1210000;
+  result.evaded = true;
+  return result;
+}
+
+TEST(ThrowStatistics, MeasureTheChainFromViewToCommand) {
+  const std::vector<ThrowResult> results = {detected(0), detected(1)};
+  const ThrowStatistics sum = statistics(results);
+  const auto median = [](const Sample& sample) { return sample.quantile(0.5)->value; };
+  EXPECT_DOUBLE_EQ(median(sum.view_to_detection_s), 0.2);
+  EXPECT_DOUBLE_EQ(median(sum.image_to_detection_s), 0.015);
+  EXPECT_DOUBLE_EQ(median(sum.detection_to_command_s), 0.01);
+  EXPECT_DOUBLE_EQ(median(sum.time_to_contact_s), 0.25);
+  EXPECT_DOUBLE_EQ(median(sum.detection_distance_m), 1.5);
+  EXPECT_DOUBLE_EQ(median(sum.flown().clearance_m), 0.25);
+}
+
+TEST(ThrowStatistics, DetectionsAreCountedOfThrowsThatCameIntoView) {
+  std::vector<ThrowResult> results = {detected(0), detected(1), detected(2)};
+  results[1].first_detection_us.reset();
+  results[2].first_in_view_us.reset();
+  results[2].first_detection_us.reset();
+  const ThrowStatistics sum = statistics(results);
+  EXPECT_EQ(sum.detected.count, 1);
+  EXPECT_EQ(sum.detected.of, 2);
+}
+
+TEST(ThrowStatistics, TheOracleIsNotBlamedForDetectingNothing) {
+  std::vector<ThrowResult> results = {detected(0)};
+  results[0].first_detection_us.reset();
+  EXPECT_EQ(statistics_of({&results[0]}, "oracle").detected.of, 0);
+}
+
+TEST(ThrowStatistics, AFalseAlarmIsNoAnswerToTheDetectionThatFollows) {
+  std::vector<ThrowResult> results = {detected(0)};
+  results[0].first_command_us = 900000;
+  results[0].false_alarm = true;
+  const ThrowStatistics sum = statistics(results);
+  EXPECT_EQ(sum.false_alarms.count, 1);
+  EXPECT_EQ(sum.detection_to_command_s.count(), 0u);
+}
+
+TEST(Parts, ValuesOfASweepAreNeverPooled) {
+  std::vector<ThrowResult> results = {detected(0), detected(1), detected(2)};
+  results[1].sweep = 1;
+  results[1].sweep_values = {{"pilot", "oracle"}};
+  const std::vector<Part> parts = parts_of(results, "falanga2020");
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].results.size(), 2u);
+  EXPECT_EQ(parts[0].pilot, "falanga2020");
+  EXPECT_EQ(parts[1].results.front()->index, 1);
+  EXPECT_EQ(parts[1].pilot, "oracle");  // the sweep says who flew
+}
+
+TEST(ThrowStatistics, FailedFlightsSayNothingOfThePilot) {
+  std::vector<ThrowResult> results = {detected(0)};
+  results[0].flown = failed("diverged");
+  results[0].cause = "seen late";
+  const ThrowStatistics sum = statistics(results);
+  EXPECT_EQ(sum.detected.of, 0);
+  EXPECT_EQ(sum.false_alarms.of, 0);
+  EXPECT_TRUE(sum.causes.empty());
+  EXPECT_EQ(sum.flown().tally.errors, 1);
+  EXPECT_FALSE(sum.flown().clearance_m.quantile(0.5));
+}
+
+}  // namespace
+}  // namespace dodgesim

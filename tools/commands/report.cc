@@ -1,0 +1,50 @@
+// dodgesim report: the page that shows a campaign.
+#include <iostream>
+#include <memory>
+
+#include "sim/campaign/load_campaign.h"
+#include "sim/campaign/report.h"
+#include "sim/files/output_file.h"
+#include "tools/commands/command.h"
+
+namespace dodgesim {
+
+namespace {
+
+struct Arguments {
+  std::string directory;
+  std::string out;
+};
+
+int report(const Arguments& arguments) {
+  const LoadedCampaign campaign = load_campaign(arguments.directory);
+  const std::string out =
+      arguments.out.empty() ? arguments.directory + "/" + kReportFile : arguments.out;
+  write_file(out, report_html(campaign, arguments.directory));
+  std::cout << "Report: " << out << "\n";
+  if (campaign.complete()) return kOk;
+  std::cerr << arguments.directory << " has " << campaign.results.size() << " of "
+            << count_of_throws(throw_count(campaign.scenario)) << " only.\n";
+  return kIncomplete;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand(
+      "report", "Make the page that shows a campaign, with every throw in 3-D");
+  command->add_option("directory", arguments->directory, "What `dodgesim run --out DIR` wrote")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--out", arguments->out, "Where it goes; DIR/report.html when not given")
+      ->type_name("FILE.html");
+  command->footer(
+      "One file that any browser opens, offline. `run` and `merge` make it at their end; this\n"
+      "command also makes it of a campaign under way.\n\n"
+      "Example:\n"
+      "  dodgesim report out/demo");
+  command->callback([arguments, &exit_code] { exit_code = report(*arguments); });
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,87 @@
+// dodgesim table: the statistics of a campaign, by whatever was varied, in several formats.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "sim/campaign/load_campaign.h"
+#include "sim/campaign/statistics_table.h"
+#include "sim/files/output_file.h"
+#include "tools/commands/command.h"
+
+namespace dodgesim {
+
+namespace {
+
+struct Arguments {
+  std::string directory;
+  std::string format = "md";
+  std::vector<std::string> by = {"size_m", "distance_m"};
+  std::string out;  // empty: standard output
+};
+
+std::string formatted(const StatisticsTable& table, const std::string& format) {
+  if (format == "csv") return to_csv(table);
+  if (format == "json") return to_json(table);
+  if (format == "latex") return to_latex(table);
+  return to_markdown(table);
+}
+
+int table(const Arguments& arguments) {
+  const LoadedCampaign campaign = load_campaign(arguments.directory);
+  const std::vector<Part> parts = parts_of(campaign.results, campaign.scenario.pilot);
+  std::vector<Axis> axes;
+  for (const std::string& key : arguments.by) {
+    // What is swept stands apart in any case.
+    const std::vector<AxisValue>& swept = parts.front().values;
+    if (std::any_of(swept.begin(), swept.end(), [&](const auto& v) { return v.key == key; })) {
+      continue;
+    }
+    axes.emplace_back(key, campaign.results);
+  }
+  const std::string text = formatted(group_by(parts, axes), arguments.format);
+  if (arguments.out.empty()) {
+    std::cout << text;
+  } else {
+    write_file(arguments.out, text);
+  }
+  if (campaign.complete()) return kOk;
+  std::cerr << arguments.directory << " has " << campaign.results.size() << " of "
+            << count_of_throws(throw_count(campaign.scenario)) << " only.\n";
+  return kIncomplete;
+}
+
+}  // namespace
+
+void add_table_command(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      program.add_subcommand("table", "Statistics of a campaign's throws, in groups");
+  command->add_option("directory", arguments->directory, "What `dodgesim run --out DIR` wrote")
+      ->required()
+      ->type_name("DIR");
+  command->add_option("--format", arguments->format, "md, csv, json or latex (needs booktabs)")
+      ->check(CLI::IsMember({"md", "csv", "json", "latex"}))
+      ->capture_default_str();
+  command
+      ->add_option("--by", arguments->by,
+                   "What tells the groups apart, with commas: size_m, distance_m, speed_mps,\n"
+                   "bearing_deg, launch_height_m, object, or a key of the scenario's grid; the\n"
+                   "values of a sweep always stand apart")
+      ->delimiter(',')
+      ->capture_default_str()
+      ->type_name("KEYS");
+  command->add_option("--out", arguments->out, "Where it goes, instead of the terminal")
+      ->type_name("FILE");
+  command->footer(
+      "Rates (dodged of those that would have hit, hit or crashed, detected of those in view, "
+      "false\n"
+      "alarms) stand with counts and 95 % intervals; detection distance, time to contact, "
+      "latencies\n"
+      "and clearance as quantiles. csv and json have all of it, the others the most important.\n\n"
+      "Examples:\n"
+      "  dodgesim table out/demo --by speed_mps\n"
+      "  dodgesim table out/demo --by object,size_m --format latex --out table.tex");
+  command->callback([arguments, &exit_code] { exit_code = table(*arguments); });
+}
+
+}  // namespace dodgesim
