@@ -7,7 +7,7 @@
 
 #include "sim/campaign/result.h"
 #include "sim/campaign/sequential.h"
-#include "sim/campaign/tables.h"
+#include "sim/campaign/throw_statistics.h"
 #include "sim/config/scenario.h"
 
 namespace dodgesim {

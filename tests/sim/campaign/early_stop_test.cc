@@ -6,6 +6,7 @@
 #include <random>
 
 #include "sim/base/error.h"
+#include "sim/campaign/load_campaign.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 
 namespace dodgesim {
@@ -86,6 +87,7 @@ TEST_F(EarlyStopCampaignTest, FliesNoMoreThanItNeedsWhateverTheWorkers) {
     EXPECT_EQ(read(root_ / "one" / file), read(root_ / "three" / file)) << file;
   }
   EXPECT_THAT(read(root_ / "one/table.md"), HasSubstr("Stopped after"));
+  EXPECT_EQ(static_cast<int>(load_campaign(root_ / "three").results.size()), one.wanted);
 }
 
 TEST_F(EarlyStopCampaignTest, GoesOnWhereItWasInterrupted) {
