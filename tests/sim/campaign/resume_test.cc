@@ -187,7 +187,7 @@ TEST_F(ResumeTest, ADamagedResultIsFlownAgain) {
 // Bit by bit and cut by cut: what is resumed is right, or refused.
 TEST_F(ResumeTest, ADamagedJournalNeverMakesAWrongTable) {
   const auto fly_fast = [&](int index) {
-    ThrowResult result = blank_result(scenario_, index);
+    ThrowResult result = blank_result(case_of(scenario_, index));
     result.flown = flown(index % 3 == 0);
     result.none = flown(true);
     return result;
