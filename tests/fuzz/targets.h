@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ostream>
 #include <span>
 
 namespace dodgesim::fuzz {
@@ -23,6 +24,11 @@ bool result(Bytes bytes);    // a result and a campaign's identity from a worker
 bool csv(Bytes bytes);       // throws.csv of a baseline
 bool manifest(Bytes bytes);  // manifest.json of a baseline
 bool npy(Bytes bytes);       // frames and time stamps of a video
+
+// Names a target in the messages of tests.
+inline std::ostream& operator<<(std::ostream& out, const Target& target) {
+  return out << target.name;
+}
 
 inline constexpr Target kTargets[] = {
     {"scenario", scenario}, {"camera", camera},     {"journal", journal}, {"result", result},
