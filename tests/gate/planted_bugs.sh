@@ -7,7 +7,7 @@ right=$1
 wrong_warp=$2
 doubled_threshold=$3
 scenario=$(cd "$(dirname "$0")/../.." && pwd)/scenarios/ci.yaml
-throws=20
+throws=12
 dir=$(mktemp -d)
 trap 'rm -rf "$dir"' EXIT
 
