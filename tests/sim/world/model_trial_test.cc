@@ -130,9 +130,13 @@ TEST_F(ModelTrial, HugeAndBrokenTexturesCostASentence) {
 }
 
 TEST_F(ModelTrial, NoLinkLeadsOutOfTheFolder) {
-  fs::create_symlink("/etc/hosts", directory_ / "textures/link.png");
+  fs::path outside = directory_;
+  outside += "_outside.png";
+  std::ofstream(outside) << "anything";
+  fs::create_symlink(outside, directory_ / "textures/link.png");
   write_object(kBall, "<texture name='t' type='2d' file='textures/link.png'/>");
   EXPECT_THAT(complaint(), HasSubstr("The path 'textures/link.png' leaves the models folder."));
+  fs::remove(outside);
 }
 
 TEST_F(ModelTrial, TakesNoMoreTimeThanAllowed) {
