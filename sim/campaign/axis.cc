@@ -38,6 +38,14 @@ std::string names_of_keys(const std::vector<ThrowResult>& results) {
   return names;
 }
 
+// Of a key of the grid.
+std::optional<std::string> value_in_cell(const ThrowResult& result, const std::string& key) {
+  for (const AxisValue& of_cell : result.cell_values) {
+    if (of_cell.key == key) return of_cell.value;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool Bin::contains(double value) const {
@@ -57,12 +65,15 @@ std::vector<Bin> make_bins(const std::vector<double>& values, double width) {
     for (const double value : distinct) bins.push_back({value, value});
     return bins;
   }
-  const auto cell_of = [&](double value) {
-    return static_cast<std::int64_t>(std::floor(value / width));
-  };
   // Multiples such as 3 * 0.1 would print as 0.30000000000000004.
   const auto edge = [&](std::int64_t k) {
     return std::round(static_cast<double>(k) * width * 1e9) / 1e9;
+  };
+  const auto cell_of = [&](double value) {
+    auto k = static_cast<std::int64_t>(std::floor(value / width));
+    while (edge(k) > value) --k;
+    while (edge(k + 1) <= value) ++k;
+    return k;
   };
   for (std::int64_t i = cell_of(*distinct.begin()); i <= cell_of(*distinct.rbegin()); ++i) {
     bins.push_back({edge(i), edge(i + 1)});
@@ -73,19 +84,18 @@ std::vector<Bin> make_bins(const std::vector<double>& values, double width) {
 Axis::Axis(const std::string& name, const std::vector<ThrowResult>& results) : name_(name) {
   const auto key = std::find_if(kNumericKeys.begin(), kNumericKeys.end(),
                                 [&](const NumericKey& k) { return k.name == name; });
-  if (key != kNumericKeys.end()) {
+  const std::string in_grid = "throw." + name;
+  if (!results.empty() && value_in_cell(results.front(), in_grid)) {
+    // The grid's own values, however many, and never several of them as one.
+    set_names(results, [in_grid](const ThrowResult& r) { return value_in_cell(r, in_grid); });
+  } else if (key != kNumericKeys.end()) {
     set_numeric(results, key->value, key->bin);
   } else if (name == "object") {
     set_names(results, [](const ThrowResult& r) {
       return r.thrown() ? std::optional(r.object) : std::nullopt;
     });
   } else {
-    const auto value = [name](const ThrowResult& r) -> std::optional<std::string> {
-      for (const AxisValue& of_cell : r.cell_values) {
-        if (of_cell.key == name) return of_cell.value;
-      }
-      return std::nullopt;
-    };
+    const auto value = [name](const ThrowResult& r) { return value_in_cell(r, name); };
     if (results.empty() || !value(results.front())) {
       throw ScenarioError("Throws cannot be told apart by \"" + name +
                           "\"; known: " + names_of_keys(results) + ".");

@@ -65,10 +65,17 @@ std::optional<EarlyStop> early_stop(const Scenario& scenario, const CampaignOpti
   }
   EarlyStop stop(scenario);
   if (found) {
-    for_each_result(options.out / kJournalFile, *found,
-                    [&stop](const ThrowResult& result) { stop.add(result); });
+    for_each_result(options.out / kJournalFile, *found, [&stop](const ThrowResult& result) {
+      if (!result.lost()) stop.add(result);
+    });
   }
   return stop;
+}
+
+// A throw that was lost with its worker is flown again.
+bool has_flown(const JournalIndex& found, int throw_index) {
+  const auto at = found.throws.find(throw_index);
+  return at != found.throws.end() && !at->second.lost;
 }
 
 // Flies what the journal lacks.
@@ -85,7 +92,7 @@ void fly_missing(const Scenario& scenario, const CampaignOptions& options, const
   WorkerTasks tasks;
   for (const int throw_index : throws_of(scenario, options.shard)) {
     ++summary.wanted;
-    if (!found || found->throws.count(throw_index) == 0) tasks.throws.push_back(throw_index);
+    if (!found || !has_flown(*found, throw_index)) tasks.throws.push_back(throw_index);
   }
   tasks.jobs = options.jobs;
   tasks.limits = options.limits;

@@ -114,6 +114,11 @@ CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
   expect_all(scenario, sources);
 
   make_directory(options.out);
+  for (const fs::path& directory : directories) {
+    if (!fs::equivalent(directory, options.out)) continue;
+    throw ScenarioError(options.out.string() +
+                        " is one of the directories to be merged; choose another for the whole.");
+  }
   const DirectoryLock lock(options.out);
   expect_free(options.out, options.force);
   remove_result_files(options.out);

@@ -63,11 +63,11 @@ std::string rate_text(const Rate& rate) {
 void Tally::add(const FlightResult& flight, const FlightResult& none) {
   if (flight.failed() || none.failed()) ++errors;
   if (flight.ok()) collisions.add(!flight.unharmed());
-  if (!none.ok() || flight.status == "not flown") return;
+  if (flight.status == "not flown") return;
   ++throws;
-  if (!none.hit) return;
-  ++would_have_hit;
-  if (flight.unharmed()) ++dodged;
+  if (none.ok() && !none.hit) return;
+  ++would_have_hit;  // or, where a flight failed, might have
+  if (none.ok() && flight.unharmed()) ++dodged;
 }
 
 std::optional<QuantileEstimate> Sample::quantile(double share) const {

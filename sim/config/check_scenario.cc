@@ -52,6 +52,19 @@ void check_throws(const Scenario& scenario, ReadContext& context) {
   }
 }
 
+// A rate of throws that would have hit, of one kind, is what can be known well enough.
+void check_stop(const Scenario& scenario, ReadContext& context) {
+  if (!scenario.stop) return;
+  if (!scenario.anyone_throws()) {
+    context.problems.add(position_of(context, "stop"), "stop is given, but nobody throws.");
+  }
+  if (!scenario.sweep.empty()) {
+    context.problems.add(position_of(context, "stop"),
+                         "stop and sweep are both given, but the success rates of different sweep "
+                         "values are not one.");
+  }
+}
+
 // The flight core checks its own configuration. Which cameras it gets is known only with the
 // vehicle's model; a rectified pair stands for them.
 void check_dodger(const Scenario& scenario, ReadContext& context) {
@@ -125,6 +138,7 @@ void check_axis(const Scenario& scenario, const VariedKey& axis, bool in_grid,
 void check_scenario(const Scenario& scenario, ReadContext& context) {
   for (const VariedKey& axis : scenario.grid) check_axis(scenario, axis, true, context);
   for (const VariedKey& axis : scenario.sweep) check_axis(scenario, axis, false, context);
+  check_stop(scenario, context);
   context.problems.raise_if_any();
   if (!check_counts(scenario, context)) return;
   for (int cell = 0; cell < cell_count(scenario); ++cell) {

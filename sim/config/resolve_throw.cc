@@ -44,7 +44,9 @@ Eigen::Vector3d random_direction(RandomStream& stream) {
 Eigen::Vector3d draw_spin(const Draws& draws, const Components& spin) {
   if (spin.parts.size() == 1) {
     RandomStream axis = draws.named("spin_axis");
-    return draws.number("spin_radps", spin.parts[0]) * random_direction(axis);
+    // Plus zero: what does not spin has no direction, not even a zero's sign.
+    return draws.number("spin_radps", spin.parts[0]) * random_direction(axis) +
+           Eigen::Vector3d::Zero();
   }
   return {draws.component("spin_radps", spin, 0), draws.component("spin_radps", spin, 1),
           draws.component("spin_radps", spin, 2)};

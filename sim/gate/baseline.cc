@@ -1,7 +1,9 @@
 #include "sim/gate/baseline.h"
 
+#include <deque>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "sim/base/error.h"
@@ -58,10 +60,30 @@ auto from_manifest(const fs::path& directory, Take take) {
   }
 }
 
-void move_to(const fs::path& from, const fs::path& to) {
-  std::error_code error;
-  fs::rename(from, to, error);
-  if (error) throw IoError(to.string() + " could not be written: " + error.message() + ".");
+void expect(bool right, const fs::path& directory, const std::string& key,
+            const std::string& allowed) {
+  if (right) return;
+  throw IoError((directory / "manifest.json").string() + ": gate." + key + " must be " + allowed +
+                ".");
+}
+
+void check(const GateRules& rules, const fs::path& directory) {
+  expect(rules.margin >= 0 && rules.margin < 1, directory, "margin", "at least 0 and below 1");
+  expect(rules.confidence > 0 && rules.confidence < 1, directory, "confidence", "between 0 and 1");
+  const std::string& equal = rules.must_equal;
+  expect(equal == "nothing" || equal == "physics" || equal == "all", directory, "must_equal",
+         "nothing, physics or all");
+}
+
+// Pairing by number needs numbers that come once.
+void check(const CsvTable& throws, const fs::path& directory) {
+  std::set<std::string> numbers;
+  for (std::size_t row = 0; row < throws.rows(); ++row) {
+    const std::string& number = throws.at(row, "throw");
+    if (numbers.insert(number).second && number == std::to_string(row)) continue;
+    throw IoError((directory / "throws.csv").string() + ": throw " + number + " stands in row " +
+                  std::to_string(row) + "; a baseline has every throw once, in order.");
+  }
 }
 
 }  // namespace
@@ -69,34 +91,33 @@ void move_to(const fs::path& from, const fs::path& to) {
 std::string machine_kind(const fs::path& directory) { return from_manifest(directory, kind_of); }
 
 Baseline read_baseline(const fs::path& directory) {
-  return {CsvTable(directory / "throws.csv"), contents(directory / "scenario.resolved.yaml"),
-          from_manifest(directory, rules_of),
-          from_manifest(directory,
-                        [](const Json& manifest) {
-                          return manifest.at("program").at("commit").get<std::string>();
-                        }),
-          machine_kind(directory)};
+  Baseline baseline = {
+      CsvTable(directory / "throws.csv"), contents(directory / "scenario.resolved.yaml"),
+      from_manifest(directory, rules_of),
+      from_manifest(directory,
+                    [](const Json& manifest) {
+                      return manifest.at("program").at("commit").get<std::string>();
+                    }),
+      machine_kind(directory)};
+  check(baseline.rules, directory);
+  check(baseline.throws, directory);
+  return baseline;
 }
 
 void write_baseline(const fs::path& directory, const fs::path& campaign, const GateRules& rules) {
-  const fs::path whole = fs::absolute(directory).lexically_normal();
-  fs::path fresh = whole, old = whole;
-  fresh += ".new";
-  old += ".old";
+  std::error_code error;
+  fs::create_directories(directory, error);
+  if (error) throw IoError(directory.string() + " could not be made: " + error.message() + ".");
   Json manifest = read_manifest(campaign);
   manifest.erase("time");
   manifest["gate"] = {
       {"margin", rules.margin}, {"confidence", rules.confidence}, {"must_equal", rules.must_equal}};
-  std::error_code error;
-  fs::remove_all(fresh, error);
-  fs::create_directories(fresh, error);
-  if (error) throw IoError(fresh.string() + " could not be made: " + error.message() + ".");
-  for (const char* name : kCopied) write_file(fresh / name, contents(campaign / name));
-  write_file(fresh / "manifest.json", manifest.dump(2) + "\n");
-  fs::remove_all(old, error);
-  if (fs::exists(whole)) move_to(whole, old);
-  move_to(fresh, whole);
-  fs::remove_all(old, error);
+  std::deque<OutputFile> files;  // none appears before all are written
+  for (const char* name : kCopied) {
+    files.emplace_back(directory / name).write(contents(campaign / name));
+  }
+  files.emplace_back(directory / "manifest.json").write(manifest.dump(2) + "\n");
+  for (OutputFile& file : files) file.commit();
 }
 
 }  // namespace dodgesim

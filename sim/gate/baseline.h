@@ -32,8 +32,8 @@ struct Baseline {
 // Throws IoError, with the file, if one is missing or broken.
 Baseline read_baseline(const std::filesystem::path& directory);
 
-// Makes the campaign in `campaign` the baseline, in place of an earlier one, all files at once.
-// Throws IoError.
+// Makes the campaign in `campaign` the baseline, in place of an earlier one; other files in the
+// directory stay. Throws IoError.
 void write_baseline(const std::filesystem::path& directory, const std::filesystem::path& campaign,
                     const GateRules& rules);
 

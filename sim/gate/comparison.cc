@@ -31,10 +31,12 @@ std::string label_of(const CsvTable& table, std::size_t row) {
 ThrowOutcome outcome(const CsvTable& table, std::size_t row) {
   ThrowOutcome out;
   out.number = std::atoi(table.at(row, "throw").c_str());
+  if (table.has("sweep")) out.sweep = std::atoi(table.at(row, "sweep").c_str());
   out.label = label_of(table, row);
   for (const std::string& column : drawn_columns()) out.draw += table.at(row, column) + ",";
   const bool thrown = !table.at(row, "object").empty();
-  out.counts = !thrown || table.at(row, "none_status") == "error" || yes(table, row, "none_hit");
+  const bool judged = table.at(row, "none_status") == "ok";  // it is known whether it would hit
+  out.counts = !thrown || !judged || yes(table, row, "none_hit");
   if (table.at(row, "flown_status") != "ok") {
     out.what = "error: " + table.at(row, "flown_error");
   } else if (yes(table, row, "flown_hit")) {
@@ -45,7 +47,7 @@ ThrowOutcome outcome(const CsvTable& table, std::size_t row) {
     out.what = "evaded nothing";
   } else {
     out.what = thrown ? "dodged" : "quiet";
-    out.success = table.at(row, "none_status") != "error";
+    out.success = !thrown || judged;
   }
   return out;
 }
@@ -132,6 +134,7 @@ Comparison compare(const std::vector<ThrowOutcome>& first,
     const auto b = by_number.find(a.number);
     if (b != by_number.end()) add_pair(a, *b->second, sum);
   }
+  sum.unmatched = static_cast<int>(first.size() + second.size()) - 2 * sum.throws;
   const PairedCounts& n = sum.counts;
   sum.first = {n.both + n.only_first, n.total()};
   sum.second = {n.both + n.only_second, n.total()};
@@ -150,6 +153,9 @@ std::string comparison_text(const Comparison& comparison, const std::string& fir
   if (!c.paired) return text + "of different throws (Boschloo's test, Newcombe's interval)\n";
   text += formatted("of the same throws: %zu lost, %zu gained (McNemar's test, Tango's interval)\n",
                     c.lost.size(), c.gained.size());
+  if (c.unmatched > 0) {
+    text += formatted("%d throws are in one campaign only and are left out\n", c.unmatched);
+  }
   if (c.counts_differ > 0) {
     text += formatted("%d throws would have hit in one campaign only and are left out\n",
                       c.counts_differ);

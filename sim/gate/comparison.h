@@ -15,6 +15,7 @@ namespace dodgesim {
 // What a throws.csv says about one throw.
 struct ThrowOutcome {
   int number = 0;
+  int sweep = 0;         // number of the sweep value
   std::string label;     // "0.2 m ball, 5.1 m/s from 3.2 m", or "quiet flight"
   std::string draw;      // everything that was drawn: the same text is the same throw
   bool counts = false;   // it would have hit, or nobody threw
@@ -37,6 +38,7 @@ struct ChangedThrow {
 
 struct Comparison {
   bool paired = false;       // all throws that both have are the same throws
+  int unmatched = 0;         // throws in one of them only, left out when paired
   int throws = 0;            // in both, by their numbers
   Proportion first, second;  // successes of the throws that count; paired: in both campaigns
   PairedCounts counts;       // when paired

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <optional>
 
 namespace dodgesim {
 
@@ -32,6 +33,33 @@ GateCheck every_throw_flew(const CsvTable& flown) {
   GateCheck check{"every throw was flown", Result::kPassed, ""};
   if (failed.empty()) return check;
   return {check.name, Result::kFailed, "throws that failed: " + list_of(failed)};
+}
+
+// How many of the throws that succeeded before must be lost, and none gained, for the gate to fail;
+// empty if not even all of them are enough.
+std::optional<std::int64_t> losses_that_fail(const PairedCounts& counts, const GateRules& rules) {
+  const std::int64_t successes = counts.both + counts.only_first;
+  for (std::int64_t lost = 1; lost <= successes; ++lost) {
+    const PairedCounts then = {successes - lost, lost, 0, counts.total() - successes};
+    if (judge_drop(then, rules.margin, rules.confidence).fell) return lost;
+  }
+  return std::nullopt;
+}
+
+GateCheck rate_can_fall(const Comparison& comparison, const GateRules& rules) {
+  const std::string name = "enough throws";
+  if (!comparison.paired) return {name, Result::kFailed, "these are not the baseline's throws"};
+  const auto lost = losses_that_fail(comparison.counts, rules);
+  const std::string counted = std::to_string(comparison.counts.total()) + " throws";
+  if (lost) {
+    return {
+        name, Result::kPassed,
+        "with " + counted + " the success rate fails from " + std::to_string(*lost) + " lost on"};
+  }
+  const bool bytes_can = rules.must_equal != "nothing" && comparison.counts.total() > 0;
+  return {name, bytes_can ? Result::kPassed : Result::kFailed,
+          "with " + counted + " the success rate could never fail" +
+              (bytes_can ? ", only the bytes could" : "")};
 }
 
 GateCheck rate_holds(const Comparison& comparison, const GateRules& rules) {
@@ -112,6 +140,7 @@ GateVerdict judge(const Baseline& baseline, const CsvTable& flown, const std::st
   GateVerdict verdict;
   verdict.comparison = compare(outcomes(baseline.throws), outcomes(flown));
   verdict.checks.push_back(every_throw_flew(flown));
+  verdict.checks.push_back(rate_can_fall(verdict.comparison, rules));
   verdict.checks.push_back(rate_holds(verdict.comparison, rules));
   if (rules.must_equal == "nothing") return verdict;
   GateCheck bytes = bytes_equal(baseline.throws, flown, rules);

@@ -1,7 +1,9 @@
 // dodgesim compare: two campaigns side by side.
 #include <iostream>
+#include <map>
 #include <memory>
 
+#include "sim/base/error.h"
 #include "sim/gate/comparison.h"
 #include "tools/commands/command.h"
 
@@ -22,14 +24,31 @@ void print_changes(const std::string& heading, const std::vector<ChangedThrow>& 
   }
 }
 
+// Outcomes by the number of their sweep value: of different values they are never pooled.
+std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& directory) {
+  std::map<int, std::vector<ThrowOutcome>> parts;
+  for (ThrowOutcome& outcome : outcomes(CsvTable(directory / "throws.csv"))) {
+    const int sweep = outcome.sweep;
+    parts[sweep].push_back(std::move(outcome));
+  }
+  return parts;
+}
+
 int compare_campaigns(const Arguments& arguments) {
-  const auto read = [](const std::filesystem::path& directory) {
-    return outcomes(CsvTable(directory / "throws.csv"));
-  };
-  const Comparison comparison = compare(read(arguments.first), read(arguments.second));
-  std::cout << comparison_text(comparison, arguments.first.string(), arguments.second.string());
-  print_changes("Lost", comparison.lost);
-  print_changes("Gained", comparison.gained);
+  const auto first = parts_of(arguments.first);
+  const auto second = parts_of(arguments.second);
+  if (first.size() != second.size()) {
+    throw ScenarioError(arguments.first.string() + " has " + std::to_string(first.size()) +
+                        " sweep values, " + arguments.second.string() + " has " +
+                        std::to_string(second.size()) + "; they cannot be compared one by one.");
+  }
+  for (const auto& [sweep, outcomes] : first) {
+    if (first.size() > 1) std::cout << (sweep > 0 ? "\n" : "") << "Sweep value " << sweep << ":\n";
+    const Comparison comparison = compare(outcomes, second.at(sweep));
+    std::cout << comparison_text(comparison, arguments.first.string(), arguments.second.string());
+    print_changes("Lost", comparison.lost);
+    print_changes("Gained", comparison.gained);
+  }
   return kOk;
 }
 

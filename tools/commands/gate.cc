@@ -121,6 +121,11 @@ int gate(const Arguments& arguments) {
     throw ScenarioError("There is no baseline " + arguments.baseline.string() +
                         "; add --update to make it.");
   }
+  std::error_code error;
+  if (std::filesystem::equivalent(arguments.baseline, arguments.options.out, error)) {
+    throw ScenarioError("--baseline and --out are the same directory, " +
+                        arguments.options.out.string() + ".");
+  }
   if (sweep_count(scenario) > 1) {
     throw ScenarioError(arguments.scenario +
                         ": a gate's scenario has no sweep, of which every "

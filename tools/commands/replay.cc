@@ -1,12 +1,14 @@
 // dodgesim replay: flies one throw of a campaign again, bit-identically.
 #include <algorithm>
-#include <fstream>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <vector>
 
 #include "sim/base/error.h"
 #include "sim/campaign/csv.h"
+#include "sim/campaign/journal.h"
+#include "sim/campaign/result_files.h"
 #include "sim/config/expand.h"
 #include "sim/event_truth.h"
 #include "sim/files/event_writer.h"
@@ -91,17 +93,22 @@ class EventRecorder : public FlightObserver {
   std::size_t count_ = 0;
 };
 
-// Line of throws.csv for this throw, with its line end.
-std::string recorded_row(const std::string& path, int throw_index) {
-  std::ifstream file(path);
-  if (!file) throw IoError(path + " could not be opened; is this the directory of a campaign?");
-  std::string line;
-  for (int i = 0; i <= throw_index + 1; ++i) {
-    if (!std::getline(file, line)) {
-      throw ScenarioError(path + " has no throw " + std::to_string(throw_index) + ".");
-    }
+// The row of throws.csv of this throw, from the journal, which also a campaign under way has.
+std::string recorded_row(const std::filesystem::path& directory, int throw_index) {
+  const std::filesystem::path journal = directory / kJournalFile;
+  const JournalIndex index = read_journal(journal);
+  const auto record = index.throws.find(throw_index);
+  if (record == index.throws.end()) {
+    throw ScenarioError(directory.string() + " has no result of throw " +
+                        std::to_string(throw_index) + ".");
   }
-  return line + "\n";
+  const ThrowResult result = read_result(journal, record->second);
+  if (result.lost()) {
+    throw ScenarioError("Throw " + std::to_string(throw_index) +
+                        " was lost, there is nothing to compare with: " + result.flown.error +
+                        " run --resume flies it again.");
+  }
+  return csv_row(result);
 }
 
 std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
@@ -188,7 +195,7 @@ int replay(const Arguments& arguments) {
   }
   try_models(campaign);
   const Scenario scenario = case_of(campaign, arguments.throw_index).scenario;
-  const std::string recorded = recorded_row(directory + "/throws.csv", arguments.throw_index);
+  const std::string recorded = recorded_row(directory, arguments.throw_index);
 
   Onlookers onlookers(scenario, arguments);
   const ThrowResult result = fly_throw(campaign, arguments.throw_index, onlookers.observer());

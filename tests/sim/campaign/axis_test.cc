@@ -40,7 +40,26 @@ TEST(Bins, EveryValueIsInExactlyOneBin) {
   }
 }
 
+// 0.3 / 0.1 is below 3, 0.7 / 0.1 below 7.
+TEST(Bins, TheLargestValueIsInABinThoughItsQuotientIsRoundedDown) {
+  for (const double largest : {0.3, 0.6, 0.7, 0.30000000000000004}) {
+    const std::vector<Bin> bins = make_bins({0.05123456, 0.1, largest}, 0.1);
+    EXPECT_TRUE(bins.back().contains(largest)) << largest;
+  }
+}
+
 TEST(Bins, OfNoValuesAreNone) { EXPECT_TRUE(make_bins({}, 1).empty()); }
+
+TEST(Axis, NeverPutsCellsOfAGridTogether) {
+  std::vector<ThrowResult> results;
+  for (const char* size : {"0.0625", "0.07", "0.08", "0.09", "0.1", "0.11", "0.3"}) {
+    results.push_back(ball(0, std::stod(size), 3, 5));
+    results.back().cell_values = {{"throw.size_m", size}};
+  }
+  const Axis axis("size_m", results);
+  EXPECT_THAT(axis.values(), ElementsAre("0.0625", "0.07", "0.08", "0.09", "0.1", "0.11", "0.3"));
+  for (std::size_t i = 0; i < results.size(); ++i) EXPECT_EQ(axis.of(results[i]), i);
+}
 
 TEST(Axis, GivesEveryThrowItsPlace) {
   const std::vector<ThrowResult> results = {ball(0, 0.3, 2.2, 4), ball(1, 0.1, 4.9, 4),

@@ -115,6 +115,16 @@ TEST_F(MergeTest, RefusesShardsOfOtherCampaigns) {
   EXPECT_THROW(merge({"a", "none"}, "out"), IoError);
 }
 
+TEST_F(MergeTest, NeverWritesOverAPart) {
+  fly_shard("a", 0, 2);
+  fly_shard("b", 1, 2);
+  const std::string before = read(root_ / "a/results.bin");
+  CampaignOptions over = options("a");
+  over.force = true;
+  EXPECT_THROW(merge_campaigns({root_ / "b", root_ / "." / "a"}, over), ScenarioError);
+  EXPECT_EQ(read(root_ / "a/results.bin"), before);
+}
+
 TEST_F(MergeTest, OverwritesNothing) {
   fly_shard("a", 0, 1);
   merge({"a"}, "out");

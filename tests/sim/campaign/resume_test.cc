@@ -153,6 +153,21 @@ TEST_F(ResumeTest, AThrowThatHangsIsGivenUp) {
   });
   EXPECT_EQ(summary.errors, 1);
   EXPECT_THAT(summary.results[5].flown.error, HasSubstr("took longer than the 0.3 s"));
+  EXPECT_THAT(summary.table, HasSubstr("Dodged: 7 / 12")) << "11 flew, and the lost one counts";
+}
+
+TEST_F(ResumeTest, AThrowThatWasLostIsFlownAgain) {
+  run_campaign(scenario_, options("whole"), fly_one_);
+  CampaignOptions limited = options("hang", 2);
+  limited.limits.wall_s = 0.3;
+  run_campaign(scenario_, limited, [&](int index) {
+    while (index == 5) std::this_thread::sleep_for(std::chrono::hours(1));
+    return fly(index);
+  });
+  const CampaignSummary again = run_campaign(scenario_, resuming("hang"), fly_one_);
+  EXPECT_EQ(again.flown, 1);
+  EXPECT_EQ(again.errors, 0);
+  expect_same_files("whole", "hang");
 }
 
 TEST_F(ResumeTest, AThrowThatNeedsTooMuchMemoryFails) {

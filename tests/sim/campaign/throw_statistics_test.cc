@@ -21,13 +21,15 @@ TEST(Tally, OnlyAnUnharmedFlightThroughADangerousThrowIsADodge) {
 
 TEST(Tally, AnErrorNeverCountsAsASuccess) {
   Tally sum;
-  sum.add(failed("diverged"), flown(true));   // counts as not dodged
-  sum.add(flown(false), failed("diverged"));  // would it have hit? unknown: not judged
-  sum.add(FlightResult{}, flown(true));       // not flown: not judged
-  EXPECT_EQ(sum.throws, 1);
-  EXPECT_EQ(sum.would_have_hit, 1);
+  sum.add(failed("diverged"), flown(true));
+  sum.add(flown(false), failed("diverged"));       // nobody knows whether it would have hit
+  sum.add(failed("worker died"), FlightResult{});  // nor here
+  sum.add(FlightResult{}, flown(true));            // not asked for: not judged
+  sum.add(failed("diverged"), flown(false));       // would have missed: no chance to dodge
+  EXPECT_EQ(sum.throws, 4);
+  EXPECT_EQ(sum.would_have_hit, 3);
   EXPECT_EQ(sum.dodged, 0);
-  EXPECT_EQ(sum.errors, 2);
+  EXPECT_EQ(sum.errors, 4);
 }
 
 TEST(Tally, CollisionsAreCountedOverAllFlightsThatDidNotFail) {

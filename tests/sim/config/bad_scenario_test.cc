@@ -259,6 +259,12 @@ const BadScenario kBadScenarios[] = {
          "], distance_m: [" + numbers(99) + "]}\nsweep: {after_s: [" + numbers(99) +
          "], duration_s: [" + numbers(99) + "]}\n",
      "bad.yaml:2:7: grid and sweep have more than 10000 combinations of values."},
+    {"StopOfASweep", "throw: {}\nsweep: {throw.speed_mps: [4, 5]}\nstop: {half_width: 0.1}\n",
+     "bad.yaml:3:7: stop and sweep are both given"},
+    {"StopOfNothing", "stop: {half_width: 0.1}\n",
+     "bad.yaml:1:7: stop is given, but nobody throws."},
+    {"StopTooNarrow", "throw: {}\nstop: {half_width: 0.001}\n",
+     "bad.yaml:2:20: stop.half_width is 0.001, but must be between 0.005 and 0.5."},
     // Files and vehicles.
     {"ExtendsNowhere", "extends: no_such.yaml\n",
      "bad.yaml:1:10: extends is \"no_such.yaml\", but there is no such file."},

@@ -51,13 +51,16 @@ TEST_F(BaselineTest, ReadsBackWhatWasMade) {
   EXPECT_EQ(baseline.machine_kind, machine_kind(campaign_));
 }
 
-TEST_F(BaselineTest, ReplacesAnEarlierOneWhole) {
-  write_baseline(baseline_, campaign_, {});
+TEST_F(BaselineTest, ReplacesAnEarlierOneAndNothingElse) {
+  const fs::path with_slash = baseline_ / "";
+  write_baseline(with_slash, campaign_, {});
+  write_file(baseline_ / "README.md", "why these throws");
   write("throws.csv", "throw\n0\n1\n");
-  write_baseline(baseline_, campaign_, {});
+  write_baseline(with_slash, campaign_, {});
   EXPECT_EQ(read_baseline(baseline_).throws.rows(), 2U);
   EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "baselines"), {}), 1)
       << "nothing is left beside it";
+  EXPECT_EQ(std::distance(fs::directory_iterator(baseline_), {}), 5);
 }
 
 TEST_F(BaselineTest, KeepsTheEarlierOneWhenTheCampaignIsBroken) {
@@ -76,6 +79,24 @@ TEST_F(BaselineTest, SaysWhatIsBroken) {
   EXPECT_THAT([&] { read_baseline(baseline_); },
               ThrowsMessage<IoError>(HasSubstr("manifest.json lacks a value")));
   EXPECT_THROW(read_baseline(root_ / "nothing"), IoError);
+}
+
+TEST_F(BaselineTest, RefusesWhatCannotBeJudgedBy) {
+  const auto complaint_about = [&](const GateRules& rules) {
+    write_baseline(baseline_, campaign_, rules);
+    try {
+      read_baseline(baseline_);
+    } catch (const IoError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint_about({}), "");
+  EXPECT_THAT(complaint_about({5, 0.95, "all"}), HasSubstr("gate.margin must be at least 0"));
+  EXPECT_THAT(complaint_about({0.1, 0, "all"}), HasSubstr("gate.confidence must be between"));
+  EXPECT_THAT(complaint_about({0.1, 0.9, "phisics"}), HasSubstr("gate.must_equal must be nothing"));
+  write("throws.csv", "throw\n0\n0\n");
+  EXPECT_THAT(complaint_about({}), HasSubstr("throws.csv: throw 0 stands in row 1"));
 }
 
 TEST_F(BaselineTest, TellsKindsOfMachinesApart) {

@@ -54,6 +54,36 @@ TEST(Gate, does_not_fail_by_chance) {
   EXPECT_EQ(verdict.comparison.lost.size(), 1U);
 }
 
+TEST(Gate, fails_when_it_could_never_fail) {
+  const GateRules rate_only{0.05, 0.95, "nothing"};
+  const GateVerdict few = judged("dd", "dd", rate_only);
+  EXPECT_EQ(check(few, "enough throws").result, GateCheck::Result::kFailed);
+  EXPECT_FALSE(judged("mmm", "mmm").passed()) << "nothing would have hit";
+  EXPECT_TRUE(judged("dd", "dd").passed()) << "the bytes can fail";
+}
+
+TEST(Gate, says_how_many_losses_it_takes) {
+  const std::string good(60, 'd');
+  const std::string reason = check(judged(good, good), "enough throws").reason;
+  EXPECT_THAT(reason, HasSubstr("with 60 throws the success rate fails from "));
+  const int needed = std::stoi(reason.substr(reason.find("from ") + 5));
+  const auto with_lost = [&](int lost) {
+    std::string bad = good;
+    std::fill_n(bad.begin(), lost, 'h');
+    return judged(good, bad, {0.05, 0.95, "nothing"}).passed();
+  };
+  EXPECT_TRUE(with_lost(needed - 1));
+  EXPECT_FALSE(with_lost(needed));
+}
+
+TEST(Gate, fails_for_other_throws) {
+  ThrowResult other = throw_that(0, 'd');
+  other.bearing_deg = 10;
+  const GateVerdict verdict =
+      judge(baseline_of("d"), CsvTable(csv_of({other}), "t"), "one kind", {0.05, 0.95, "nothing"});
+  EXPECT_FALSE(verdict.passed());
+}
+
 TEST(Gate, fails_when_a_throw_could_not_be_flown) {
   const GateVerdict verdict = judged("dd", "de");
   EXPECT_FALSE(verdict.passed());
@@ -61,9 +91,10 @@ TEST(Gate, fails_when_a_throw_could_not_be_flown) {
 }
 
 TEST(Gate, holds_the_bytes_that_must_not_change) {
-  std::vector<ThrowResult> flown = {throw_that(0, 'd'), throw_that(1, 'd')};
+  std::vector<ThrowResult> flown;
+  for (int i = 0; i < 20; ++i) flown.push_back(throw_that(i, 'd'));
   flown[1].events_hash = 5;
-  const Baseline before = baseline_of("dd");
+  const Baseline before = baseline_of(std::string(20, 'd'));
   const auto passed = [&](const char* must_equal) {
     return judge(before, CsvTable(csv_of(flown), "t"), "one kind", {0.05, 0.95, must_equal})
         .passed();
@@ -87,7 +118,7 @@ TEST(Gate, does_not_compare_bytes_across_kinds_of_machines) {
 
 TEST(Gate, writes_junit_that_counts_its_failures) {
   const std::string xml = junit_xml(judged("dd", "de"), "a <b> & \"c\"", "x < y\x01");
-  EXPECT_THAT(xml, HasSubstr("tests=\"3\" failures=\"1\" skipped=\"0\""));
+  EXPECT_THAT(xml, HasSubstr("tests=\"4\" failures=\"1\" skipped=\"0\""));
   EXPECT_THAT(xml, HasSubstr("classname=\"a &lt;b&gt; &amp; &quot;c&quot;\""));
   EXPECT_THAT(xml, HasSubstr("x &lt; y?"));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"throws that failed: 1 (flown: killed, &quot;by"));
