@@ -4,12 +4,10 @@
 //   not seen            the object was never in view of a camera
 //   not detected        in view, but no detection was of it
 //   second object       the pilot had detected another object before this one
-//   seen late           when the evasive command arrived, no direction was left in which the
-//   vehicle
-//                       could have got out of the way in time (or no command arrived at all)
-//   wrong position      some direction was left, but not the commanded one; it would have been
-//   right
-//                       had the object been where it was detected
+//   seen late           when the evasive command arrived, if it did, no direction was left in
+//                       which the vehicle could have got out of the way in time
+//   wrong position      some direction was left, but not the commanded one, which would have been
+//                       right had the object been where it was detected
 //   wrong direction     some direction was left, but not the commanded one; or nothing would have
 //                       happened without the evasion
 //   not enough thrust   the commanded direction was right and the command early enough: the vehicle

@@ -15,8 +15,8 @@ namespace dodgesim {
 
 // One pilot's flight through the throw.
 struct FlightResult {
-  std::string status = "not flown";  // "ok", "error" or "not flown"
-  std::string error;                 // why, when the status is "error"
+  std::string status = "not flown";  // "ok", "error", "lost" or "not flown"
+  std::string error;                 // why, when the status is "error" or "lost"
   bool hit = false;                  // an object touched the vehicle
   bool crashed = false;              // the vehicle touched the room
   std::optional<TimeUs> hit_us;      // of the first touch
@@ -24,7 +24,9 @@ struct FlightResult {
   std::optional<double> clearance_m;  // smallest distance between the surfaces; empty: nobody threw
 
   bool ok() const { return status == "ok"; }
-  bool failed() const { return status == "error"; }
+  // The simulation failed, or was lost with its worker, which need not happen again.
+  bool failed() const { return status == "error" || lost(); }
+  bool lost() const { return status == "lost"; }
   bool unharmed() const { return ok() && !hit && !crashed; }
 
   template <class Visitor>
@@ -234,8 +236,7 @@ struct ThrowResult {
   double wall_s = 0;  // computing time of the flown pilot: in timing.csv, never in throws.csv
 
   bool thrown() const { return !object.empty(); }
-  // Its worker died or was stopped, which need not happen again.
-  bool lost() const { return flown.failed() && none.status == "not flown" && duration_us == 0; }
+  bool lost() const { return flown.lost(); }
 
   template <class Visitor>
   void visit(Visitor& v) {

@@ -70,8 +70,8 @@ bool write_all(int fd, const void* data, std::size_t size) {
   return true;
 }
 
-void mark_failed(ThrowResult& result, const std::string& reason) {
-  result.flown.status = "error";
+void mark_lost(ThrowResult& result, const std::string& reason) {
+  result.flown.status = "lost";
   result.flown.error = reason;
 }
 
@@ -84,7 +84,7 @@ double resident_mb() {
 
 ThrowResult failed_throw(const WorkerTasks& tasks, int index, const std::string& reason) {
   ThrowResult result = tasks.blank(index);
-  mark_failed(result, reason);
+  mark_lost(result, reason);
   return result;
 }
 

@@ -40,7 +40,7 @@ struct WorkerMemory {
 };
 
 // Every throw is flown exactly once. A worker that dies or takes too long costs its throw (status
-// "error", saying why) and is replaced. Throws ScenarioError as `fly` does, IoError when processes
+// "lost", saying why) and is replaced. Throws ScenarioError as `fly` does, IoError when processes
 // cannot be made, and whatever `receive` does; no worker survives the call.
 WorkerMemory fly_in_workers(const WorkerTasks& tasks);
 

@@ -14,9 +14,10 @@ and flies. Each file here runs as it is:
 | file | what it flies |
 |---|---|
 | `demo.yaml` | 40 balls of 10, 20 and 30 cm at a hovering vehicle |
-| `ci.yaml` | a few throws, for a quick check of the whole loop |
+| `ci.yaml` | the throws of the project's own regression gate |
 | `goal_flight.yaml` | balls at a vehicle on its way to a goal at 1.5 m/s |
 | `size_by_distance.yaml` | a grid: balls of three sizes from four distances |
+| `latency.yaml` | a sweep: how much latency a dodge survives, by the speed of the throw |
 | `several_balls.yaml` | two balls at once and a third after them |
 | `waypoints.yaml` | balls at a vehicle on its way along waypoints |
 | `mono.yaml` | one camera and balls of known size |
