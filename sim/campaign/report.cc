@@ -11,6 +11,7 @@
 #include "sim/campaign/report_files.h"
 #include "sim/campaign/statistics_table.h"
 #include "sim/files/base64.h"
+#include "sim/files/markup.h"
 
 namespace dodgesim {
 
@@ -226,20 +227,6 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
           {"columns", columns_of(results, axes)}};
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 // No text of a JSON document may end the element that it stands in.
 std::string script_safe(std::string json) {
   for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) {
@@ -257,11 +244,12 @@ std::string report_html(const LoadedCampaign& campaign, const std::string& direc
   for (const ThrowResult& result : campaign.results) tracks += result.trajectory;
 
   // The page's placeholders, in their order.
-  const std::pair<std::string, std::string> parts[] = {{"@TITLE@", escaped(campaign.scenario.name)},
-                                                       {"@STYLE@", kReport_style},
-                                                       {"@DATA@", data},
-                                                       {"@TRACKS@", base64(tracks)},
-                                                       {"@SCRIPT@", kReport_script}};
+  const std::pair<std::string, std::string> parts[] = {
+      {"@TITLE@", markup_escaped(campaign.scenario.name)},
+      {"@STYLE@", kReport_style},
+      {"@DATA@", data},
+      {"@TRACKS@", base64(tracks)},
+      {"@SCRIPT@", kReport_script}};
   std::string_view page = kReport_page;
   std::string html;
   for (const auto& [placeholder, text] : parts) {

@@ -3,6 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "sim/files/base64.h"
+#include "sim/files/markup.h"
 
 namespace dodgesim {
 
@@ -27,32 +28,14 @@ p { max-width: 60em; }
 <body>
 )";
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 std::string table(const Check& check) {
   std::string html =
       "<table>\n<tr><th>check</th><th>measured</th><th>expected</th><th></th></tr>\n";
   for (const CheckLine& line : check.lines) {
     const std::string outcome = outcome_text(line.outcome);
-    html += "<tr class=\"" + outcome + "\"><td>" + escaped(line.name) + "</td><td>" +
-            escaped(line.measured) + "</td><td>" + escaped(line.expected) + "</td><td>" + outcome +
-            "</td></tr>\n";
+    html += "<tr class=\"" + outcome + "\"><td>" + markup_escaped(line.name) + "</td><td>" +
+            markup_escaped(line.measured) + "</td><td>" + markup_escaped(line.expected) +
+            "</td><td>" + outcome + "</td></tr>\n";
   }
   return html + "</table>\n";
 }
@@ -60,7 +43,7 @@ std::string table(const Check& check) {
 std::string picture(const Plot& plot) {
   std::vector<unsigned char> png;
   cv::imencode(".png", draw(plot), png);
-  return "<img alt=\"" + escaped(plot.title) + "\" src=\"data:image/png;base64," +
+  return "<img alt=\"" + markup_escaped(plot.title) + "\" src=\"data:image/png;base64," +
          base64({reinterpret_cast<const char*>(png.data()), png.size()}) + "\">\n";
 }
 
@@ -68,9 +51,10 @@ std::string picture(const Plot& plot) {
 
 std::string html_report(const std::string& subject, const std::vector<Check>& checks) {
   std::string html = kHead;
-  html += "<h1>Self-tests of the event camera</h1>\n<p>" + escaped(subject) + "</p>\n";
+  html += "<h1>Self-tests of the event camera</h1>\n<p>" + markup_escaped(subject) + "</p>\n";
   for (const Check& check : checks) {
-    html += "<h2>" + escaped(check.title) + "</h2>\n<p>" + escaped(check.method) + "</p>\n";
+    html += "<h2>" + markup_escaped(check.title) + "</h2>\n<p>" + markup_escaped(check.method) +
+            "</p>\n";
     html += table(check);
     for (const Plot& plot : check.plots) html += picture(plot);
   }

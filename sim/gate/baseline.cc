@@ -1,12 +1,11 @@
 #include "sim/gate/baseline.h"
 
 #include <deque>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/files/input_file.h"
 #include "sim/files/output_file.h"
 
 namespace dodgesim {
@@ -18,18 +17,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kCopied[] = {"throws.csv", "scenario.resolved.yaml", "table.md"};
 
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file || !text) throw IoError(path.string() + " could not be read.");
-  return text.str();
-}
-
 Json read_manifest(const fs::path& directory) {
   const fs::path path = directory / "manifest.json";
   try {
-    return Json::parse(contents(path));
+    return Json::parse(read_file(path));
   } catch (const Json::exception& error) {
     throw IoError(path.string() + " is no manifest of a campaign: " + error.what() + ".");
   }
@@ -92,7 +83,7 @@ std::string machine_kind(const fs::path& directory) { return from_manifest(direc
 
 Baseline read_baseline(const fs::path& directory) {
   Baseline baseline = {
-      CsvTable(directory / "throws.csv"), contents(directory / "scenario.resolved.yaml"),
+      CsvTable(directory / "throws.csv"), read_file(directory / "scenario.resolved.yaml"),
       from_manifest(directory, rules_of),
       from_manifest(directory,
                     [](const Json& manifest) {
@@ -114,7 +105,7 @@ void write_baseline(const fs::path& directory, const fs::path& campaign, const G
       {"margin", rules.margin}, {"confidence", rules.confidence}, {"must_equal", rules.must_equal}};
   std::deque<OutputFile> files;  // none appears before all are written
   for (const char* name : kCopied) {
-    files.emplace_back(directory / name).write(contents(campaign / name));
+    files.emplace_back(directory / name).write(read_file(campaign / name));
   }
   files.emplace_back(directory / "manifest.json").write(manifest.dump(2) + "\n");
   for (OutputFile& file : files) file.commit();

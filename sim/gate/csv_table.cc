@@ -1,21 +1,11 @@
 #include "sim/gate/csv_table.h"
 
-#include <fstream>
-#include <sstream>
-
 #include "sim/base/error.h"
+#include "sim/files/input_file.h"
 
 namespace dodgesim {
 
 namespace {
-
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
-  if (!file || !text) throw IoError(path.string() + " could not be read.");
-  return text.str();
-}
 
 // Splits a text into rows of cells.
 class Splitter {
@@ -81,7 +71,7 @@ class Splitter {
 
 }  // namespace
 
-CsvTable::CsvTable(const std::filesystem::path& path) : CsvTable(contents(path), path.string()) {}
+CsvTable::CsvTable(const std::filesystem::path& path) : CsvTable(read_file(path), path.string()) {}
 
 CsvTable::CsvTable(std::string_view text, std::string name) : name_(std::move(name)) {
   Splitter splitter(text, name_);

@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "sim/files/markup.h"
+
 namespace dodgesim {
 
 namespace {
@@ -109,26 +111,6 @@ GateCheck bytes_equal(const CsvTable& before, const CsvTable& after, const GateR
           std::to_string(changed.size()) + " throws changed: " + list_of(changed)};
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') {
-      out += c;
-    } else {
-      out += '?';  // no other control character may stand in XML
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 bool GateVerdict::passed() const {
@@ -158,14 +140,14 @@ std::string junit_xml(const GateVerdict& verdict, const std::string& name,
   std::string cases;
   int failed = 0, left_out = 0;
   for (const GateCheck& check : verdict.checks) {
-    cases +=
-        "    <testcase classname=\"" + escaped(name) + "\" name=\"" + escaped(check.name) + "\"";
+    cases += "    <testcase classname=\"" + markup_escaped(name) + "\" name=\"" +
+             markup_escaped(check.name) + "\"";
     if (check.result == Result::kFailed) {
       ++failed;
-      cases += "><failure message=\"" + escaped(check.reason) + "\"/></testcase>\n";
+      cases += "><failure message=\"" + markup_escaped(check.reason) + "\"/></testcase>\n";
     } else if (check.result == Result::kLeftOut) {
       ++left_out;
-      cases += "><skipped message=\"" + escaped(check.reason) + "\"/></testcase>\n";
+      cases += "><skipped message=\"" + markup_escaped(check.reason) + "\"/></testcase>\n";
     } else {
       cases += "/>\n";
     }
@@ -174,8 +156,9 @@ std::string junit_xml(const GateVerdict& verdict, const std::string& name,
                              "\" failures=\"" + std::to_string(failed) + "\" skipped=\"" +
                              std::to_string(left_out) + "\"";
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + counts +
-         ">\n  <testsuite name=\"" + escaped(name) + "\"" + counts + ">\n" + cases +
-         "    <system-out>" + escaped(text) + "</system-out>\n  </testsuite>\n</testsuites>\n";
+         ">\n  <testsuite name=\"" + markup_escaped(name) + "\"" + counts + ">\n" + cases +
+         "    <system-out>" + markup_escaped(text) +
+         "</system-out>\n  </testsuite>\n</testsuites>\n";
 }
 
 }  // namespace dodgesim

@@ -1,0 +1,13 @@
+// Text for HTML and XML.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace dodgesim {
+
+// The text as content or attribute: nothing of it is taken for markup. Control characters that XML
+// does not allow become question marks.
+std::string markup_escaped(std::string_view text);
+
+}  // namespace dodgesim
