@@ -79,7 +79,7 @@ TEST(ReportPage, NeedsNothingButItself) {
 
 TEST(ReportPage, TextsOfTheScenarioStayTexts) {
   const std::string html = report_html(campaign(3), "out/x");
-  EXPECT_THAT(html, HasSubstr("<title>a &lt;title> &amp; &lt;/script> - dodgesim</title>"));
+  EXPECT_THAT(html, HasSubstr("<title>a &lt;title&gt; &amp; &lt;/script&gt; - dodgesim</title>"));
   EXPECT_EQ(data_of(html)["title"], "a <title> & </script>");
 }
 
