@@ -15,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kCopied[] = {"throws.csv", "scenario.resolved.yaml", "table.md"};
+constexpr const char* kCopied[] = {"throws.csv", "objects.csv", "scenario.resolved.yaml",
+                                   "table.md"};
 
 Json read_manifest(const fs::path& directory) {
   const fs::path path = directory / "manifest.json";
@@ -83,7 +84,7 @@ std::string machine_kind(const fs::path& directory) { return from_manifest(direc
 
 Baseline read_baseline(const fs::path& directory) {
   Baseline baseline = {
-      CsvTable(directory / "throws.csv"), read_file(directory / "scenario.resolved.yaml"),
+      read_tables(directory), read_file(directory / "scenario.resolved.yaml"),
       from_manifest(directory, rules_of),
       from_manifest(directory,
                     [](const Json& manifest) {
@@ -91,7 +92,7 @@ Baseline read_baseline(const fs::path& directory) {
                     }),
       machine_kind(directory)};
   check(baseline.rules, directory);
-  check(baseline.throws, directory);
+  check(baseline.tables.throws, directory);
   return baseline;
 }
 

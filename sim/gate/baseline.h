@@ -1,6 +1,6 @@
 // What a gate compares with: a directory of a few small files, kept under version control.
 //
-//   throws.csv               of the campaign
+//   throws.csv, objects.csv  of the campaign (objects.csv may be missing if no throw has several)
 //   scenario.resolved.yaml   that it flew
 //   table.md                 for people
 //   manifest.json            commit, versions and machine of the campaign, and the gate's rules
@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/gate/csv_table.h"
+#include "sim/gate/outcomes.h"
 
 namespace dodgesim {
 
@@ -22,7 +22,7 @@ struct GateRules {
 };
 
 struct Baseline {
-  CsvTable throws;
+  CampaignTables tables;
   std::string scenario;  // YAML
   GateRules rules;
   std::string commit;

@@ -41,21 +41,29 @@ GateRules rules_of(const Arguments& arguments, const std::optional<Baseline>& ba
   return rules;
 }
 
+// The tables of a campaign that has not begun.
+CampaignTables blank_tables(const Scenario& scenario) {
+  std::string throws = csv_header(blank_result(case_of(scenario, 0)));
+  std::string objects = csv_header<ObjectRow>();
+  for (int i = 0; i < throw_count(scenario); ++i) {
+    const ThrowResult blank = blank_result(case_of(scenario, i));
+    throws += csv_row(blank);
+    for (const ObjectRow& row : blank.object_rows) objects += csv_row(row);
+  }
+  return {CsvTable(throws, "the scenario's throws"), CsvTable(objects, "the scenario's objects")};
+}
+
 // Other throws cannot be compared one by one: found out before hours of flying.
 void expect_same_throws(const Scenario& scenario, const Baseline& baseline, const fs::path& where) {
-  std::string text = csv_header(blank_result(case_of(scenario, 0)));
-  for (int i = 0; i < throw_count(scenario); ++i) {
-    text += csv_row(blank_result(case_of(scenario, i)));
-  }
-  const auto drawn = outcomes(CsvTable(text, "the scenario's throws"));
-  const auto before = outcomes(baseline.throws);
+  const auto drawn = outcomes(blank_tables(scenario));
+  const auto before = outcomes(baseline.tables);
   const std::string remedy = "; to make a new baseline of this scenario, add --update.";
   if (drawn.size() != before.size()) {
     throw ScenarioError("The scenario has " + std::to_string(drawn.size()) + " throws, " +
                         where.string() + " has " + std::to_string(before.size()) + remedy);
   }
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    if (drawn[i].draw == before[i].draw) continue;
+    if (same_throw(drawn[i], before[i])) continue;
     throw ScenarioError("Throw " + std::to_string(i) + " is another one (" + drawn[i].label +
                         ") than in " + where.string() + " (" + before[i].label + ")" + remedy);
   }
@@ -111,9 +119,8 @@ int update(const Arguments& arguments, const GateRules& rules, const CampaignSum
 }
 
 int gate(const Arguments& arguments) {
-  std::vector<Setting> settings;
-  for (const std::string& text : arguments.set) settings.push_back(parse_setting("--set", text));
-  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir, settings);
+  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir,
+                                          parse_settings("--set", arguments.set));
   std::optional<Baseline> baseline;
   if (fs::exists(arguments.baseline)) {
     baseline.emplace(read_baseline(arguments.baseline));
@@ -139,8 +146,7 @@ int gate(const Arguments& arguments) {
   if (arguments.update) return update(arguments, rules, summary);
 
   const fs::path& out = arguments.options.out;
-  const GateVerdict verdict =
-      judge(*baseline, CsvTable(out / "throws.csv"), machine_kind(out), rules);
+  const GateVerdict verdict = judge(*baseline, read_tables(out), machine_kind(out), rules);
   const std::string text = verdict_text(arguments, scenario, *baseline, verdict);
   write_file(arguments.junit.empty() ? out / "junit.xml" : arguments.junit,
              junit_xml(verdict, scenario.name, text));

@@ -27,6 +27,7 @@ class BaselineTest : public ::testing::Test {
   BaselineTest() {
     fs::create_directories(campaign_);
     write("throws.csv", "throw\n0\n");
+    write("objects.csv", "throw\n0\n");
     write("scenario.resolved.yaml", "seed: 1\n");
     write("table.md", "# t\n");
     write("manifest.json", kManifest);
@@ -42,7 +43,7 @@ class BaselineTest : public ::testing::Test {
 TEST_F(BaselineTest, ReadsBackWhatWasMade) {
   write_baseline(baseline_, campaign_, {0.1, 0.9, "all"});
   const Baseline baseline = read_baseline(baseline_);
-  EXPECT_EQ(baseline.throws.rows(), 1U);
+  EXPECT_EQ(baseline.tables.throws.rows(), 1U);
   EXPECT_EQ(baseline.scenario, "seed: 1\n");
   EXPECT_EQ(baseline.commit, "abc");
   EXPECT_EQ(baseline.rules.margin, 0.1);
@@ -57,10 +58,10 @@ TEST_F(BaselineTest, ReplacesAnEarlierOneAndNothingElse) {
   write_file(baseline_ / "README.md", "why these throws");
   write("throws.csv", "throw\n0\n1\n");
   write_baseline(with_slash, campaign_, {});
-  EXPECT_EQ(read_baseline(baseline_).throws.rows(), 2U);
+  EXPECT_EQ(read_baseline(baseline_).tables.throws.rows(), 2U);
   EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "baselines"), {}), 1)
       << "nothing is left beside it";
-  EXPECT_EQ(std::distance(fs::directory_iterator(baseline_), {}), 5);
+  EXPECT_EQ(std::distance(fs::directory_iterator(baseline_), {}), 6);
 }
 
 TEST_F(BaselineTest, KeepsTheEarlierOneWhenTheCampaignIsBroken) {

@@ -12,17 +12,17 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-TEST(ScenarioChanges, names_the_keys_that_differ) {
+TEST(ScenarioChanges, NamesTheKeysThatDiffer) {
   EXPECT_THAT(scenario_changes("a: {b: 1, c: [1, 2]}\nd: x\n", "a: {b: 2, c: [1, 2]}\ne: y\n"),
               ElementsAre("a.b was 1, is 2", "d was x, is not there", "e was not there, is y"));
 }
 
-TEST(ScenarioChanges, sees_distributions) {
+TEST(ScenarioChanges, SeesDistributions) {
   EXPECT_THAT(scenario_changes("a: !uniform [1, 2]\n", "a: !choice [1, 2]\n"),
               ElementsAre("a was !uniform [1, 2], is !choice [1, 2]"));
 }
 
-TEST(ScenarioChanges, of_resolved_scenarios_leave_out_their_titles) {
+TEST(ScenarioChanges, OfResolvedScenariosLeaveOutTheirTitles) {
   Scenario before;
   Scenario after = before;
   after.name = "other";
@@ -33,7 +33,7 @@ TEST(ScenarioChanges, of_resolved_scenarios_leave_out_their_titles) {
               ElementsAre("delays.compute_us was 3500, is 23500"));
 }
 
-TEST(ScenarioChanges, refuses_what_is_no_map) {
+TEST(ScenarioChanges, RefusesWhatIsNoMap) {
   EXPECT_THROW(scenario_changes("- 1\n", "a: 1\n"), ScenarioError);
 }
 
