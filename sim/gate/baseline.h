@@ -32,6 +32,16 @@ struct Baseline {
 // Throws IoError, with the file, if one is missing or broken.
 Baseline read_baseline(const std::filesystem::path& directory);
 
+// Whether one of a baseline's files is there, however broken.
+bool holds_baseline_files(const std::filesystem::path& directory);
+
+// Whether the manifest there, however broken, has the gate's rules, as that of no campaign has: the
+// files are a baseline's.
+bool is_marked_as_baseline(const std::filesystem::path& directory);
+
+// The rules of a baseline that may be missing or broken: the default's if they cannot be read.
+GateRules rules_or_default(const std::filesystem::path& directory);
+
 // Makes the campaign in `campaign` the baseline, in place of an earlier one; other files in the
 // directory stay. Throws IoError.
 void write_baseline(const std::filesystem::path& directory, const std::filesystem::path& campaign,

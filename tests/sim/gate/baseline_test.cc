@@ -100,6 +100,26 @@ TEST_F(BaselineTest, RefusesWhatCannotBeJudgedBy) {
   EXPECT_THAT(complaint_about({}), HasSubstr("throws.csv: throw 0 stands in row 1"));
 }
 
+TEST_F(BaselineTest, IsKnownEvenWhenItIsBroken) {
+  EXPECT_FALSE(holds_baseline_files(baseline_));
+  EXPECT_FALSE(is_marked_as_baseline(baseline_));
+  write_baseline(baseline_, campaign_, {0.1, 0.9, "all"});
+  fs::remove(baseline_ / "throws.csv");
+  EXPECT_THROW(read_baseline(baseline_), IoError);
+  EXPECT_TRUE(holds_baseline_files(baseline_));
+  EXPECT_TRUE(is_marked_as_baseline(baseline_));
+  EXPECT_EQ(rules_or_default(baseline_).must_equal, "all");
+  write_file(baseline_ / "manifest.json", R"({"gate": {"margin": 7, <<<<<<<)");
+  EXPECT_TRUE(is_marked_as_baseline(baseline_));
+  EXPECT_EQ(rules_or_default(baseline_).must_equal, "physics");
+}
+
+TEST_F(BaselineTest, IsNotTakenForACampaign) {
+  write("manifest.json", R"({"campaign": {"scenario": "gate", "command_line": "\"gate\": 1"}})");
+  EXPECT_TRUE(holds_baseline_files(campaign_));
+  EXPECT_FALSE(is_marked_as_baseline(campaign_));
+}
+
 TEST_F(BaselineTest, TellsKindsOfMachinesApart) {
   const std::string kind = machine_kind(campaign_);
   write("manifest.json",
