@@ -74,6 +74,7 @@ TEST_F(GateCommandTest, NamesTheKeyThatMakesOtherThrows) {
               HasSubstr("4 throws, " + path("b") + " has 3 (repeats is 4, not 3)"));
   EXPECT_THAT(gate("--set stop.half_width=0.2").output,
               HasSubstr("a gate's scenario has no key stop"));
+  EXPECT_EQ(gate("--set stop.half_width=0.2 --set stop=~").exit_code, 0);
 }
 
 TEST_F(GateCommandTest, NoticesAnotherSecondObject) {
@@ -124,7 +125,7 @@ TEST_F(GateCommandTest, UpdateNeverWritesOverWhatIsNoBaseline) {
   fs::rename(root_ / "campaign", root_ / "b");
   const Outcome refused = gate("--update");
   EXPECT_EQ(refused.exit_code, 4);
-  EXPECT_THAT(refused.output, HasSubstr(path("b") + " is no baseline that could be replaced: "));
+  EXPECT_THAT(refused.output, HasSubstr(path("b") + " is no baseline, and no broken one: "));
   EXPECT_EQ(contents("b/manifest.json"), manifest);
   EXPECT_FALSE(fs::exists(root_ / "out")) << "nothing is flown in vain";
 }

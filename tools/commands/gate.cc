@@ -158,16 +158,14 @@ std::optional<Baseline> find_baseline(const Arguments& arguments) {
   try {
     return read_baseline(where);
   } catch (const IoError& error) {
+    if (!is_marked_as_baseline(where)) {
+      throw IoError(where.string() + " is no baseline, and no broken one: " + error.what() +
+                    " Choose another directory, or remove what is there.");
+    }
     if (!arguments.update) {
       throw IoError(std::string(error.what()) + " To make the baseline anew, add --update.");
     }
-    if (!is_marked_as_baseline(where)) {
-      throw IoError(where.string() + " is no baseline that could be replaced: " + error.what() +
-                    " Choose another directory, or remove that file.");
-    }
-    std::cerr << where.string()
-              << " is broken and will be replaced: " << error.what()
-              << "\n";
+    std::cerr << where.string() << " is broken and will be replaced: " << error.what() << "\n";
     return std::nullopt;
   }
 }
@@ -234,9 +232,11 @@ void add_gate_command(CLI::App& program, const std::string& command_line, int& e
   command->footer(
       "Compares throw by throw. Exit code 1: the success rate fell by more than the margin with "
       "the\n"
-      "confidence, a throw could not be flown, or bytes changed that must not. Prints the throws\n"
-      "that changed, and how to look at them. The throws are the baseline's: other repeats or\n"
-      "another seed (--set seed=8) need --update, as they make another baseline.\n\n"
+      "confidence, a throw could not be flown or would have hit in only one of the two, or bytes\n"
+      "changed that must not. Prints the throws that changed, and how to look at them. The throws\n"
+      "are the baseline's: other repeats or another seed (--set seed=8) make another baseline, "
+      "with\n"
+      "--update.\n\n"
       "Examples:\n"
       "  dodgesim gate s.yaml --baseline baselines/s --out out/s --update      once\n"
       "  dodgesim gate s.yaml --baseline baselines/s --out out/s --force       after each change");
