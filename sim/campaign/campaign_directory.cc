@@ -8,6 +8,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/result_files.h"
+#include "sim/config/scenario_changes.h"
 #include "sim/files/staged_file.h"
 
 namespace dodgesim {
@@ -78,7 +79,9 @@ void expect_free(const fs::path& out, bool force) {
 }
 
 std::string difference(const CampaignIdentity& a, const CampaignIdentity& b) {
-  if (a.scenario != b.scenario) return "of another scenario";
+  if (a.scenario != b.scenario) {
+    return "of another scenario (" + scenario_difference(a.scenario, b.scenario) + ")";
+  }
   if (a.program != b.program) {
     return "of another version of dodgesim (" + a.program + ", not " + b.program + ")";
   }

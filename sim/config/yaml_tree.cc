@@ -296,12 +296,13 @@ std::string read_scenario_text(const std::string& path) {
   if (!std::filesystem::exists(path, ignored)) {
     throw ScenarioError(path + ": There is no such file.");
   }
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw ScenarioError(path + ": This is a directory; a scenario is a YAML file.");
+  // To open a pipe may take for ever.
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    throw ScenarioError(path + ": This is not a regular file; a scenario is a YAML file.");
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path + ": The file could not be opened for reading.");
-  // One byte beyond the limit is enough to know that it is exceeded (a device never ends).
+  // One byte beyond the limit is enough to know that it is exceeded.
   std::string text(kMostBytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad()) throw IoError(path + ": The file could not be read.");

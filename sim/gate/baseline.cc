@@ -1,5 +1,6 @@
 #include "sim/gate/baseline.h"
 
+#include <algorithm>
 #include <deque>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -15,10 +16,12 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kCopied[] = {"throws.csv", "scenario.resolved.yaml", "table.md"};
+constexpr const char* kManifest = "manifest.json";
+constexpr const char* kCopied[] = {"throws.csv", "objects.csv", "scenario.resolved.yaml",
+                                   "table.md"};
 
 Json read_manifest(const fs::path& directory) {
-  const fs::path path = directory / "manifest.json";
+  const fs::path path = directory / kManifest;
   try {
     return Json::parse(read_file(path));
   } catch (const Json::exception& error) {
@@ -47,15 +50,14 @@ auto from_manifest(const fs::path& directory, Take take) {
   try {
     return take(manifest);
   } catch (const Json::exception& error) {
-    throw IoError((directory / "manifest.json").string() + " lacks a value: " + error.what() + ".");
+    throw IoError((directory / kManifest).string() + " lacks a value: " + error.what() + ".");
   }
 }
 
 void expect(bool right, const fs::path& directory, const std::string& key,
             const std::string& allowed) {
   if (right) return;
-  throw IoError((directory / "manifest.json").string() + ": gate." + key + " must be " + allowed +
-                ".");
+  throw IoError((directory / kManifest).string() + ": gate." + key + " must be " + allowed + ".");
 }
 
 void check(const GateRules& rules, const fs::path& directory) {
@@ -83,7 +85,7 @@ std::string machine_kind(const fs::path& directory) { return from_manifest(direc
 
 Baseline read_baseline(const fs::path& directory) {
   Baseline baseline = {
-      CsvTable(directory / "throws.csv"), read_file(directory / "scenario.resolved.yaml"),
+      read_tables(directory), read_file(directory / "scenario.resolved.yaml"),
       from_manifest(directory, rules_of),
       from_manifest(directory,
                     [](const Json& manifest) {
@@ -91,8 +93,31 @@ Baseline read_baseline(const fs::path& directory) {
                     }),
       machine_kind(directory)};
   check(baseline.rules, directory);
-  check(baseline.throws, directory);
+  check(baseline.tables.throws, directory);
   return baseline;
+}
+
+bool holds_baseline_files(const fs::path& directory) {
+  const auto is_there = [&](const char* name) { return fs::exists(directory / name); };
+  return is_there(kManifest) || std::any_of(std::begin(kCopied), std::end(kCopied), is_there);
+}
+
+bool is_marked_as_baseline(const fs::path& directory) {
+  try {
+    return read_file(directory / kManifest).find("\"gate\":") != std::string::npos;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+GateRules rules_or_default(const fs::path& directory) {
+  try {
+    const GateRules rules = from_manifest(directory, rules_of);
+    check(rules, directory);
+    return rules;
+  } catch (const IoError&) {
+    return {};
+  }
 }
 
 void write_baseline(const fs::path& directory, const fs::path& campaign, const GateRules& rules) {
@@ -107,7 +132,7 @@ void write_baseline(const fs::path& directory, const fs::path& campaign, const G
   for (const char* name : kCopied) {
     files.emplace_back(directory / name).write(read_file(campaign / name));
   }
-  files.emplace_back(directory / "manifest.json").write(manifest.dump(2) + "\n");
+  files.emplace_back(directory / kManifest).write(manifest.dump(2) + "\n");
   for (OutputFile& file : files) file.commit();
 }
 

@@ -1,6 +1,6 @@
 // What a gate compares with: a directory of a few small files, kept under version control.
 //
-//   throws.csv               of the campaign
+//   throws.csv, objects.csv  of the campaign (objects.csv may be missing if no throw has several)
 //   scenario.resolved.yaml   that it flew
 //   table.md                 for people
 //   manifest.json            commit, versions and machine of the campaign, and the gate's rules
@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/gate/csv_table.h"
+#include "sim/gate/outcomes.h"
 
 namespace dodgesim {
 
@@ -22,7 +22,7 @@ struct GateRules {
 };
 
 struct Baseline {
-  CsvTable throws;
+  CampaignTables tables;
   std::string scenario;  // YAML
   GateRules rules;
   std::string commit;
@@ -31,6 +31,16 @@ struct Baseline {
 
 // Throws IoError, with the file, if one is missing or broken.
 Baseline read_baseline(const std::filesystem::path& directory);
+
+// Whether one of a baseline's files is there, however broken.
+bool holds_baseline_files(const std::filesystem::path& directory);
+
+// Whether the manifest there, however broken, has the gate's rules, as that of no campaign has: the
+// files are a baseline's.
+bool is_marked_as_baseline(const std::filesystem::path& directory);
+
+// The rules of a baseline that may be missing or broken: the default's if they cannot be read.
+GateRules rules_or_default(const std::filesystem::path& directory);
 
 // Makes the campaign in `campaign` the baseline, in place of an earlier one; other files in the
 // directory stay. Throws IoError.

@@ -1,6 +1,7 @@
 #include "sim/gate/csv_table.h"
 
 #include "sim/base/error.h"
+#include "sim/config/numbers.h"
 #include "sim/files/input_file.h"
 
 namespace dodgesim {
@@ -93,6 +94,28 @@ const std::string& CsvTable::at(std::size_t row, const std::string& column) cons
   const auto found = index_.find(column);
   if (found == index_.end()) throw IoError(name_ + " has no column \"" + column + "\".");
   return rows_[row][found->second];
+}
+
+double CsvTable::number(std::size_t row, const std::string& column) const {
+  const std::string& text = at(row, column);
+  const NumberForm form = number_form(text);
+  if (form == NumberForm::kDecimal || form == NumberForm::kInteger) {
+    if (const auto value = parse_double(text)) return *value;
+  }
+  refuse(row, column, "a number");
+}
+
+int CsvTable::integer(std::size_t row, const std::string& column) const {
+  const std::string& text = at(row, column);
+  if (number_form(text) == NumberForm::kInteger) {
+    if (const auto value = parse_integer<int>(text)) return *value;
+  }
+  refuse(row, column, "an integer");
+}
+
+void CsvTable::refuse(std::size_t row, const std::string& column, const char* what) const {
+  throw IoError(name_ + ": " + column + " in row " + std::to_string(row) + " is \"" +
+                at(row, column) + "\", not " + what + ".");
 }
 
 }  // namespace dodgesim

@@ -22,8 +22,15 @@ class CsvTable {
   bool has(const std::string& column) const { return index_.count(column) > 0; }
   // Throws IoError if there is no such column. Requires row < rows().
   const std::string& at(std::size_t row, const std::string& column) const;
+  // at() as a number. Also throws IoError if it is none, or none of that type.
+  double number(std::size_t row, const std::string& column) const;
+  int integer(std::size_t row, const std::string& column) const;
+  // `name` or the file's path.
+  const std::string& name() const { return name_; }
 
  private:
+  [[noreturn]] void refuse(std::size_t row, const std::string& column, const char* what) const;
+
   std::string name_;
   std::vector<std::string> columns_;
   std::map<std::string, std::size_t> index_;

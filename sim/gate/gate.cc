@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <optional>
 
 #include "sim/files/markup.h"
@@ -12,16 +11,6 @@ namespace dodgesim {
 namespace {
 
 using Result = GateCheck::Result;
-
-std::string list_of(const std::vector<std::string>& items) {
-  constexpr std::size_t kMost = 10;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(items.size(), kMost); ++i) {
-    text += (i == 0 ? "" : ", ") + items[i];
-  }
-  if (items.size() > kMost) text += " and " + std::to_string(items.size() - kMost) + " more";
-  return text;
-}
 
 GateCheck every_throw_flew(const CsvTable& flown) {
   std::vector<std::string> failed;
@@ -49,9 +38,23 @@ std::optional<std::int64_t> losses_that_fail(const PairedCounts& counts, const G
   return std::nullopt;
 }
 
+// No throw may escape the comparison.
+GateCheck throws_are_the_same(const Comparison& comparison) {
+  const std::string name = "same throws";
+  if (!comparison.paired) return {name, Result::kFailed, "these are not the baseline's throws"};
+  std::string reason;
+  const auto add = [&reason](const std::string& what, const std::vector<int>& throws) {
+    if (throws.empty()) return;
+    reason += (reason.empty() ? "throws " : "; throws ") + what + ": " + list_of(throws);
+  };
+  add("of the baseline or of this campaign only", comparison.unmatched);
+  add("that would have hit in the baseline or now, but not both", comparison.counts_differ);
+  if (reason.empty()) return {name, Result::kPassed, ""};
+  return {name, Result::kFailed, reason + " (if this is meant, --update makes a new baseline)"};
+}
+
 GateCheck rate_can_fall(const Comparison& comparison, const GateRules& rules) {
   const std::string name = "enough throws";
-  if (!comparison.paired) return {name, Result::kFailed, "these are not the baseline's throws"};
   const auto lost = losses_that_fail(comparison.counts, rules);
   const std::string counted = std::to_string(comparison.counts.total()) + " throws";
   if (lost) {
@@ -83,32 +86,38 @@ GateCheck rate_holds(const Comparison& comparison, const GateRules& rules) {
   return {"success rate", drop.fell ? Result::kFailed : Result::kPassed, text};
 }
 
-// Whether a column must keep its bytes.
-bool is_physics(const std::string& column) {
-  return column.rfind("none_", 0) == 0 ||
-         std::find(drawn_columns().begin(), drawn_columns().end(), column) != drawn_columns().end();
-}
-
-GateCheck bytes_equal(const CsvTable& before, const CsvTable& after, const GateRules& rules) {
-  std::map<std::string, std::size_t> rows;
-  for (std::size_t row = 0; row < after.rows(); ++row) rows[after.at(row, "throw")] = row;
-  std::vector<std::string> changed;
-  for (std::size_t row = 0; row < before.rows(); ++row) {
+// Adds a row's first change: of what is drawn and what becomes of it when nobody dodges
+// (`physics_only`), or of any column.
+void add_changed_rows(const CsvTable& before, const CsvTable& after, bool physics_only,
+                      std::vector<std::string>& changed) {
+  if (before.rows() != after.rows()) {
+    changed.push_back(before.name() + " had " + std::to_string(before.rows()) + " rows, has " +
+                      std::to_string(after.rows()));
+  }
+  for (std::size_t row = 0; row < std::min(before.rows(), after.rows()); ++row) {
     for (const std::string& column : before.columns()) {
-      if (rules.must_equal == "physics" && !is_physics(column)) continue;
-      const std::string& number = before.at(row, "throw");
-      const std::string& is = after.at(rows.at(number), column);
-      if (before.at(row, column) == is) continue;
-      changed.push_back("throw " + number + " " + column + " was " + before.at(row, column) +
+      if (physics_only && column.rfind("none_", 0) != 0 && !is_drawn(column)) continue;
+      const std::string &was = before.at(row, column), &is = after.at(row, column);
+      if (was == is) continue;
+      changed.push_back("throw " + before.at(row, "throw") + " " + column + " was " + was +
                         ", is " + is);
       break;
     }
   }
-  GateCheck check{rules.must_equal == "all" ? "same bytes" : "same bytes of the physics",
-                  Result::kPassed, ""};
+}
+
+GateCheck bytes_equal(const CampaignTables& before, const CampaignTables& after,
+                      const GateRules& rules) {
+  const bool physics_only = rules.must_equal == "physics";
+  std::vector<std::string> changed;
+  add_changed_rows(before.throws, after.throws, physics_only, changed);
+  if (before.objects && after.objects) {
+    add_changed_rows(*before.objects, *after.objects, physics_only, changed);
+  }
+  GateCheck check{physics_only ? "same bytes of the physics" : "same bytes", Result::kPassed, ""};
   if (changed.empty()) return check;
   return {check.name, Result::kFailed,
-          std::to_string(changed.size()) + " throws changed: " + list_of(changed)};
+          std::to_string(changed.size()) + " rows changed: " + list_of(changed)};
 }
 
 }  // namespace
@@ -118,15 +127,16 @@ bool GateVerdict::passed() const {
                       [](const GateCheck& c) { return c.result == Result::kFailed; });
 }
 
-GateVerdict judge(const Baseline& baseline, const CsvTable& flown, const std::string& machine_kind,
-                  const GateRules& rules) {
+GateVerdict judge(const Baseline& baseline, const CampaignTables& flown,
+                  const std::string& machine_kind, const GateRules& rules) {
   GateVerdict verdict;
-  verdict.comparison = compare(outcomes(baseline.throws), outcomes(flown));
-  verdict.checks.push_back(every_throw_flew(flown));
+  verdict.comparison = compare(outcomes(baseline.tables), outcomes(flown));
+  verdict.checks.push_back(every_throw_flew(flown.throws));
+  verdict.checks.push_back(throws_are_the_same(verdict.comparison));
   verdict.checks.push_back(rate_can_fall(verdict.comparison, rules));
   verdict.checks.push_back(rate_holds(verdict.comparison, rules));
   if (rules.must_equal == "nothing") return verdict;
-  GateCheck bytes = bytes_equal(baseline.throws, flown, rules);
+  GateCheck bytes = bytes_equal(baseline.tables, flown, rules);
   if (machine_kind != baseline.machine_kind) {
     bytes.result = Result::kLeftOut;
     bytes.reason = "the baseline is of another kind of machine, or of other libraries";

@@ -23,11 +23,12 @@ struct GateVerdict {
   bool passed() const;
 };
 
-// `flown` is a campaign of the baseline's throws on a machine of `machine_kind`. The rate fell if
-// it is shown, with the confidence of the rules, that it fell by more than their margin
-// (judge_drop()). Throws IoError if a column is missing.
-GateVerdict judge(const Baseline& baseline, const CsvTable& flown, const std::string& machine_kind,
-                  const GateRules& rules);
+// `flown` is a campaign of the baseline's throws on a machine of `machine_kind`; that a throw is
+// another one, is missing or would have hit in only one of the two fails. The rate fell if it is
+// shown, with the confidence of the rules, that it fell by more than their margin (judge_drop()).
+// Throws IoError if a table is not that of a campaign.
+GateVerdict judge(const Baseline& baseline, const CampaignTables& flown,
+                  const std::string& machine_kind, const GateRules& rules);
 
 // One test case a check, for continuous integration (the JUnit XML that Jenkins, GitLab and GitHub
 // read). `text` says everything else.

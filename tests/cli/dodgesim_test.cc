@@ -128,7 +128,7 @@ TEST_F(DodgesimTest, FliesACampaignAndReplaysAThrowOfIt) {
   const Outcome other =
       dodgesim("run " + scenario + " --out " + one + " --throws 3 --seed 10 --resume");
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.output, HasSubstr("holds results of another scenario"));
+  EXPECT_THAT(other.output, HasSubstr("holds results of another scenario (seed is 9, not 10);"));
 
   const Outcome replay = dodgesim("replay " + one + " --throw 2");
   EXPECT_EQ(replay.exit_code, 0) << replay.output;

@@ -82,7 +82,16 @@ TEST_F(ScenarioCommandTest, BadSettingsAreUsageErrors) {
             "throw.speed_mps?\n");
   EXPECT_EQ(dodgesim(validate + " --set nonsense").exit_code, 2);
   EXPECT_EQ(dodgesim(validate + " --set 'throw.speed_mps=[1'").exit_code, 2);
+  const Outcome empty = dodgesim(validate + " --set throw.speed_mps=");
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_THAT(empty.output, HasSubstr("--set throw.speed_mps=: A value is needed behind ="));
+  EXPECT_EQ(dodgesim(validate + " --set 'throw.speed_mps= '").exit_code, 2);
+  EXPECT_EQ(dodgesim(validate + " --set throw.speed_mps=~").exit_code, 0);
   EXPECT_EQ(dodgesim("sweep " + path("s.yaml") + " --out x").exit_code, 2) << "over nothing";
+  const Outcome twice = dodgesim("sweep " + path("s.yaml") +
+                                 " --out x --over throw.size_m=0.1 --over throw.size_m=0.2");
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_THAT(twice.output, HasSubstr("--over throw.size_m=0.2: throw.size_m is swept already"));
   const Outcome over = dodgesim("sweep " + path("s.yaml") + " --out x --over delays.compute_us=-1");
   EXPECT_EQ(over.exit_code, 2);
   EXPECT_THAT(over.output, HasSubstr("--over delays.compute_us=-1: delays.compute_us is -1, but"));

@@ -70,10 +70,25 @@ TEST_F(SlurmTest, SubmitsAnArrayAndAMergeThatWaitsForIt) {
   EXPECT_EQ(contents("sbatch.log"),
             common + " --array=0,1,2 --output=" + path("out/logs/shard%a.log") +
                 " --partition=fast " + kScripts + "shard.sh " + kProgram + " " + path("s.yaml") +
-                " " + path("out") + " 3 --throws 6 --truth\n" + common +
+                " " + path("out") + " 3 --throws=6 --truth\n" + common +
                 "-merge --dependency=afterany:1 --output=" + path("out/logs/merge.log") +
                 " --partition=fast " + kScripts + "merge.sh " + kProgram + " " + path("out") + " " +
                 kScripts.substr(0, kScripts.size() - 1) + "\n");
+}
+
+TEST_F(SlurmTest, TakesOptionsInAnyOrder) {
+  const Outcome outcome =
+      script("submit", "--throws 6 --set 'throw.speed_mps=!uniform [5, 7]' " + quoted("s.yaml") +
+                           "--truth --seed=4 " + quoted("out") + "--time-limit 60 --shards 2");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string options =
+      "--throws=6 --set=throw.speed_mps=!uniform [5, 7] --truth --seed=4 --time-limit=60\n";
+  EXPECT_THAT(contents("sbatch.log"), HasSubstr(path("out") + " 2 " + options));
+  // The line that status prints does the same.
+  const std::string status = script("status", quoted("out")).output;
+  const std::string again = status.substr(status.find("  " + kScripts));
+  const Outcome repeated = shell("PATH='" + path("bin") + "':$PATH DODGESIM=" + kProgram + again);
+  EXPECT_EQ(repeated.exit_code, 0) << again << repeated.output;
 }
 
 TEST_F(SlurmTest, RefusesBeforeAnythingIsSubmitted) {
@@ -81,6 +96,12 @@ TEST_F(SlurmTest, RefusesBeforeAnythingIsSubmitted) {
   EXPECT_EQ(submit("--shards 0").exit_code, 2);
   EXPECT_THAT(submit("--shards 2 --resume").output, HasSubstr("--resume is set for each task"));
   EXPECT_EQ(script("submit", quoted("s.yaml") + "--shards 2").exit_code, 2);
+  EXPECT_EQ(submit("third --shards 2").exit_code, 2);
+  EXPECT_THAT(submit("--shards").output, HasSubstr("--shards needs a value"));
+  EXPECT_THAT(submit("--shards 2 --trows 3").output, HasSubstr("--trows is no option"));
+  EXPECT_THAT(submit("--shards 2 --set sede=3").output, HasSubstr("sede is not a known key"));
+  EXPECT_THAT(submit("--shards 2 --set throw.size_m=0.2 --set stop.half_width=0.1").output,
+              HasSubstr("has the key stop, and so no shards"));
   fs::create_directories(root_ / "out");
   write("out/thesis.tex", "precious");
   EXPECT_THAT(submit().output, HasSubstr("is not empty and was not made by this script"));

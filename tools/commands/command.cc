@@ -33,13 +33,23 @@ void add_set_option(CLI::App& command, std::vector<std::string>& set) {
       ->allow_extra_args(false);
 }
 
-Setting parse_setting(const std::string& option, const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) {
-    throw ScenarioError(option + " " + text +
-                        ": This must be KEY=VALUE, such as throw.speed_mps=6.");
+std::vector<Setting> parse_settings(const std::string& option,
+                                    const std::vector<std::string>& texts) {
+  std::vector<Setting> settings;
+  for (const std::string& text : texts) {
+    const std::string shown = option + " " + text;
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw ScenarioError(shown + ": This must be KEY=VALUE, such as throw.speed_mps=6.");
+    }
+    if (text.find_first_not_of(" \t\r\n", equals + 1) == std::string::npos) {
+      throw ScenarioError(shown +
+                          ": A value is needed behind =, such as throw.speed_mps=6; ~ stands "
+                          "for none, as if the key were not in the file.");
+    }
+    settings.push_back({text.substr(0, equals), text.substr(equals + 1), shown});
   }
-  return {text.substr(0, equals), text.substr(equals + 1), option + " " + text};
+  return settings;
 }
 
 std::string count_of_throws(int n) { return std::to_string(n) + (n == 1 ? " throw" : " throws"); }

@@ -38,8 +38,10 @@ void add_models_option(CLI::App& command, std::string& models_dir);
 // Adds --set: keys of the scenario given on the command line, as KEY=VALUE.
 void add_set_option(CLI::App& command, std::vector<std::string>& set);
 
-// A setting from KEY=VALUE as it stands behind `option`. Throws ScenarioError without a `=`.
-Setting parse_setting(const std::string& option, const std::string& text);
+// Settings from KEY=VALUE, as they stand behind `option` each. Throws ScenarioError without a `=`
+// or a value.
+std::vector<Setting> parse_settings(const std::string& option,
+                                    const std::vector<std::string>& texts);
 
 // Two lines about precision and recall, without the last line's end.
 std::string truth_text(const EventTruthSums& sums);

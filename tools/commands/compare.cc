@@ -27,7 +27,7 @@ void print_changes(const std::string& heading, const std::vector<ChangedThrow>& 
 // Outcomes by the number of their sweep value: of different values they are never pooled.
 std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& directory) {
   std::map<int, std::vector<ThrowOutcome>> parts;
-  for (ThrowOutcome& outcome : outcomes(CsvTable(directory / "throws.csv"))) {
+  for (ThrowOutcome& outcome : outcomes(read_tables(directory))) {
     const int sweep = outcome.sweep;
     parts[sweep].push_back(std::move(outcome));
   }

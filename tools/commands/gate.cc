@@ -10,8 +10,8 @@
 #include "sim/base/error.h"
 #include "sim/campaign/csv.h"
 #include "sim/config/expand.h"
+#include "sim/config/scenario_changes.h"
 #include "sim/files/output_file.h"
-#include "sim/gate/scenario_changes.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -33,31 +33,45 @@ struct Arguments {
   CampaignOptions options;
 };
 
-GateRules rules_of(const Arguments& arguments, const std::optional<Baseline>& baseline) {
-  GateRules rules = baseline ? baseline->rules : GateRules{};
+GateRules rules_of(const Arguments& arguments) {
+  GateRules rules = rules_or_default(arguments.baseline);
   rules.margin = arguments.margin.value_or(rules.margin);
   rules.confidence = arguments.confidence.value_or(rules.confidence);
   rules.must_equal = arguments.must_equal.value_or(rules.must_equal);
   return rules;
 }
 
+// The tables of a campaign that has not begun.
+CampaignTables blank_tables(const Scenario& scenario) {
+  std::string throws = csv_header(blank_result(case_of(scenario, 0)));
+  std::string objects = csv_header<ObjectRow>();
+  for (int i = 0; i < throw_count(scenario); ++i) {
+    const ThrowResult blank = blank_result(case_of(scenario, i));
+    throws += csv_row(blank);
+    for (const ObjectRow& row : blank.object_rows) objects += csv_row(row);
+  }
+  return {CsvTable(throws, "the scenario's throws"), CsvTable(objects, "the scenario's objects")};
+}
+
 // Other throws cannot be compared one by one: found out before hours of flying.
 void expect_same_throws(const Scenario& scenario, const Baseline& baseline, const fs::path& where) {
-  std::string text = csv_header(blank_result(case_of(scenario, 0)));
-  for (int i = 0; i < throw_count(scenario); ++i) {
-    text += csv_row(blank_result(case_of(scenario, i)));
-  }
-  const auto drawn = outcomes(CsvTable(text, "the scenario's throws"));
-  const auto before = outcomes(baseline.throws);
-  const std::string remedy = "; to make a new baseline of this scenario, add --update.";
+  const auto drawn = outcomes(blank_tables(scenario));
+  const auto before = outcomes(baseline.tables);
+  const auto refuse = [&](const std::string& what) {
+    const std::string now = to_yaml(scenario);
+    const std::string why = now == baseline.scenario
+                                ? "the scenario is the same, but this version throws otherwise"
+                                : scenario_difference(now, baseline.scenario);
+    throw ScenarioError(what + " (" + why +
+                        "); to make a new baseline of this scenario, add --update.");
+  };
   if (drawn.size() != before.size()) {
-    throw ScenarioError("The scenario has " + std::to_string(drawn.size()) + " throws, " +
-                        where.string() + " has " + std::to_string(before.size()) + remedy);
+    refuse("The scenario has " + std::to_string(drawn.size()) + " throws, " + where.string() +
+           " has " + std::to_string(before.size()));
   }
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    if (drawn[i].draw == before[i].draw) continue;
-    throw ScenarioError("Throw " + std::to_string(i) + " is another one (" + drawn[i].label +
-                        ") than in " + where.string() + " (" + before[i].label + ")" + remedy);
+    if (same_throw(drawn[i], before[i])) continue;
+    refuse("Throw " + std::to_string(i) + " is another one than in " + where.string());
   }
 }
 
@@ -83,7 +97,9 @@ std::string verdict_text(const Arguments& arguments, const Scenario& scenario,
   std::ostringstream text;
   const auto changes = scenario_changes(baseline.scenario, to_yaml(scenario));
   if (!changes.empty()) text << "The scenario is not the baseline's:\n";
-  for (const std::string& change : changes) text << "  " << change << "\n";
+  for (const ScenarioChange& change : changes) {
+    text << "  " << change.key << " was " << change.before << ", is " << change.after << "\n";
+  }
   text << comparison_text(verdict.comparison,
                           arguments.baseline.string() + " (commit " + baseline.commit + ")",
                           arguments.options.out.string());
@@ -106,32 +122,60 @@ int update(const Arguments& arguments, const GateRules& rules, const CampaignSum
     return kIncomplete;
   }
   write_baseline(arguments.baseline, arguments.options.out, rules);
-  std::cout << "Baseline: " << arguments.baseline.string() << "\n";
+  std::cout << "Baseline: " << arguments.baseline.string() << " (margin " << rules.margin
+            << ", confidence " << rules.confidence << ", must equal: " << rules.must_equal << ")\n";
   return kOk;
 }
 
-int gate(const Arguments& arguments) {
-  std::vector<Setting> settings;
-  for (const std::string& text : arguments.set) settings.push_back(parse_setting("--set", text));
-  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir, settings);
-  std::optional<Baseline> baseline;
-  if (fs::exists(arguments.baseline)) {
-    baseline.emplace(read_baseline(arguments.baseline));
-  } else if (!arguments.update) {
-    throw ScenarioError("There is no baseline " + arguments.baseline.string() +
-                        "; add --update to make it.");
-  }
+void expect_gateable(const Scenario& scenario, const Arguments& arguments) {
   std::error_code error;
-  if (std::filesystem::equivalent(arguments.baseline, arguments.options.out, error)) {
+  if (fs::equivalent(arguments.baseline, arguments.options.out, error)) {
     throw ScenarioError("--baseline and --out are the same directory, " +
                         arguments.options.out.string() + ".");
   }
   if (sweep_count(scenario) > 1) {
     throw ScenarioError(arguments.scenario +
-                        ": a gate's scenario has no sweep, of which every "
-                        "value flies the same throws.");
+                        ": a gate's scenario has no sweep, of which every value flies the same "
+                        "throws.");
   }
-  const GateRules rules = rules_of(arguments, baseline);
+  if (scenario.stop) {
+    throw ScenarioError(arguments.scenario +
+                        ": a gate's scenario has no key stop, as every throw of the baseline must "
+                        "be flown; --set stop=~ leaves it out.");
+  }
+}
+
+// Nothing if there is none yet, or a broken one that is to be replaced.
+std::optional<Baseline> find_baseline(const Arguments& arguments) {
+  const fs::path& where = arguments.baseline;
+  if (fs::exists(where) && !fs::is_directory(where)) {
+    throw ScenarioError("--baseline " + where.string() + " is not a directory.");
+  }
+  if (!holds_baseline_files(where)) {
+    if (arguments.update) return std::nullopt;
+    throw ScenarioError("There is no baseline in " + where.string() + "; add --update to make it.");
+  }
+  try {
+    return read_baseline(where);
+  } catch (const IoError& error) {
+    if (!is_marked_as_baseline(where)) {
+      throw IoError(where.string() + " is no baseline, and no broken one: " + error.what() +
+                    " Choose another directory, or remove what is there.");
+    }
+    if (!arguments.update) {
+      throw IoError(std::string(error.what()) + " To make the baseline anew, add --update.");
+    }
+    std::cerr << where.string() << " is broken and will be replaced: " << error.what() << "\n";
+    return std::nullopt;
+  }
+}
+
+int gate(const Arguments& arguments) {
+  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir,
+                                          parse_settings("--set", arguments.set));
+  expect_gateable(scenario, arguments);
+  const std::optional<Baseline> baseline = find_baseline(arguments);
+  const GateRules rules = rules_of(arguments);
   if (!arguments.update) expect_same_throws(scenario, *baseline, arguments.baseline);
 
   const CampaignSummary summary = fly_campaign(scenario, arguments.options);
@@ -139,8 +183,7 @@ int gate(const Arguments& arguments) {
   if (arguments.update) return update(arguments, rules, summary);
 
   const fs::path& out = arguments.options.out;
-  const GateVerdict verdict =
-      judge(*baseline, CsvTable(out / "throws.csv"), machine_kind(out), rules);
+  const GateVerdict verdict = judge(*baseline, read_tables(out), machine_kind(out), rules);
   const std::string text = verdict_text(arguments, scenario, *baseline, verdict);
   write_file(arguments.junit.empty() ? out / "junit.xml" : arguments.junit,
              junit_xml(verdict, scenario.name, text));
@@ -189,8 +232,11 @@ void add_gate_command(CLI::App& program, const std::string& command_line, int& e
   command->footer(
       "Compares throw by throw. Exit code 1: the success rate fell by more than the margin with "
       "the\n"
-      "confidence, a throw could not be flown, or bytes changed that must not. Prints the throws\n"
-      "that changed, and how to look at them.\n\n"
+      "confidence, a throw could not be flown or would have hit in only one of the two, or bytes\n"
+      "changed that must not. Prints the throws that changed, and how to look at them. The throws\n"
+      "are the baseline's: other repeats or another seed (--set seed=8) make another baseline, "
+      "with\n"
+      "--update.\n\n"
       "Examples:\n"
       "  dodgesim gate s.yaml --baseline baselines/s --out out/s --update      once\n"
       "  dodgesim gate s.yaml --baseline baselines/s --out out/s --force       after each change");

@@ -51,8 +51,9 @@ void add_merge_command(CLI::App& program, const std::string& command_line, int& 
   target->require_option(1);
   command->add_flag("--force", arguments->options.force, "Overwrite whatever results are in DIR");
   command->footer(
-      "The files are those that one process would have written, byte for byte (but for timing.csv\n"
-      "and manifest.json). A part may be there twice. Parts of different scenarios or versions, "
+      "The tables are those that one process would have written, byte for byte. Only timing.csv,\n"
+      "manifest.json, report.html and results.bin differ, which say how long it took. A part may "
+      "be there twice. Parts of different scenarios or versions, "
       "and\n"
       "throws that went differently, are refused (exit 2); missing throws are listed (exit 3).\n\n"
       "Example:\n"

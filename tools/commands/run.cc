@@ -5,7 +5,9 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 
+#include "sim/base/error.h"
 #include "sim/campaign/progress.h"
 #include "sim/campaign/report.h"
 #include "tools/commands/campaign_options.h"
@@ -53,13 +55,16 @@ void report_errors(const CampaignSummary& summary) {
 
 // What the command line changes about the file, in the order in which it counts.
 std::vector<Setting> settings_of(const Arguments& arguments) {
-  std::vector<Setting> settings;
-  for (const std::string& text : arguments.set) settings.push_back(parse_setting("--set", text));
-  for (const std::string& text : arguments.over) {
-    Setting setting = parse_setting("--over", text);
+  std::vector<Setting> settings = parse_settings("--set", arguments.set);
+  std::set<std::string> swept;
+  for (Setting& setting : parse_settings("--over", arguments.over)) {
+    if (!swept.insert(setting.key).second) {
+      throw ScenarioError(setting.shown + ": " + setting.key +
+                          " is swept already; give all its values in one --over.");
+    }
     setting.key = "sweep." + setting.key;
     if (!setting.value.starts_with("[")) setting.value = "[" + setting.value + "]";
-    settings.push_back(setting);
+    settings.push_back(std::move(setting));
   }
   const auto add_number = [&](const std::string& option, const char* key, const auto& number) {
     if (!number) return;

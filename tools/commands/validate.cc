@@ -18,9 +18,8 @@ struct Arguments {
 };
 
 void validate(const Arguments& arguments) {
-  std::vector<Setting> settings;
-  for (const std::string& text : arguments.set) settings.push_back(parse_setting("--set", text));
-  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir, settings);
+  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir,
+                                          parse_settings("--set", arguments.set));
   try_models(scenario);
   if (arguments.resolved) {
     std::cout << to_yaml(scenario);

@@ -111,7 +111,8 @@ TEST_F(MergeTest, RefusesShardsOfOtherCampaigns) {
   fly_shard("a", 0, 2);
   scenario_.seed = 99;
   fly_shard("b", 1, 2);
-  EXPECT_THAT(refusal<ScenarioError>({"a", "b"}), HasSubstr("holds results of another scenario"));
+  EXPECT_THAT(refusal<ScenarioError>({"a", "b"}),
+              HasSubstr("b holds results of another scenario (seed is 99, not 4)"));
   EXPECT_THROW(merge({"a", "none"}, "out"), IoError);
 }
 

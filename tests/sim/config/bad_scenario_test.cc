@@ -1,6 +1,8 @@
 // Every mistake gives one sentence with file, line, column, key, value and what is allowed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "sim/base/error.h"
 #include "sim/config/scenario.h"
@@ -316,10 +318,14 @@ TEST(BadScenario, LongTextIsCutInTheMessageAtAWholeCharacter) {
   EXPECT_THAT(error, HasSubstr("\"" + std::string(59, 'x') + "...\""));
 }
 
-TEST(BadScenario, AMissingFileAndADirectoryAreNamed) {
+TEST(BadScenario, AMissingFileAndWhatIsNoFileAreRefused) {
   EXPECT_THROW(load_scenario("/no/such/file.yaml", ""), ScenarioError);
   EXPECT_THROW(load_scenario("/", ""), ScenarioError);
   EXPECT_THROW(load_scenario("/dev/zero", ""), ScenarioError);
+  const std::string pipe = testing::TempDir() + "dodgesim_pipe_" + std::to_string(::getpid());
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(load_scenario(pipe, ""), ScenarioError);
+  ::unlink(pipe.c_str());
 }
 
 }  // namespace

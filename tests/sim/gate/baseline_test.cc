@@ -27,6 +27,7 @@ class BaselineTest : public ::testing::Test {
   BaselineTest() {
     fs::create_directories(campaign_);
     write("throws.csv", "throw\n0\n");
+    write("objects.csv", "throw\n0\n");
     write("scenario.resolved.yaml", "seed: 1\n");
     write("table.md", "# t\n");
     write("manifest.json", kManifest);
@@ -42,7 +43,7 @@ class BaselineTest : public ::testing::Test {
 TEST_F(BaselineTest, ReadsBackWhatWasMade) {
   write_baseline(baseline_, campaign_, {0.1, 0.9, "all"});
   const Baseline baseline = read_baseline(baseline_);
-  EXPECT_EQ(baseline.throws.rows(), 1U);
+  EXPECT_EQ(baseline.tables.throws.rows(), 1U);
   EXPECT_EQ(baseline.scenario, "seed: 1\n");
   EXPECT_EQ(baseline.commit, "abc");
   EXPECT_EQ(baseline.rules.margin, 0.1);
@@ -57,10 +58,10 @@ TEST_F(BaselineTest, ReplacesAnEarlierOneAndNothingElse) {
   write_file(baseline_ / "README.md", "why these throws");
   write("throws.csv", "throw\n0\n1\n");
   write_baseline(with_slash, campaign_, {});
-  EXPECT_EQ(read_baseline(baseline_).throws.rows(), 2U);
+  EXPECT_EQ(read_baseline(baseline_).tables.throws.rows(), 2U);
   EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "baselines"), {}), 1)
       << "nothing is left beside it";
-  EXPECT_EQ(std::distance(fs::directory_iterator(baseline_), {}), 5);
+  EXPECT_EQ(std::distance(fs::directory_iterator(baseline_), {}), 6);
 }
 
 TEST_F(BaselineTest, KeepsTheEarlierOneWhenTheCampaignIsBroken) {
@@ -97,6 +98,26 @@ TEST_F(BaselineTest, RefusesWhatCannotBeJudgedBy) {
   EXPECT_THAT(complaint_about({0.1, 0.9, "phisics"}), HasSubstr("gate.must_equal must be nothing"));
   write("throws.csv", "throw\n0\n0\n");
   EXPECT_THAT(complaint_about({}), HasSubstr("throws.csv: throw 0 stands in row 1"));
+}
+
+TEST_F(BaselineTest, IsKnownEvenWhenItIsBroken) {
+  EXPECT_FALSE(holds_baseline_files(baseline_));
+  EXPECT_FALSE(is_marked_as_baseline(baseline_));
+  write_baseline(baseline_, campaign_, {0.1, 0.9, "all"});
+  fs::remove(baseline_ / "throws.csv");
+  EXPECT_THROW(read_baseline(baseline_), IoError);
+  EXPECT_TRUE(holds_baseline_files(baseline_));
+  EXPECT_TRUE(is_marked_as_baseline(baseline_));
+  EXPECT_EQ(rules_or_default(baseline_).must_equal, "all");
+  write_file(baseline_ / "manifest.json", R"({"gate": {"margin": 7, <<<<<<<)");
+  EXPECT_TRUE(is_marked_as_baseline(baseline_));
+  EXPECT_EQ(rules_or_default(baseline_).must_equal, "physics");
+}
+
+TEST_F(BaselineTest, IsNotTakenForACampaign) {
+  write("manifest.json", R"({"campaign": {"scenario": "gate", "command_line": "\"gate\": 1"}})");
+  EXPECT_TRUE(holds_baseline_files(campaign_));
+  EXPECT_FALSE(is_marked_as_baseline(campaign_));
 }
 
 TEST_F(BaselineTest, TellsKindsOfMachinesApart) {

@@ -12,7 +12,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-TEST(CsvTable, reads_cells_by_column) {
+TEST(CsvTable, ReadsCellsByColumn) {
   const CsvTable table("a,b\n1,two\n\"x,\"\"y\"\"\",\n", "t.csv");
   ASSERT_EQ(table.rows(), 2U);
   EXPECT_EQ(table.at(0, "b"), "two");
@@ -22,7 +22,7 @@ TEST(CsvTable, reads_cells_by_column) {
   EXPECT_FALSE(table.has("c"));
 }
 
-TEST(CsvTable, reads_back_what_was_written) {
+TEST(CsvTable, ReadsBackWhatWasWritten) {
   for (const std::string text : {"plain", "", "a,b", "say \"no\"", "\"", ",", "\"\",\""}) {
     const CsvTable table("v,w\n" + csv_cell(text) + "," + csv_cell(text) + "\n", "t.csv");
     EXPECT_EQ(table.at(0, "v"), text);
@@ -30,13 +30,13 @@ TEST(CsvTable, reads_back_what_was_written) {
   }
 }
 
-TEST(CsvTable, takes_line_ends_of_any_kind) {
+TEST(CsvTable, TakesLineEndsOfAnyKind) {
   const CsvTable table("a,b\r\n1,2\r\n3,4", "t.csv");
   ASSERT_EQ(table.rows(), 2U);
   EXPECT_EQ(table.at(1, "b"), "4");
 }
 
-TEST(CsvTable, says_where_a_file_is_broken) {
+TEST(CsvTable, SaysWhereAFileIsBroken) {
   const auto read = [](const char* text) { return [text] { CsvTable(text, "t.csv"); }; };
   EXPECT_THAT(read("a,b\n1\n"),
               ThrowsMessage<IoError>(HasSubstr("t.csv:2: There are 1 cells, not 2.")));
@@ -46,6 +46,12 @@ TEST(CsvTable, says_where_a_file_is_broken) {
   EXPECT_THAT(read("a\nx\"y\n"), ThrowsMessage<IoError>(HasSubstr("within a cell")));
   EXPECT_THAT([] { CsvTable("a\n1\n", "t.csv").at(0, "b"); },
               ThrowsMessage<IoError>(HasSubstr("t.csv has no column \"b\"")));
+  const CsvTable numbers("a,b,c\n-1.5,7,x\n", "t.csv");
+  EXPECT_EQ(numbers.number(0, "a"), -1.5);
+  EXPECT_EQ(numbers.integer(0, "b"), 7);
+  EXPECT_THAT([&] { numbers.integer(0, "a"); },
+              ThrowsMessage<IoError>(HasSubstr("t.csv: a in row 0 is \"-1.5\", not an integer.")));
+  EXPECT_THAT([&] { numbers.number(0, "c"); }, ThrowsMessage<IoError>(HasSubstr("not a number")));
   EXPECT_THROW(CsvTable(std::filesystem::path("/nowhere/throws.csv")), IoError);
 }
 

@@ -8,17 +8,16 @@
 namespace dodgesim {
 namespace {
 
-using testing::csv_of;
 using ::testing::HasSubstr;
-using testing::table_of;
+using testing::tables_of;
 using testing::throw_that;
 
 Baseline baseline_of(const std::string& outcomes) {
-  return {table_of(outcomes), "", GateRules{}, "abc", "one kind"};
+  return {tables_of(outcomes), "", GateRules{}, "abc", "one kind"};
 }
 
 GateVerdict judged(const std::string& before, const std::string& after, GateRules rules = {}) {
-  return judge(baseline_of(before), table_of(after), "one kind", rules);
+  return judge(baseline_of(before), tables_of(after), "one kind", rules);
 }
 
 const GateCheck& check(const GateVerdict& verdict, const std::string& name) {
@@ -28,12 +27,12 @@ const GateCheck& check(const GateVerdict& verdict, const std::string& name) {
   throw std::logic_error("no check " + name);
 }
 
-TEST(Gate, passes_unchanged_throws) {
+TEST(Gate, PassesUnchangedThrows) {
   EXPECT_TRUE(judged("ddhd", "ddhd").passed());
   EXPECT_TRUE(judged("ddhd", "ddhd", {0, 0.95, "all"}).passed());
 }
 
-TEST(Gate, fails_when_the_rate_fell_by_more_than_the_margin) {
+TEST(Gate, FailsWhenTheRateFellByMoreThanTheMargin) {
   const std::string good(40, 'd');
   std::string bad = good;
   bad.replace(0, 10, std::string(10, 'h'));
@@ -45,7 +44,7 @@ TEST(Gate, fails_when_the_rate_fell_by_more_than_the_margin) {
   EXPECT_TRUE(judged(bad, good).passed()) << "to become better is no failure";
 }
 
-TEST(Gate, does_not_fail_by_chance) {
+TEST(Gate, DoesNotFailByChance) {
   const std::string good(40, 'd');
   std::string one_lost = good;
   one_lost[7] = 'h';
@@ -54,7 +53,7 @@ TEST(Gate, does_not_fail_by_chance) {
   EXPECT_EQ(verdict.comparison.lost.size(), 1U);
 }
 
-TEST(Gate, fails_when_it_could_never_fail) {
+TEST(Gate, FailsWhenItCouldNeverFail) {
   const GateRules rate_only{0.05, 0.95, "nothing"};
   const GateVerdict few = judged("dd", "dd", rate_only);
   EXPECT_EQ(check(few, "enough throws").result, GateCheck::Result::kFailed);
@@ -62,7 +61,7 @@ TEST(Gate, fails_when_it_could_never_fail) {
   EXPECT_TRUE(judged("dd", "dd").passed()) << "the bytes can fail";
 }
 
-TEST(Gate, says_how_many_losses_it_takes) {
+TEST(Gate, SaysHowManyLossesItTakes) {
   const std::string good(60, 'd');
   const std::string reason = check(judged(good, good), "enough throws").reason;
   EXPECT_THAT(reason, HasSubstr("with 60 throws the success rate fails from "));
@@ -76,28 +75,47 @@ TEST(Gate, says_how_many_losses_it_takes) {
   EXPECT_FALSE(with_lost(needed));
 }
 
-TEST(Gate, fails_for_other_throws) {
+TEST(Gate, FailsForOtherThrows) {
   ThrowResult other = throw_that(0, 'd');
   other.bearing_deg = 10;
   const GateVerdict verdict =
-      judge(baseline_of("d"), CsvTable(csv_of({other}), "t"), "one kind", {0.05, 0.95, "nothing"});
+      judge(baseline_of("d"), tables_of({other}), "one kind", {0.05, 0.95, "nothing"});
+  EXPECT_THAT(check(verdict, "same throws").reason, HasSubstr("not the baseline's throws"));
   EXPECT_FALSE(verdict.passed());
 }
 
-TEST(Gate, fails_when_a_throw_could_not_be_flown) {
+TEST(Gate, LetsNoThrowEscape) {
+  const std::string good(40, 'd');
+  const auto reason = [&](const std::string& after) {
+    const GateVerdict verdict = judged(good, after, {0.3, 0.95, "nothing"});
+    EXPECT_EQ(check(verdict, "success rate").result, GateCheck::Result::kPassed);
+    return check(verdict, "same throws").result == GateCheck::Result::kFailed
+               ? check(verdict, "same throws").reason
+               : "passed";
+  };
+  EXPECT_EQ(reason(good), "passed");
+  EXPECT_THAT(reason(good.substr(2)),
+              HasSubstr("of the baseline or of this campaign only: 38, 39"));
+  EXPECT_THAT(reason(good + "d"), HasSubstr("of the baseline or of this campaign only: 40"));
+  std::string missed = good;
+  missed[3] = 'm';
+  EXPECT_THAT(reason(missed), HasSubstr("would have hit in the baseline or now, but not both: 3"));
+  EXPECT_FALSE(judged(good, good.substr(2), {0.3, 0.95, "all"}).passed());
+}
+
+TEST(Gate, FailsWhenAThrowCouldNotBeFlown) {
   const GateVerdict verdict = judged("dd", "de");
   EXPECT_FALSE(verdict.passed());
   EXPECT_THAT(check(verdict, "every throw was flown").reason, HasSubstr("1 (flown: killed"));
 }
 
-TEST(Gate, holds_the_bytes_that_must_not_change) {
+TEST(Gate, HoldsTheBytesThatMustNotChange) {
   std::vector<ThrowResult> flown;
   for (int i = 0; i < 20; ++i) flown.push_back(throw_that(i, 'd'));
   flown[1].events_hash = 5;
   const Baseline before = baseline_of(std::string(20, 'd'));
   const auto passed = [&](const char* must_equal) {
-    return judge(before, CsvTable(csv_of(flown), "t"), "one kind", {0.05, 0.95, must_equal})
-        .passed();
+    return judge(before, tables_of(flown), "one kind", {0.05, 0.95, must_equal}).passed();
   };
   EXPECT_TRUE(passed("nothing"));
   EXPECT_TRUE(passed("physics")) << "what the sensor sees is no physics of the throw";
@@ -107,18 +125,32 @@ TEST(Gate, holds_the_bytes_that_must_not_change) {
   EXPECT_FALSE(passed("physics"));
 }
 
-TEST(Gate, does_not_compare_bytes_across_kinds_of_machines) {
+TEST(Gate, HoldsTheBytesOfEveryObject) {
+  ThrowResult flown = throw_that(0, 'd');
+  flown.object_rows.resize(1);
+  const Baseline before = {tables_of({flown}), "", GateRules{}, "abc", "one kind"};
+  const auto passed = [&](const char* must_equal) {
+    return judge(before, tables_of({flown}), "one kind", {0.05, 0.95, must_equal}).passed();
+  };
+  flown.object_rows[0].first_detection_us = 7;
+  EXPECT_TRUE(passed("physics"));
+  EXPECT_FALSE(passed("all"));
+  flown.object_rows[0].none_hit = true;
+  EXPECT_FALSE(passed("physics"));
+}
+
+TEST(Gate, DoesNotCompareBytesAcrossKindsOfMachines) {
   std::vector<ThrowResult> flown = {throw_that(0, 'd')};
   flown[0].none.clearance_m = 1e-9;
   const GateVerdict verdict =
-      judge(baseline_of("d"), CsvTable(csv_of(flown), "t"), "another kind", GateRules{});
+      judge(baseline_of("d"), tables_of(flown), "another kind", GateRules{});
   EXPECT_TRUE(verdict.passed());
   EXPECT_EQ(check(verdict, "same bytes of the physics").result, GateCheck::Result::kLeftOut);
 }
 
-TEST(Gate, writes_junit_that_counts_its_failures) {
+TEST(Gate, WritesJunitThatCountsItsFailures) {
   const std::string xml = junit_xml(judged("dd", "de"), "a <b> & \"c\"", "x < y\x01");
-  EXPECT_THAT(xml, HasSubstr("tests=\"4\" failures=\"1\" skipped=\"0\""));
+  EXPECT_THAT(xml, HasSubstr("tests=\"5\" failures=\"1\" skipped=\"0\""));
   EXPECT_THAT(xml, HasSubstr("classname=\"a &lt;b&gt; &amp; &quot;c&quot;\""));
   EXPECT_THAT(xml, HasSubstr("x &lt; y?"));
   EXPECT_THAT(xml, HasSubstr("<failure message=\"throws that failed: 1 (flown: killed, &quot;by"));

@@ -6,7 +6,7 @@
 
 #include "sim/campaign/csv.h"
 #include "sim/campaign/result.h"
-#include "sim/gate/csv_table.h"
+#include "sim/gate/outcomes.h"
 
 namespace dodgesim::testing {
 
@@ -14,6 +14,7 @@ namespace dodgesim::testing {
 inline ThrowResult throw_that(int index, char outcome) {
   ThrowResult result;
   result.index = index;
+  result.objects = 1;
   result.object = "ball";
   result.size_m = 0.2;
   result.speed_mps = 5 + 0.01 * index;
@@ -35,18 +36,22 @@ inline ThrowResult quiet_flight_that(int index, bool evaded) {
   return result;
 }
 
-inline std::string csv_of(const std::vector<ThrowResult>& results) {
-  std::string text = csv_header<ThrowResult>();
-  for (const ThrowResult& result : results) text += csv_row(result);
-  return text;
+// With several objects, their rows too.
+inline CampaignTables tables_of(const std::vector<ThrowResult>& results) {
+  std::string throws = csv_header<ThrowResult>(), objects = csv_header<ObjectRow>();
+  for (const ThrowResult& result : results) {
+    throws += csv_row(result);
+    for (const ObjectRow& row : result.object_rows) objects += csv_row(row);
+  }
+  return {CsvTable(throws, "throws.csv"), CsvTable(objects, "objects.csv")};
 }
 
-inline CsvTable table_of(const std::string& outcomes) {
+inline CampaignTables tables_of(const std::string& outcomes) {
   std::vector<ThrowResult> results;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     results.push_back(throw_that(static_cast<int>(i), outcomes[i]));
   }
-  return CsvTable(csv_of(results), "throws.csv");
+  return tables_of(results);
 }
 
 }  // namespace dodgesim::testing

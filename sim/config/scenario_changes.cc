@@ -1,4 +1,4 @@
-#include "sim/gate/scenario_changes.h"
+#include "sim/config/scenario_changes.h"
 
 #include <map>
 
@@ -44,22 +44,33 @@ Values values_of(const std::string& yaml) {
 
 }  // namespace
 
-std::vector<std::string> scenario_changes(const std::string& before, const std::string& after) {
+std::vector<ScenarioChange> scenario_changes(const std::string& before, const std::string& after) {
+  const std::string unset = "unset";
   const Values was = values_of(before);
   const Values is = values_of(after);
-  std::vector<std::string> changes;
+  std::vector<ScenarioChange> changes;
   for (const auto& [key, value] : was) {
     const auto now = is.find(key);
-    if (now == is.end()) {
-      changes.push_back(key + " was " + value + ", is not there");
-    } else if (now->second != value) {
-      changes.push_back(key + " was " + value + ", is " + now->second);
+    if (now == is.end() || now->second != value) {
+      changes.push_back({key, value, now == is.end() ? unset : now->second});
     }
   }
   for (const auto& [key, value] : is) {
-    if (was.count(key) == 0) changes.push_back(key + " was not there, is " + value);
+    if (was.count(key) == 0) changes.push_back({key, unset, value});
   }
   return changes;
+}
+
+std::string scenario_difference(const std::string& of, const std::string& from) {
+  const auto changes = scenario_changes(of, from);
+  if (changes.empty()) return "only its name or description differs";
+  const ScenarioChange& first = changes.front();
+  const std::size_t more = changes.size() - 1;
+  std::string text = first.key + " is " + first.before + ", not " + first.after;
+  if (more > 0) text += ", and " + std::to_string(more) + " more key";
+  if (more == 1) text += " differs";
+  if (more > 1) text += "s differ";
+  return text;
 }
 
 }  // namespace dodgesim

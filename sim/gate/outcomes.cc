@@ -1,0 +1,139 @@
+#include "sim/gate/outcomes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The same in throws.csv, where they are the first object's, and objects.csv.
+constexpr const char* kDrawnNumbers[] = {"size_m",          "speed_mps",      "distance_m",
+                                         "bearing_deg",     "aim_offset_m_0", "aim_offset_m_1",
+                                         "spin_radps_0",    "spin_radps_1",   "spin_radps_2",
+                                         "launch_height_m", "launch_us"};
+
+bool yes(const CsvTable& table, std::size_t row, const std::string& column) {
+  return table.at(row, column) == "1";
+}
+
+std::string label_of(const CsvTable& throws, std::size_t row) {
+  const std::string& object = throws.at(row, "object");
+  if (object.empty()) return "quiet flight";
+  char text[100];
+  std::snprintf(text, sizeof text, ", %.3g m/s from %.3g m", throws.number(row, "speed_mps"),
+                throws.number(row, "distance_m"));
+  char size[40];
+  std::snprintf(size, sizeof size, "%.3g m ", throws.number(row, "size_m"));
+  return size + object + text;
+}
+
+DrawnObject drawn(const CsvTable& table, std::size_t row, const char* kind_column) {
+  DrawnObject object{table.at(row, kind_column), {}};
+  for (const char* column : kDrawnNumbers) object.numbers.push_back(table.number(row, column));
+  return object;
+}
+
+// Reads the objects of one throw after the other.
+class Draws {
+ public:
+  explicit Draws(const CampaignTables& campaign) : campaign_(campaign) {}
+
+  std::vector<DrawnObject> of_throw(std::size_t row, int number) {
+    const CsvTable& throws = campaign_.throws;
+    const int count = throws.integer(row, "objects");
+    if (count == 0) return {};
+    if (count == 1) return {drawn(throws, row, "object")};
+    std::vector<DrawnObject> draw;
+    while (next_is_of(number)) draw.push_back(drawn(*campaign_.objects, next_++, "kind"));
+    if (static_cast<int>(draw.size()) == count) return draw;
+    throw IoError(throws.name() + ": throw " + std::to_string(number) + " has " +
+                  std::to_string(count) + " objects, but objects.csv beside it has " +
+                  std::to_string(draw.size()) + " of them.");
+  }
+
+ private:
+  bool next_is_of(int number) {
+    if (!campaign_.objects) return false;
+    const CsvTable& objects = *campaign_.objects;
+    while (next_ < objects.rows() && objects.integer(next_, "throw") < number) ++next_;
+    return next_ < objects.rows() && objects.integer(next_, "throw") == number;
+  }
+
+  const CampaignTables& campaign_;
+  std::size_t next_ = 0;  // row of objects.csv
+};
+
+void judge(const CsvTable& table, std::size_t row, ThrowOutcome& out) {
+  const bool thrown = !out.draw.empty();
+  const bool judged = table.at(row, "none_status") == "ok";  // it is known whether it would hit
+  out.counts = !thrown || !judged || yes(table, row, "none_hit");
+  if (table.at(row, "flown_status") != "ok") {
+    out.what = "error: " + table.at(row, "flown_error");
+  } else if (yes(table, row, "flown_hit")) {
+    out.what = "hit";
+  } else if (yes(table, row, "flown_crashed")) {
+    out.what = "crashed";
+  } else if (!thrown && yes(table, row, "evaded")) {
+    out.what = "evaded nothing";
+  } else {
+    out.what = thrown ? "dodged" : "quiet";
+    out.success = !thrown || judged;
+  }
+}
+
+bool same_number(double a, double b) {
+  constexpr double kTolerance = 1e-9;
+  return std::abs(a - b) <= kTolerance * std::max({1.0, std::abs(a), std::abs(b)});
+}
+
+bool same_object(const DrawnObject& a, const DrawnObject& b) {
+  return a.kind == b.kind && std::equal(a.numbers.begin(), a.numbers.end(), b.numbers.begin(),
+                                        b.numbers.end(), same_number);
+}
+
+}  // namespace
+
+CampaignTables read_tables(const fs::path& directory) {
+  CampaignTables tables{CsvTable(directory / "throws.csv")};
+  const fs::path objects = directory / "objects.csv";
+  if (fs::exists(objects)) tables.objects.emplace(objects);
+  return tables;
+}
+
+bool is_drawn(const std::string& column) {
+  return column == "object" || column == "kind" || column == "objects" ||
+         std::find(std::begin(kDrawnNumbers), std::end(kDrawnNumbers), column) !=
+             std::end(kDrawnNumbers);
+}
+
+std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign) {
+  const CsvTable& throws = campaign.throws;
+  Draws draws(campaign);
+  std::vector<ThrowOutcome> all;
+  for (std::size_t row = 0; row < throws.rows(); ++row) {
+    ThrowOutcome out;
+    out.number = throws.integer(row, "throw");
+    if (!all.empty() && out.number <= all.back().number) {
+      throw IoError(throws.name() + ": throw " + std::to_string(out.number) +
+                    " stands behind throw " + std::to_string(all.back().number) + ".");
+    }
+    if (throws.has("sweep")) out.sweep = throws.integer(row, "sweep");
+    out.label = label_of(throws, row);
+    out.draw = draws.of_throw(row, out.number);
+    judge(throws, row, out);
+    all.push_back(std::move(out));
+  }
+  return all;
+}
+
+bool same_throw(const ThrowOutcome& a, const ThrowOutcome& b) {
+  return std::equal(a.draw.begin(), a.draw.end(), b.draw.begin(), b.draw.end(), same_object);
+}
+
+}  // namespace dodgesim

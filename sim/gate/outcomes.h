@@ -1,0 +1,48 @@
+// What became of the throws of a campaign, from its tables.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/gate/csv_table.h"
+
+namespace dodgesim {
+
+struct CampaignTables {
+  CsvTable throws;
+  std::optional<CsvTable> objects = std::nullopt;  // needed where a throw has several objects
+};
+
+// throws.csv and, if it is there, objects.csv. Throws IoError.
+CampaignTables read_tables(const std::filesystem::path& directory);
+
+// One object of a throw, as drawn before anything flies.
+struct DrawnObject {
+  std::string kind;
+  std::vector<double> numbers;  // size, speed and so on, in the order of the columns
+};
+
+struct ThrowOutcome {
+  int number = 0;
+  int sweep = 0;                  // number of the sweep value
+  std::string label;              // "0.2 m ball, 5.1 m/s from 3.2 m", or "quiet flight"
+  std::vector<DrawnObject> draw;  // empty: nobody threw
+  bool counts = false;            // it would have hit, or nobody threw
+  bool success = false;           // neither hit nor crashed; without a throw, no dodge either
+  std::string what;               // "dodged", "hit", "crashed", "evaded nothing", "error: ..."
+};
+
+// Whether a column of throws.csv or objects.csv says what was drawn.
+bool is_drawn(const std::string& column);
+
+// In the order of the table. Throws IoError if the tables are not those of a campaign: a column or
+// an object of a throw is missing, a number is none, or throws are not in order.
+std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign);
+
+// Whether everything was drawn alike, for all objects: kinds are equal, and numbers within 1e-9 of
+// the larger one (of 1, if that is more), because their last digits depend on the machine's libm.
+bool same_throw(const ThrowOutcome& a, const ThrowOutcome& b);
+
+}  // namespace dodgesim

@@ -1,0 +1,160 @@
+// The regression gate and the comparison, as their users run them, with throws that nobody dodges.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/cli/program.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using dodgesim::testing::dodgesim;
+using dodgesim::testing::Outcome;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class GateCommandTest : public testing::Test {
+ protected:
+  GateCommandTest() {
+    fs::create_directories(root_);
+    write("s.yaml",
+          "seed: 3\nrepeats: 3\npilot: none\nfly_oracle: false\nafter_s: 0.1\n"
+          "throws: [{launch_s: 0.1}, {count: 2, speed_mps: !uniform [5, 8]}]\n");
+  }
+  ~GateCommandTest() override { fs::remove_all(root_); }
+
+  std::string path(const std::string& name) const { return (root_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(root_ / name) << text;
+  }
+  std::string contents(const std::string& name) const {
+    std::ifstream file(root_ / name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+  Outcome gate(const std::string& options = "") const {
+    return dodgesim("gate " + path("s.yaml") + " --baseline " + path("b") + " --out " +
+                    path("out") + " --force " + options);
+  }
+  // The text of `file` with `from` replaced.
+  void edit(const std::string& file, const std::string& from, const std::string& to) const {
+    std::string text = contents(file);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    write(file, text.replace(at, from.size(), to));
+  }
+
+  fs::path root_ = fs::temp_directory_path() / ("dodgesim_gate_" + std::to_string(::getpid()));
+};
+
+TEST_F(GateCommandTest, PassesWhatItHasMade) {
+  EXPECT_THAT(gate().output, HasSubstr("There is no baseline in " + path("b")));
+  const Outcome made = gate("--update --must-equal all");
+  EXPECT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_THAT(made.output, HasSubstr("(margin 0.05, confidence 0.95, must equal: all)"));
+  const Outcome again = gate("-j 2");
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_THAT(again.output,
+              AllOf(HasSubstr("passed: same throws\n"), HasSubstr("passed: same bytes\n")));
+}
+
+TEST_F(GateCommandTest, NamesTheKeyThatMakesOtherThrows) {
+  ASSERT_EQ(gate("--update").exit_code, 0);
+  const Outcome seed = gate("--set seed=4");
+  EXPECT_EQ(seed.exit_code, 2);
+  EXPECT_THAT(seed.output,
+              HasSubstr("Throw 0 is another one than in " + path("b") + " (seed is 4, not 3); "));
+  EXPECT_THAT(gate("--set repeats=4").output,
+              HasSubstr("4 throws, " + path("b") + " has 3 (repeats is 4, not 3)"));
+  EXPECT_THAT(gate("--set stop.half_width=0.2").output,
+              HasSubstr("a gate's scenario has no key stop"));
+  EXPECT_EQ(gate("--set stop.half_width=0.2 --set stop=~").exit_code, 0);
+}
+
+TEST_F(GateCommandTest, NoticesAnotherSecondObject) {
+  ASSERT_EQ(gate("--update").exit_code, 0);
+  edit("b/objects.csv", "\n0,2,ball,0.2,", "\n0,2,ball,0.21,");
+  EXPECT_THAT(gate().output, HasSubstr("Throw 0 is another one than in " + path("b") +
+                                       " (the scenario is the same"));
+  fs::remove(root_ / "b/objects.csv");
+  EXPECT_THAT(gate().output, HasSubstr("throw 0 has 3 objects, but objects.csv beside it has 0"));
+}
+
+// As if another libm had rounded a throw's speed; the baseline is of another machine, then.
+TEST_F(GateCommandTest, PairsThrowsOfAnotherLibm) {
+  ASSERT_EQ(gate("--update").exit_code, 0);
+  edit("b/throws.csv", ",6,3,", ",6.0000000000000009,2.9999999999999996,");
+  edit("b/manifest.json", "\"compiler\": \"", "\"compiler\": \"other ");
+  const Outcome outcome = gate();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("left out: same bytes of the physics"));
+}
+
+TEST_F(GateCommandTest, UpdateReplacesABrokenBaseline) {
+  ASSERT_EQ(gate("--update --margin 0.1").exit_code, 0);
+  write("b/notes.txt", "why");
+  fs::resize_file(root_ / "b/throws.csv", fs::file_size(root_ / "b/throws.csv") - 40);
+  const Outcome broken = gate();
+  EXPECT_EQ(broken.exit_code, 4);
+  EXPECT_THAT(broken.output, AllOf(HasSubstr("throws.csv:4: There are"),
+                                   HasSubstr("To make the baseline anew, add --update.")));
+  const Outcome repaired = gate("--update");
+  EXPECT_EQ(repaired.exit_code, 0) << repaired.output;
+  EXPECT_THAT(repaired.output, AllOf(HasSubstr(path("b") + " is broken and will be replaced: "),
+                                     HasSubstr("(margin 0.1, ")));
+  EXPECT_EQ(gate().exit_code, 0);
+  EXPECT_EQ(contents("b/notes.txt"), "why");
+
+  edit("b/manifest.json", "\"commit\"", "\"comet\"");
+  EXPECT_EQ(gate().exit_code, 4);
+  EXPECT_EQ(gate("--update").exit_code, 0);
+  EXPECT_EQ(gate().exit_code, 0);
+}
+
+TEST_F(GateCommandTest, UpdateNeverWritesOverWhatIsNoBaseline) {
+  ASSERT_EQ(gate("--update").exit_code, 0);
+  fs::rename(root_ / "out", root_ / "campaign");
+  const std::string manifest = contents("campaign/manifest.json");
+  fs::remove_all(root_ / "b");
+  fs::rename(root_ / "campaign", root_ / "b");
+  const Outcome refused = gate("--update");
+  EXPECT_EQ(refused.exit_code, 4);
+  EXPECT_THAT(refused.output, HasSubstr(path("b") + " is no baseline, and no broken one: "));
+  EXPECT_EQ(contents("b/manifest.json"), manifest);
+  EXPECT_FALSE(fs::exists(root_ / "out")) << "nothing is flown in vain";
+}
+
+TEST_F(GateCommandTest, DoesNotWaitForPipes) {
+  ASSERT_EQ(::mkfifo(path("b").c_str(), 0600), 0);
+  EXPECT_THAT(gate("--update").output, HasSubstr(path("b") + " is not a directory."));
+  fs::remove(root_ / "b");
+  ASSERT_EQ(gate("--update").exit_code, 0);
+  fs::remove(root_ / "b/throws.csv");
+  ASSERT_EQ(::mkfifo(path("b/throws.csv").c_str(), 0600), 0);
+  EXPECT_THAT(gate().output, HasSubstr("b/throws.csv is not a regular file."));
+  EXPECT_EQ(gate("--update").exit_code, 0);
+  EXPECT_EQ(gate().exit_code, 0);
+  fs::remove(root_ / "s.yaml");
+  ASSERT_EQ(::mkfifo(path("s.yaml").c_str(), 0600), 0);
+  const Outcome outcome = gate();
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("s.yaml: This is not a regular file"));
+}
+
+TEST_F(GateCommandTest, CompareSaysWhichThrowsItLeavesOut) {
+  const std::string run = "run " + path("s.yaml") + " --out ";
+  ASSERT_EQ(dodgesim(run + path("three")).exit_code, 0);
+  ASSERT_EQ(dodgesim(run + path("two") + " --throws 2").exit_code, 0);
+  const Outcome outcome = dodgesim("compare " + path("three") + " " + path("two"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("of the same throws"),
+                                    HasSubstr("because only one campaign has them: throws 2\n")));
+}
+
+}  // namespace

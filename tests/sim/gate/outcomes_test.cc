@@ -1,0 +1,130 @@
+#include "sim/gate/outcomes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "sim/base/error.h"
+#include "tests/sim/gate/outcomes_fixture.h"
+
+namespace dodgesim {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::quiet_flight_that;
+using testing::tables_of;
+using testing::throw_that;
+using ::testing::ThrowsMessage;
+
+ObjectRow object_row(int throw_index, int object) {
+  ObjectRow row;
+  row.throw_index = throw_index;
+  row.object = object;
+  row.kind = "ball";
+  row.speed_mps = 5 + object;
+  row.bearing_deg = -11.25;
+  return row;
+}
+
+ThrowResult throw_of_two(int index) {
+  ThrowResult result = throw_that(index, 'd');
+  result.objects = 2;
+  result.object_rows = {object_row(index, 0), object_row(index, 1)};
+  return result;
+}
+
+bool same(const ThrowResult& a, const ThrowResult& b) {
+  return same_throw(outcomes(tables_of({a})).at(0), outcomes(tables_of({b})).at(0));
+}
+
+TEST(Outcomes, SayWhatBecameOfAThrow) {
+  const auto all = outcomes(tables_of("dhcem"));
+  ASSERT_EQ(all.size(), 5U);
+  EXPECT_EQ(all[0].what, "dodged");
+  EXPECT_EQ(all[1].what, "hit");
+  EXPECT_EQ(all[2].what, "crashed");
+  EXPECT_EQ(all[3].what, "error: killed, \"by\" signal 9");
+  for (const ThrowOutcome& t : all) {
+    EXPECT_EQ(t.success, t.number == 0 || t.number == 4) << t.number;
+    EXPECT_EQ(t.counts, t.number != 4) << "a throw that would have missed counts for nothing";
+  }
+  EXPECT_EQ(all[1].label, "0.2 m ball, 5.01 m/s from 3 m");
+}
+
+TEST(Outcomes, OfQuietFlightsFailByEvading) {
+  const auto all = outcomes(tables_of({quiet_flight_that(0, false), quiet_flight_that(1, true)}));
+  EXPECT_TRUE(all[0].counts && all[0].success);
+  EXPECT_TRUE(all[1].counts && !all[1].success);
+}
+
+TEST(Outcomes, RefuseTablesThatAreNotOfACampaign) {
+  const auto refusal = [](const CampaignTables& tables) { return [tables] { outcomes(tables); }; };
+  CampaignTables tables = tables_of({throw_that(1, 'd'), throw_that(0, 'd')});
+  EXPECT_THAT(refusal(tables),
+              ThrowsMessage<IoError>(HasSubstr("throws.csv: throw 0 stands behind throw 1.")));
+  EXPECT_THROW(outcomes(tables_of({throw_that(0, 'd'), throw_that(0, 'd')})), IoError);
+  tables = tables_of({throw_of_two(0)});
+  tables.objects.reset();
+  EXPECT_THAT(
+      refusal(tables),
+      ThrowsMessage<IoError>(HasSubstr("throw 0 has 2 objects, but objects.csv beside it has 0")));
+}
+
+TEST(SameThrow, IsWhateverBecomesOfIt) {
+  EXPECT_TRUE(same(throw_that(0, 'd'), throw_that(0, 'm')));
+}
+
+TEST(SameThrow, DependsOnEverythingThatWasDrawn) {
+  const std::function<void(ThrowResult&)> changes[] = {
+      [](ThrowResult& t) { t.object = "box"; },
+      [](ThrowResult& t) { t.size_m += 1e-6; },
+      [](ThrowResult& t) { t.speed_mps += 1e-6; },
+      [](ThrowResult& t) { t.distance_m += 1e-6; },
+      [](ThrowResult& t) { t.bearing_deg += 1e-6; },
+      [](ThrowResult& t) { t.aim_offset_m[1] += 1e-6; },
+      [](ThrowResult& t) { t.spin_radps[2] += 1e-6; },
+      [](ThrowResult& t) { t.launch_height_m += 1e-6; },
+      [](ThrowResult& t) { t.launch_us += 1; },
+      [](ThrowResult& t) { t = throw_of_two(0); },
+      [](ThrowResult& t) { t = quiet_flight_that(0, false); }};
+  for (const auto& change : changes) {
+    ThrowResult other = throw_that(0, 'd');
+    change(other);
+    EXPECT_FALSE(same(throw_that(0, 'd'), other)) << &change - changes;
+  }
+}
+
+TEST(SameThrow, DependsOnEveryObject) {
+  EXPECT_TRUE(same(throw_of_two(0), throw_of_two(0)));
+  ThrowResult other = throw_of_two(0);
+  other.object_rows[1].bearing_deg += 1e-6;
+  EXPECT_FALSE(same(throw_of_two(0), other));
+  other = throw_of_two(0);
+  other.object_rows[1].kind = "box";
+  EXPECT_FALSE(same(throw_of_two(0), other));
+}
+
+TEST(SameThrow, ReadsTheObjectsOfEachThrow) {
+  ThrowResult other = throw_of_two(2);
+  other.object_rows[0].size_m += 1;
+  const auto a = outcomes(tables_of({throw_of_two(0), throw_that(1, 'd'), throw_of_two(2)}));
+  const auto b = outcomes(tables_of({throw_of_two(0), throw_that(1, 'd'), other}));
+  EXPECT_TRUE(same_throw(a[0], b[0]));
+  EXPECT_TRUE(same_throw(a[1], b[1]));
+  EXPECT_FALSE(same_throw(a[2], b[2]));
+}
+
+// As another libm rounds.
+TEST(SameThrow, DoesNotDependOnTheLastDigits) {
+  ThrowResult a = throw_of_two(0), b = throw_of_two(0);
+  b.speed_mps = std::nextafter(a.speed_mps, 10);
+  a.aim_offset_m[0] = 1e-17;  // what is left of a difference
+  b.aim_offset_m[0] = -3e-17;
+  b.object_rows[1].bearing_deg = std::nextafter(a.object_rows[1].bearing_deg, 0);
+  EXPECT_TRUE(same(a, b));
+}
+
+}  // namespace
+}  // namespace dodgesim
