@@ -178,7 +178,6 @@ CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& op
     summary.results.resize(index.throws.size());
     return summary;
   }
-  if (stop) summary.stop_text = stop->text();
   write_result_files(options.out, scenario, index, options.truth, summary);
   summary.wall_s = seconds_since(begin);
   write_file(options.out / "manifest.json", manifest_json(scenario, options, summary, started));

@@ -43,7 +43,6 @@ struct CampaignOptions {
 struct CampaignSummary {
   std::vector<ThrowResult> results;  // in throw order, without their detections
   int wanted = 0;                    // throws of the shard; more than results if it was stopped
-  std::string stop_text;             // what the scenario's key stop has done; empty without it
   std::string table;                 // Markdown
   int errors = 0;                    // throws of which a flight failed
   EventTruthSums truth;              // of all throws, when their results have it

@@ -131,9 +131,11 @@ Json columns_of(const std::vector<ThrowResult>& results, const Axes& axes) {
   return columns.take();
 }
 
-// [count, of, lo, hi]
+// [count, of, lo, hi], and the name of the interval if it is not Wilson's
 Json rate_of(const Rate& rate) {
-  return {rate.count, rate.of, rate.interval().lo, rate.interval().hi};
+  Json json = {rate.count, rate.of, rate.interval().lo, rate.interval().hi};
+  if (rate.sequential) json.push_back(rate.interval_name());
+  return json;
 }
 
 // What the charts show of one pilot.
@@ -200,7 +202,7 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
     computing_s += result.wall_s;
     if (result.flown.failed()) errors[std::to_string(result.index)] = result.flown.error;
   }
-  const std::vector<Part> parts = parts_of(results, scenario.pilot);
+  const std::vector<Part> parts = parts_of(campaign);
   Json sections = Json::array();
   for (const Part& part : parts) sections.push_back(section_of(part, axes));
   Json causes = Json::array(), flags = Json::object();
@@ -212,6 +214,7 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
           {"seed", std::to_string(scenario.seed)},
           {"program", "dodgesim " + campaign.program},
           {"wanted", throw_count(scenario)},
+          {"stop", campaign.stop ? campaign.stop->text() : ""},
           {"replay", "dodgesim replay " + quoted(directory) + " --throw "},
           {"real_time_factor", computing_s > 0 ? simulated_s / computing_s : 0.0},
           {"sizes", axes.size.values()},

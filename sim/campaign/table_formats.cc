@@ -187,6 +187,7 @@ CsvRow csv_row_of(const StatisticsTable& table, const StatisticsTable::Row& row,
   csv.count("would_have_hit", of.tally.would_have_hit);
   csv.count("dodged", of.tally.dodged);
   csv.rate("rate", of.tally.success());
+  csv.text("rate_interval", of.tally.success().interval_name());
   csv.count("errors", of.tally.errors);
   csv.count("flights", of.tally.collisions.of);
   csv.count("collisions", of.tally.collisions.count);
@@ -212,7 +213,8 @@ Json json_of(const Rate& rate) {
           {"of", rate.of},
           {"rate", json_number(rate.value())},
           {"lo", rate.interval().lo},
-          {"hi", rate.interval().hi}};
+          {"hi", rate.interval().hi},
+          {"interval", rate.interval_name()}};
 }
 
 Json json_of(const Sample& sample) {

@@ -45,7 +45,7 @@ StatisticsTable all_cells(const Part& part, const Axes& axes) {
   append(part, {axes.size}, table);
   append(part, {axes.distance}, table);
   append(part, {axes.speed}, table);
-  table.rows.push_back({{"all", "all", "all"}, statistics_of(part.results, part.pilot)});
+  table.rows.push_back({{"all", "all", "all"}, statistics_of(part)});
   return table;
 }
 
@@ -221,17 +221,19 @@ std::string markdown_of(const Part& part, const Axes& axes, const StatisticsTabl
 
 }  // namespace
 
-Tables make_tables(const std::vector<ThrowResult>& results, const std::string& title,
-                   const std::string& pilot) {
+Tables make_tables(const LoadedCampaign& campaign) {
+  const std::vector<ThrowResult>& results = campaign.results;
   Tables tables;
-  tables.markdown = "# " + title + "\n\n" +
+  tables.markdown = "# " + campaign.scenario.name + "\n\n" +
                     count_text(static_cast<std::int64_t>(results.size()), "throw") + ", pilot " +
-                    pilot + ". Cells: dodged / would have hit (rate, 95 % Wilson interval); for " +
+                    campaign.scenario.pilot +
+                    ". Cells: dodged / would have hit (rate, 95 % Wilson interval); for " +
                     "the pilot none: would have hit / throws.\n\n";
+  if (campaign.stop) tables.markdown += campaign.stop->text() + "\n\n";
   const Axes axes = {Axis("size_m", results), Axis("distance_m", results),
                      Axis("speed_mps", results)};
   StatisticsTable all;
-  for (const Part& part : parts_of(results, pilot)) {
+  for (const Part& part : parts_of(campaign)) {
     const StatisticsTable table = all_cells(part, axes);
     tables.markdown += markdown_of(part, axes, table);
     StatisticsTable swept = of_sweep(part, table);

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "sim/campaign/result.h"
+#include "sim/campaign/load_campaign.h"
 
 namespace dodgesim {
 
@@ -13,9 +12,7 @@ struct Tables {
   std::string csv;  // to_csv() of statistics_table.h by size, distance, both, and speed
 };
 
-// `results` in throw order; `title` and `pilot` are the scenario's. Values of the sweep stand
-// apart.
-Tables make_tables(const std::vector<ThrowResult>& results, const std::string& title,
-                   const std::string& pilot);
+// Values of the sweep stand apart.
+Tables make_tables(const LoadedCampaign& campaign);
 
 }  // namespace dodgesim

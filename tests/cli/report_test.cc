@@ -82,4 +82,23 @@ TEST_F(ReportCommandTest, ReportAndTableReadADirectory) {
   EXPECT_EQ(dodgesim("table " + path("nowhere")).exit_code, 4);
 }
 
+// 20 of 200 throws are enough for so wide an interval.
+TEST_F(ReportCommandTest, ACampaignThatStopEndedIsWhole) {
+  const Outcome run = dodgesim("run " + path("s.yaml") + " -j 1 --out " + path("early") +
+                               " --throws 200 --set 'stop={half_width: 0.3}'");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  const Outcome table = dodgesim("table " + path("early"));
+  EXPECT_EQ(table.exit_code, 0) << table.output;
+  EXPECT_THAT(table.output, HasSubstr("sequential 95 %"));
+  EXPECT_THAT(table.output, testing::ContainsRegex("ended by stop after [0-9]+ of at most 200"));
+  const Outcome report = dodgesim("report " + path("early"));
+  EXPECT_EQ(report.exit_code, 0) << report.output;
+  const Outcome check = dodgesim("merge --check " + path("early"));
+  EXPECT_EQ(check.exit_code, 0) << check.output;
+  const Outcome page = browse(path("early/report.html"));
+  EXPECT_THAT(page.output, Not(HasSubstr(":CONSOLE:"))) << page.output.substr(0, 4000);
+  EXPECT_THAT(page.output, HasSubstr("<p id=\"stop\">Ended by stop after "));
+  EXPECT_THAT(page.output, HasSubstr(", sequential 95 %</span>"));
+}
+
 }  // namespace

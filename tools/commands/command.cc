@@ -1,8 +1,10 @@
 #include "tools/commands/command.h"
 
 #include <cstdio>
+#include <iostream>
 
 #include "sim/base/error.h"
+#include "sim/campaign/load_campaign.h"
 
 namespace dodgesim {
 
@@ -40,6 +42,19 @@ Setting parse_setting(const std::string& option, const std::string& text) {
                         ": This must be KEY=VALUE, such as throw.speed_mps=6.");
   }
   return {text.substr(0, equals), text.substr(equals + 1), option + " " + text};
+}
+
+int completeness(const std::string& directory, const LoadedCampaign& campaign) {
+  const std::string all = count_of_throws(throw_count(campaign.scenario));
+  if (!campaign.complete()) {
+    std::cerr << directory << " has " << campaign.results.size() << " of " << all << " only.\n";
+    return kIncomplete;
+  }
+  if (campaign.ended_early()) {
+    std::cerr << directory << " was ended by stop after " << campaign.wanted() << " of at most "
+              << all << ".\n";
+  }
+  return kOk;
 }
 
 std::string count_of_throws(int n) { return std::to_string(n) + (n == 1 ? " throw" : " throws"); }

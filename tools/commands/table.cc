@@ -28,7 +28,7 @@ std::string formatted(const StatisticsTable& table, const std::string& format) {
 
 int table(const Arguments& arguments) {
   const LoadedCampaign campaign = load_campaign(arguments.directory);
-  const std::vector<Part> parts = parts_of(campaign.results, campaign.scenario.pilot);
+  const std::vector<Part> parts = parts_of(campaign);
   std::vector<Axis> axes;
   for (const std::string& key : arguments.by) {
     // What is swept stands apart in any case.
@@ -44,10 +44,7 @@ int table(const Arguments& arguments) {
   } else {
     write_file(arguments.out, text);
   }
-  if (campaign.complete()) return kOk;
-  std::cerr << arguments.directory << " has " << campaign.results.size() << " of "
-            << count_of_throws(throw_count(campaign.scenario)) << " only.\n";
-  return kIncomplete;
+  return completeness(arguments.directory, campaign);
 }
 
 }  // namespace

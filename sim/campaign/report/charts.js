@@ -10,11 +10,12 @@ function svg(tag, attributes = {}, ...children) {
   return element;
 }
 
-// A rate is [count, of, lo, hi].
+// A rate is [count, of, lo, hi], with the name of its interval if that is not Wilson's.
 const rateOf = ([count, of]) => (of ? count / of : NaN);
 const two = (x) => x.toFixed(2);
+const intervalText = ([, , lo, hi, name]) => `${two(lo)} to ${two(hi)}${name ? `, ${name}` : ''}`;
 const rateText = (rate) =>
-    rate[1] ? `${two(rateOf(rate))} (${rate[0]} of ${rate[1]}, ${two(rate[2])} to ${two(rate[3])})`
+    rate[1] ? `${two(rateOf(rate))} (${rate[0]} of ${rate[1]}, ${intervalText(rate)})`
             : 'no throws';
 
 // Makes an element act as a button.

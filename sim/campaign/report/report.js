@@ -48,6 +48,7 @@ const number = (x, digits = 2) => (Number.isFinite(x) ? x.toFixed(digits) : '-')
 function fillHead() {
   byId('title').textContent = data.title;
   byId('description').textContent = data.description;
+  byId('stop').textContent = data.stop;
   const facts = [['Pilot', data.pilot], ['Throws', `${count} of ${data.wanted}`],
                  ['Seed', data.seed], ['Program', data.program]];
   for (const [term, value] of facts) {
@@ -71,8 +72,8 @@ function fillFigures() {
       {className: 'figure', title: rateText(rate)}, make('span', {textContent: name}),
       make('b', {textContent: number(rateOf(rate))}),
       make('span', {className: 'muted',
-                    textContent: rate[1] ? `${rate[0]} of ${rate[1]}; ${two(rate[2])} to ${
-                        two(rate[3])}` : 'no throws'}))));
+                    textContent: rate[1] ? `${rate[0]} of ${rate[1]}; ${intervalText(rate)}` :
+                                             'no throws'}))));
 }
 
 function fillHeat() {

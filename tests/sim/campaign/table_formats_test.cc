@@ -56,8 +56,9 @@ TEST(GroupBy, KeepsValuesOfASweepApart) {
 TEST(TableFormats, CsvHasEqualColumnsAndEmptyCellsForTheUnknown) {
   const std::vector<std::string> rows = lines(to_csv(table()));
   ASSERT_EQ(rows.size(), 1 + 3 * 2u);
-  EXPECT_THAT(rows[0], testing::StartsWith("object,size_m,pilot,throws,would_have_hit,dodged,rate,"
-                                           "rate_lo,rate_hi,errors,flights,collisions,"));
+  EXPECT_THAT(rows[0],
+              testing::StartsWith("object,size_m,pilot,throws,would_have_hit,dodged,rate,"
+                                  "rate_lo,rate_hi,rate_interval,errors,flights,collisions,"));
   const auto commas = std::count(rows[0].begin(), rows[0].end(), ',');
   for (std::size_t i = 3; i < rows.size(); ++i) {
     EXPECT_EQ(std::count(rows[i].begin(), rows[i].end(), ','), commas) << rows[i];

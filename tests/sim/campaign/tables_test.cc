@@ -20,7 +20,10 @@ ThrowResult throw_with(int index, const FlightResult& pilot, const FlightResult&
 }
 
 Tables tables(const std::vector<ThrowResult>& results) {
-  return make_tables(results, "test", "falanga2020");
+  LoadedCampaign campaign;
+  campaign.scenario.name = "test";
+  campaign.results = results;
+  return make_tables(campaign);
 }
 
 TEST(Tables, MarkdownAndCsvAreAsExpected) {
@@ -83,8 +86,9 @@ All throws. Median (10 % to 90 % quantile), count.
 Of 1 throw that would have missed, falanga2020 evaded 1 and was hit by 0.
 
 )");
-  EXPECT_THAT(made.csv, testing::StartsWith("size_m,distance_m,speed_mps,pilot,throws,"
-                                            "would_have_hit,dodged,rate,rate_lo,rate_hi,errors,"));
+  EXPECT_THAT(made.csv, testing::StartsWith(
+                            "size_m,distance_m,speed_mps,pilot,throws,"
+                            "would_have_hit,dodged,rate,rate_lo,rate_hi,rate_interval,errors,"));
   EXPECT_THAT(made.csv, HasSubstr("\n0.1,2,all,falanga2020,2,1,1,1,"));
   EXPECT_THAT(made.csv, HasSubstr("\nall,all,all,falanga2020,3,2,1,0.5,"));
   EXPECT_THAT(made.csv, HasSubstr("\nall,all,4,none,3,2,0,0,"));
