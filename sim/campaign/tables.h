@@ -9,7 +9,7 @@ namespace dodgesim {
 
 struct Tables {
   std::string markdown;
-  std::string csv;  // to_csv() of statistics_table.h by size, distance, both, and speed
+  std::string csv;  // to_csv() of statistics_table.h by size, distance, both, speed and cell
 };
 
 // Values of the sweep stand apart.

@@ -77,7 +77,7 @@ void Tally::add(const FlightResult& flight, const FlightResult& none) {
   if (none.ok() && flight.unharmed()) ++dodged;
 }
 
-std::optional<QuantileEstimate> Sample::quantile(double share) const {
+std::optional<QuantileEstimate> Measured::quantile(double share) const {
   std::vector<double> sorted = values_;
   std::sort(sorted.begin(), sorted.end());
   return estimate_quantile(sorted, share);

@@ -55,7 +55,7 @@ struct Tally {
 };
 
 // Numbers of throws that lie on a line, such as the clearance.
-class Sample {
+class Measured {
  public:
   void add(std::optional<double> value) {
     if (value) values_.push_back(*value);
@@ -71,7 +71,7 @@ class Sample {
 struct PilotStatistics {
   std::string pilot;
   Tally tally;
-  Sample clearance_m;  // 0 when it was hit
+  Measured clearance_m;  // 0 when it was hit
 };
 
 struct ThrowStatistics {
@@ -82,12 +82,12 @@ struct ThrowStatistics {
   Rate detected;                      // of the throws that came into view
   Rate false_alarms;                  // of all flights: evaded before it had detected an object
   std::map<std::string, int> causes;  // of its hits and crashes
-  Sample detection_distance_m;        // of the first detection of a true object
-  Sample time_to_contact_s;           // from there, if nobody dodged
+  Measured detection_distance_m;      // of the first detection of a true object
+  Measured time_to_contact_s;         // from there, if nobody dodged
   // The latency chain of the first detection: from the first moment in view to its output, from
   // the instant that it speaks of to its output, from there to the first evasive command at the
   // flight controller.
-  Sample view_to_detection_s, image_to_detection_s, detection_to_command_s;
+  Measured view_to_detection_s, image_to_detection_s, detection_to_command_s;
 
   const PilotStatistics& flown() const { return pilots.front(); }
 };
@@ -95,7 +95,7 @@ struct ThrowStatistics {
 // The samples with the names that they have in tables.
 struct NamedSample {
   const char* name;
-  Sample ThrowStatistics::*sample;
+  Measured ThrowStatistics::*sample;
 };
 inline constexpr NamedSample kSamples[] = {
     {"detection_distance_m", &ThrowStatistics::detection_distance_m},
