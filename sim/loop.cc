@@ -43,13 +43,13 @@ BodyState undisturbed_vehicle(const Scenario& scenario, int throw_index, TimeUs 
 
 // A throw from behind a wall is a mistake of the scenario, not a miss.
 void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_W,
-                           const Eigen::Vector3d& launch_p_W, int throw_index) {
+                           const Eigen::Vector3d& launch_p_W) {
   const Eigen::Vector3d ray_W = launch_p_W - vehicle_p_W;
   const std::optional<RoomHit> hit = room_along(world, vehicle_p_W, ray_W);
   if (!hit || hit->distance >= 1) return;
   std::ostringstream message;
-  message << "Throw " << throw_index << " starts at (" << launch_p_W.x() << ", " << launch_p_W.y()
-          << ", " << launch_p_W.z() << ") m, behind the room's \"" << geom_name(world, hit->geom)
+  message << "The throw starts at (" << launch_p_W.x() << ", " << launch_p_W.y() << ", "
+          << launch_p_W.z() << ") m, behind the room's \"" << geom_name(world, hit->geom)
           << "\": reduce throw.distance_m or move mission.start_m.";
   throw ScenarioError(message.str());
 }
@@ -69,7 +69,7 @@ FlightResult summary(const FlightRecord& record, bool thrown) {
   return result;
 }
 
-FlightResult failure(const SimulationError& error) {
+FlightResult failure(const std::exception& error) {
   FlightResult result;
   result.status = "error";
   result.error = error.what();
@@ -146,7 +146,7 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
     const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
     const double heading_rad = std::atan2(x_W.y(), x_W.x());
     launch.state = solve_throw(toss, world.object(object++), vehicle.p_W, heading_rad);
-    check_launch_in_sight(world, vehicle.p_W, launch.state.p_W, throw_index);
+    check_launch_in_sight(world, vehicle.p_W, launch.state.p_W);
     plan.end_us =
         std::max(plan.end_us, round_to_tick(toss.arrival_us() + microseconds(scenario.after_s)));
   }
@@ -160,7 +160,7 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
   FlightPlan plan;
   try {
     plan = plan_throw(scenario, thrown.stream);
-  } catch (const SimulationError& error) {
+  } catch (const std::runtime_error& error) {  // also a ScenarioError: one draw may be impossible
     result.flown = failure(error);
     return result;
   }

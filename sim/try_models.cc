@@ -1,11 +1,15 @@
 #include "sim/try_models.h"
 
+#include <array>
+#include <cinttypes>
+#include <cstdio>
 #include <map>
 #include <set>
-#include <string>
+#include <vector>
 
 #include "sim/config/expand.h"
 #include "sim/world/model_trial.h"
+#include "sim/world/models_digest.h"
 
 namespace dodgesim {
 
@@ -14,9 +18,8 @@ namespace {
 // A size that every kind of object can have.
 constexpr double kTrialSizeM = 0.2;
 
-}  // namespace
-
-void try_models(const Scenario& campaign) {
+// Every world that the campaign names, with all its objects.
+std::vector<WorldSpec> worlds_of(const Scenario& campaign) {
   std::map<std::string, WorldSpec> worlds;  // each kind once
   std::set<std::string> kinds;
   const int throws_of_a_value = cell_count(campaign) * campaign.repeats;
@@ -38,10 +41,26 @@ void try_models(const Scenario& campaign) {
       }
     }
   }
+  std::vector<WorldSpec> all;
   for (auto& [name, world] : worlds) {
     for (const std::string& kind : kinds) world.objects.push_back({kind, kTrialSizeM});
-    try_world(world);
+    all.push_back(world);
   }
+  return all;
+}
+
+}  // namespace
+
+void try_models(const Scenario& campaign) {
+  for (const WorldSpec& world : worlds_of(campaign)) try_world(world);
+}
+
+std::string digest_of_models(const Scenario& campaign) {
+  std::uint64_t digest = 0;
+  for (const WorldSpec& world : worlds_of(campaign)) digest = 31 * digest + models_digest(world);
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016" PRIx64, digest);
+  return text.data();
 }
 
 }  // namespace dodgesim

@@ -1,5 +1,7 @@
-// Are the models of a campaign any good?
+// The models of a campaign.
 #pragma once
+
+#include <string>
 
 #include "sim/config/scenario.h"
 
@@ -8,5 +10,8 @@ namespace dodgesim {
 // Tries every room with every vehicle and all objects that the campaign names, in child processes.
 // Throws ScenarioError as try_world() does.
 void try_models(const Scenario& campaign);
+
+// Hexadecimal digits that change with these models (models_digest.h). Throws ScenarioError.
+std::string digest_of_models(const Scenario& campaign);
 
 }  // namespace dodgesim

@@ -8,7 +8,7 @@
 #include <opencv2/core/version.hpp>
 #include <thread>
 
-// Written at build time: DODGESIM_COMMIT, DODGESIM_MODIFIED.
+// Written at build time: DODGESIM_COMMIT, DODGESIM_MODIFIED, DODGESIM_SOURCES.
 #include "dodgesim_commit.h"
 
 namespace dodgesim {
@@ -17,6 +17,7 @@ BuildInfo build_info() {
   BuildInfo info;
   info.commit = DODGESIM_COMMIT;
   info.modified = DODGESIM_MODIFIED;
+  info.sources = DODGESIM_SOURCES;
   info.version = DODGESIM_VERSION;
   info.build_type = DODGESIM_BUILD_TYPE;
   info.compiler = std::string("g++ ") + __VERSION__;
@@ -26,6 +27,13 @@ BuildInfo build_info() {
                "." + std::to_string(EIGEN_MINOR_VERSION);
   info.yaml_cpp = DODGESIM_YAML_CPP_VERSION;
   return info;
+}
+
+std::string BuildInfo::name() const {
+  std::string text = version + " " + commit;
+  if (modified) text += " modified";
+  if (!sources.empty()) text += " " + sources;
+  return text;
 }
 
 Machine machine_info() {

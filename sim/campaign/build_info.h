@@ -8,9 +8,13 @@ namespace dodgesim {
 struct BuildInfo {
   std::string commit;     // "unknown" outside of a git work tree
   bool modified = false;  // the work tree had uncommitted changes
+  std::string sources;    // digest of the sources, if the commit does not say what they were
   std::string build_type, compiler;
   std::string version;
   std::string mujoco, opencv, eigen, yaml_cpp;
+
+  // Equal for programs of the same sources: "0.1.0 <commit>", "0.1.0 <commit> modified <digest>".
+  std::string name() const;
 };
 
 BuildInfo build_info();

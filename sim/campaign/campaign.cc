@@ -20,13 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string program_name() {
-  const BuildInfo build = build_info();
-  return build.version + " " + build.commit + (build.modified ? " modified" : "");
-}
-
 CampaignIdentity identity_of(const Scenario& scenario, const CampaignOptions& options) {
-  return {to_yaml(scenario), program_name(), options.truth};
+  return {to_yaml(scenario), build_info().name(), options.models, options.truth};
 }
 
 // Numbers of the shard's throws.
@@ -110,7 +105,11 @@ void fly_missing(const Scenario& scenario, const CampaignOptions& options, const
   if (early_stop && early_stop->end()) tasks.throws.clear();
   summary.memory = fly_in_workers(tasks);
   journal->sync();
-  if (early_stop && early_stop->end()) summary.wanted = *early_stop->end();
+  if (early_stop && early_stop->end()) {
+    summary.wanted = *early_stop->end();
+  } else {
+    summary.missing = static_cast<int>(tasks.throws.size()) - summary.flown;
+  }
 }
 
 ObjectRow as_drawn(const Throw& toss, int throw_index, int object) {
@@ -174,10 +173,7 @@ CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& op
   if (stop && stop->end()) {
     index.throws.erase(index.throws.lower_bound(summary.wanted), index.throws.end());
   }
-  if (static_cast<int>(index.throws.size()) < summary.wanted) {
-    summary.results.resize(index.throws.size());
-    return summary;
-  }
+  if (summary.missing > 0) return summary;
   write_result_files(options.out, scenario, index, options.truth, summary);
   summary.wall_s = seconds_since(begin);
   write_file(options.out / "manifest.json", manifest_json(scenario, options, summary, started));

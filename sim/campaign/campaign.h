@@ -31,6 +31,7 @@ struct CampaignOptions {
   bool resume = false;  // fly what is missing in `out`
   Shard shard;
   WorkerLimits limits;
+  std::string models;        // digest of the scenario's models (sim/try_models.h)
   std::string command_line;  // for the manifest
   // Name of the OpenGL renderer, for the manifest. Asked for after the workers have ended, because
   // no GL context may exist when they are forked; may be empty.
@@ -42,7 +43,8 @@ struct CampaignOptions {
 
 struct CampaignSummary {
   std::vector<ThrowResult> results;  // in throw order, without their detections
-  int wanted = 0;                    // throws of the shard; more than results if it was stopped
+  int wanted = 0;                    // throws of the shard
+  int missing = 0;                   // of these, not flown yet because somebody stopped it
   std::string table;                 // Markdown
   int errors = 0;                    // throws of which a flight failed
   EventTruthSums truth;              // of all throws, when their results have it
@@ -51,7 +53,7 @@ struct CampaignSummary {
   WorkerMemory memory;          // of this run
   int flown = 0;                // throws of this run
 
-  bool complete() const { return static_cast<int>(results.size()) == wanted; }
+  bool complete() const { return missing == 0; }
 };
 
 // The result of a throw before any flight: its numbers as drawn.

@@ -82,6 +82,7 @@ std::string difference(const CampaignIdentity& a, const CampaignIdentity& b) {
   if (a.program != b.program) {
     return "of another version of dodgesim (" + a.program + ", not " + b.program + ")";
   }
+  if (a.models != b.models) return "of other models (room, vehicle or objects have changed)";
   return a.truth ? "with --truth, not without" : "without --truth, not with it";
 }
 

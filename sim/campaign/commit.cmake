@@ -1,4 +1,5 @@
-# Writes OUTPUT with the commit of SOURCE_DIR; run at build time, so that it is never stale.
+# Writes OUTPUT with the commit of SOURCE_DIR; run at build time, so that it is never stale. Where the
+# commit does not say what is built, a digest of the sources does.
 execute_process(COMMAND git -C ${SOURCE_DIR} rev-parse HEAD
                 OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET
                 RESULT_VARIABLE failed)
@@ -12,6 +13,21 @@ else()
     set(modified true)
   endif()
 endif()
+set(digest "")
+if(failed OR modified)
+  file(GLOB_RECURSE sources ${SOURCE_DIR}/sim/* ${SOURCE_DIR}/dodge/*)
+  list(SORT sources)
+  set(digests "")
+  foreach(source ${SOURCE_DIR}/CMakeLists.txt ${sources})
+    file(SHA1 ${source} one)
+    string(APPEND digests ${one})
+  endforeach()
+  string(SHA1 digest "${digests}")
+  string(SUBSTRING ${digest} 0 16 digest)
+endif()
 # Only when it changed, so that nothing is rebuilt without need.
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT
-     "#define DODGESIM_COMMIT \"${commit}\"\n#define DODGESIM_MODIFIED ${modified}\n")
+     "#define DODGESIM_COMMIT \"${commit}\"
+#define DODGESIM_MODIFIED ${modified}
+#define DODGESIM_SOURCES \"${digest}\"
+")

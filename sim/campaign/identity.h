@@ -7,7 +7,8 @@ namespace dodgesim {
 
 struct CampaignIdentity {
   std::string scenario;  // as it was resolved, YAML
-  std::string program;   // version and commit
+  std::string program;   // version and commit, and what was changed since
+  std::string models;    // digest of room, vehicle and objects (sim/try_models.h)
   bool truth = false;    // the results hold truth_rows
 
   bool operator==(const CampaignIdentity&) const = default;
@@ -16,6 +17,7 @@ struct CampaignIdentity {
   void visit(Visitor& v) {
     v("scenario", scenario);
     v("program", program);
+    v("models", models);
     v("truth", truth);
   }
 };

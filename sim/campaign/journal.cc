@@ -21,7 +21,7 @@ namespace {
 constexpr std::chrono::seconds kSyncEvery(1);
 
 // Changes with every change of what is written.
-constexpr char kMagic[8] = {'d', 'o', 'd', 'g', 'e', 'j', '0', '3'};
+constexpr char kMagic[8] = {'d', 'o', 'd', 'g', 'e', 'j', '0', '4'};
 
 // No throw has results of this size; a larger number is damage.
 constexpr std::uint32_t kLargestRecord = 1u << 30;
@@ -59,14 +59,16 @@ class Reader {
     size_ = static_cast<std::uint64_t>(file_.tellg());
   }
 
-  // The next frame's bytes. False at the end, or where the rest cannot be divided into frames.
-  // `intact` says whether they are as they were written.
+  // The next frame's bytes; `intact` says whether they are as they were written. Where no frame
+  // begins, as after damage to a header, everything up to the next intact one counts as one that is
+  // not. False when none follows.
   bool next(std::string& bytes, bool& intact) {
     Header header;
-    if (size_ - at_ < sizeof header) return false;
-    read(&header, sizeof header);
-    if (header.mark != mark_of(header.size) || header.size > kLargestRecord) return false;
-    if (size_ - at_ - sizeof header < header.size) return false;
+    if (size_ - at_ >= sizeof header) read(&header, sizeof header);
+    if (size_ - at_ < sizeof header || !fits(header, size_ - at_)) {
+      intact = false;
+      return skip_to_intact();
+    }
     bytes.resize(header.size);
     at_ += sizeof header;
     read(bytes.data(), header.size);
@@ -92,7 +94,30 @@ class Reader {
   }
 
  private:
+  // Whether this is the header of a frame that ends within `room` bytes from its beginning.
+  static bool fits(const Header& header, std::uint64_t room) {
+    return header.mark == mark_of(header.size) && header.size <= kLargestRecord &&
+           header.size <= room - sizeof header;
+  }
+
+  bool skip_to_intact() {
+    std::string rest(size_ - at_, '\0');
+    read(rest.data(), rest.size());
+    for (std::size_t i = 1; i + sizeof(Header) <= rest.size(); ++i) {
+      Header header;
+      std::memcpy(&header, rest.data() + i, sizeof header);
+      if (!fits(header, rest.size() - i) ||
+          checksum(rest.data() + i + sizeof header, header.size) != header.checksum) {
+        continue;
+      }
+      at_ += i;
+      return true;
+    }
+    return false;
+  }
+
   void read(void* data, std::size_t size) {
+    if (size == 0) return;
     file_.seekg(static_cast<std::streamoff>(at_));
     file_.read(static_cast<char*>(data), static_cast<std::streamsize>(size));
     if (!file_) fail("could not be read");
@@ -122,11 +147,11 @@ JournalIndex read_journal(const std::filesystem::path& path) {
   index.identity = identity_from_bytes(bytes);
   index.end = reader.at();
   while (reader.next(bytes, intact)) {
-    index.end = reader.at();
     if (!intact) {
       ++index.damaged;
       continue;
     }
+    index.end = reader.at();
     const ThrowResult result = result_from_bytes(bytes);
     const auto size = static_cast<std::uint32_t>(bytes.size());
     index.throws[result.index] = {reader.at() - size, size, result_digest(result), result.lost()};

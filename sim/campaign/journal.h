@@ -3,9 +3,8 @@
 //
 // It begins with what the campaign is (identity.h); then comes a record for each throw: size,
 // checksum and bytes of its result (wire.h). add() hands it to the system, so that it survives the
-// process; once a second it waits for the disk. Reading takes every record whose checksum is right:
-// a record that was cut off, as by a kill, ends the file; one that was damaged is left out, and its
-// throw can be flown again.
+// process; once a second it waits for the disk. Reading takes every record whose checksum is right;
+// one that was damaged or cut off, as by a kill, is left out, and its throw can be flown again.
 #pragma once
 
 #include <chrono>
@@ -33,7 +32,7 @@ struct JournalIndex {
   CampaignIdentity identity;
   std::map<int, JournalRecord> throws;  // by number
   int damaged = 0;                      // records that were left out
-  std::uint64_t end = 0;                // of the last whole record
+  std::uint64_t end = 0;                // of the last intact record
 };
 
 // Throws IoError if the file cannot be read or is no journal.
@@ -48,7 +47,7 @@ void for_each_result(const std::filesystem::path& path, const JournalIndex& inde
 
 class Journal {
  public:
-  // Begins a journal, in place of whatever is there; or goes on with one after its last whole
+  // Begins a journal, in place of whatever is there; or goes on with one after its last intact
   // record. Throws IoError.
   Journal(const std::filesystem::path& path, const CampaignIdentity& identity);
   Journal(const std::filesystem::path& path, const JournalIndex& index);

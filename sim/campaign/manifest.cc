@@ -21,9 +21,10 @@ std::string manifest_json(const Scenario& scenario, const CampaignOptions& optio
   const BuildInfo build = build_info();
   const Machine machine = machine_info();
   nlohmann::ordered_json manifest;
-  manifest["program"] = {
-      {"name", "dodgesim"},         {"version", build.version},       {"commit", build.commit},
-      {"modified", build.modified}, {"build_type", build.build_type}, {"compiler", build.compiler}};
+  manifest["program"] = {{"name", "dodgesim"},        {"version", build.version},
+                         {"commit", build.commit},    {"modified", build.modified},
+                         {"sources", build.sources},  {"build_type", build.build_type},
+                         {"compiler", build.compiler}};
   manifest["libraries"] = {{"mujoco", build.mujoco},
                            {"opencv", build.opencv},
                            {"eigen", build.eigen},
@@ -38,6 +39,7 @@ std::string manifest_json(const Scenario& scenario, const CampaignOptions& optio
                           {"throws", throw_count(scenario)},
                           {"cells", cell_count(scenario)},
                           {"sweep_values", sweep_count(scenario)},
+                          {"models", options.models},
                           {"errors", summary.errors},
                           {"command_line", options.command_line},
                           {"jobs", options.jobs}};

@@ -141,7 +141,9 @@ CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
   write_result_files(options.out, scenario, read_journal(options.out / kJournalFile),
                      sources.identity.truth, summary);
   summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  write_file(options.out / "manifest.json", manifest_json(scenario, options, summary, started));
+  CampaignOptions flown = options;
+  flown.models = sources.identity.models;
+  write_file(options.out / "manifest.json", manifest_json(scenario, flown, summary, started));
   return summary;
 }
 

@@ -68,6 +68,7 @@ void add_campaign_options(CLI::App& command, CampaignOptions& options) {
 
 CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options) {
   try_models(scenario);
+  options.models = digest_of_models(scenario);
   watch_signals();
   options.stop = [] { return stop_signal != 0; };
   options.show_progress = ::isatty(STDERR_FILENO) == 1;
@@ -79,7 +80,7 @@ CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options) 
 }
 
 int report_stop(const CampaignSummary& summary) {
-  std::cerr << "Stopped after " << summary.results.size() << " of "
+  std::cerr << "Stopped after " << summary.wanted - summary.missing << " of "
             << count_of_throws(summary.wanted) << "; the same command with --resume flies the "
             << "rest.\n";
   return kIncomplete;

@@ -1,4 +1,5 @@
 // dodgesim run: flies a campaign.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -37,6 +38,17 @@ void warn_of_lost_events(const std::vector<ThrowResult>& results) {
   std::printf(
       "The event cameras' readout (sensors.events.readout_max_hz) lost %lld events in %s.\n",
       static_cast<long long>(lost), count_of_throws(throws).c_str());
+}
+
+void report_errors(const CampaignSummary& summary) {
+  std::cerr << count_of_throws(summary.errors)
+            << " could not be flown; see \"Errors\" in the table.";
+  const auto first = std::find_if(summary.results.begin(), summary.results.end(),
+                                  [](const ThrowResult& result) { return result.flown.failed(); });
+  if (first != summary.results.end()) {
+    std::cerr << " Throw " << first->index << ": " << first->flown.error;
+  }
+  std::cerr << "\n";
 }
 
 // What the command line changes about the file, in the order in which it counts.
@@ -83,8 +95,7 @@ int run(const Arguments& arguments) {
   warn_of_lost_events(summary.results);
   if (options.truth) std::cout << truth_text(summary.truth) << "\n";
   if (summary.errors == 0) return kOk;
-  std::cerr << count_of_throws(summary.errors)
-            << " could not be flown; see \"Errors\" in the table.\n";
+  report_errors(summary);
   return kIncomplete;
 }
 

@@ -29,7 +29,7 @@ class JournalTest : public CampaignTest {
   void put(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
 
   fs::path path_ = root_ / "results.bin";
-  CampaignIdentity identity_ = {"seed: 1\n", "0.1.0 abc", false};
+  CampaignIdentity identity_ = {"seed: 1\n", "0.1.0 abc", "12ab", false};
   std::vector<std::uintmax_t> ends_;  // of the records
 };
 
@@ -101,6 +101,21 @@ TEST_F(JournalTest, OneDamagedRecordCostsNoOther) {
   EXPECT_EQ(index.damaged, 1);
   EXPECT_EQ(index.throws.size(), 9u);
   EXPECT_EQ(index.throws.count(4), 0u);
+}
+
+TEST_F(JournalTest, ADamagedHeaderCostsNoOther) {
+  write_ten();
+  const std::string whole = bytes();
+  for (std::size_t at = 0; at < 16; ++at) {
+    std::string broken = whole;
+    broken[static_cast<std::size_t>(ends_[3]) + at] ^= 4;
+    put(broken);
+    const JournalIndex index = read_journal(path_);
+    EXPECT_EQ(index.damaged, 1) << at;
+    EXPECT_EQ(index.throws.size(), 9u) << at;
+    EXPECT_EQ(index.throws.count(4), 0u) << at;
+    EXPECT_EQ(index.end, ends_.back()) << at;
+  }
 }
 
 TEST_F(JournalTest, TheTimeThatAThrowTookIsNoDifference) {

@@ -16,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 class ResumeTest : public CampaignTest {
  protected:
@@ -82,6 +83,22 @@ TEST_F(ResumeTest, AStopIsCleanAndCanBeResumed) {
   expect_same_files("whole", "stopped");
 }
 
+TEST_F(ResumeTest, StoppedBeforeALostThrowIsFlownAgainItIsNotComplete) {
+  run_campaign(scenario_, options("whole"), fly_one_);
+  run_campaign(scenario_, options("lost"), [this](int index) {
+    if (index == 7) ::raise(SIGKILL);
+    return fly(index);
+  });
+  CampaignOptions stopping = resuming("lost");
+  stopping.stop = [] { return true; };
+  const CampaignSummary stopped = run_campaign(scenario_, stopping, fly_one_);
+  EXPECT_FALSE(stopped.complete());
+  EXPECT_EQ(stopped.missing, 1);
+  EXPECT_FALSE(fs::exists(root_ / "lost" / "throws.csv"));
+  EXPECT_TRUE(run_campaign(scenario_, resuming("lost"), fly_one_).complete());
+  expect_same_files("whole", "lost");
+}
+
 // As a batch system ends a job: SIGTERM to all its processes, then SIGKILL to one after the other.
 TEST_F(ResumeTest, WorkersThatAreKilledAlongWithTheCampaignLoseNoThrow) {
   const pid_t campaign = ::fork();
@@ -117,6 +134,10 @@ TEST_F(ResumeTest, RefusesToGoOnWithAnotherCampaign) {
   CampaignOptions truth = resuming("a");
   truth.truth = true;
   EXPECT_THROW(run_campaign(scenario_, truth, fly_one_), ScenarioError);
+  CampaignOptions models = resuming("a");
+  models.models = "12ab";
+  EXPECT_THAT([&] { run_campaign(scenario_, models, fly_one_); },
+              ThrowsMessage<ScenarioError>(HasSubstr("other models")));
 }
 
 TEST_F(ResumeTest, AnotherShardIsNotTakenForThisOne) {

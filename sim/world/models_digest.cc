@@ -1,0 +1,53 @@
+#include "sim/world/models_digest.h"
+
+#include <xxhash.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "sim/base/error.h"
+#include "sim/world/mjcf.h"
+
+namespace dodgesim {
+
+namespace {
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream bytes;
+  bytes << in.rdbuf();
+  if (!in) throw ScenarioError("The file " + path + " cannot be read.");
+  return bytes.str();
+}
+
+void add(const std::string& text, std::uint64_t& digest) {
+  digest = XXH64(text.data(), text.size(), digest);
+}
+
+void add_model(const std::string& directory, const std::string& file, std::uint64_t& digest) {
+  add(file, digest);
+  for (const MjcfTag& tag : read_model_file(directory, file)) {
+    add(std::to_string(static_cast<int>(tag.kind)) + tag.name, digest);
+    for (const auto& [name, value] : tag.attributes) {
+      add(name, digest);
+      add(value, digest);
+      if (name.starts_with("file")) add(bytes_of(directory + "/" + value), digest);
+    }
+  }
+}
+
+}  // namespace
+
+std::uint64_t models_digest(const WorldSpec& spec) {
+  std::uint64_t digest = 0;
+  add_model(spec.models_dir, "rooms/" + spec.room + ".xml", digest);
+  add_model(spec.models_dir, "vehicles/" + spec.vehicle + ".xml", digest);
+  for (const ObjectSpec& object : spec.objects) {
+    add_model(spec.models_dir, "objects/" + object.kind + ".xml", digest);
+  }
+  return digest;
+}
+
+}  // namespace dodgesim
