@@ -250,7 +250,7 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
           {"pilot", scenario.pilot},
           {"seed", std::to_string(scenario.seed)},
           {"program", "dodgesim " + campaign.program},
-          {"wanted", throw_count(scenario)},
+          {"wanted", campaign.wanted()},
           {"stop", campaign.stop ? campaign.stop->text() : ""},
           {"replay", "dodgesim replay " + quoted(directory) + " --throw "},
           {"real_time_factor", computing_s > 0 ? simulated_s / computing_s : 0.0},

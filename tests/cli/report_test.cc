@@ -129,6 +129,7 @@ TEST_F(ReportCommandTest, ACampaignThatStopEndedIsWhole) {
   EXPECT_THAT(page.output, Not(HasSubstr(":CONSOLE:"))) << page.output.substr(0, 4000);
   EXPECT_THAT(page.output, HasSubstr("<p id=\"stop\">Ended by stop after "));
   EXPECT_THAT(page.output, HasSubstr(", sequential 95 %</span>"));
+  EXPECT_THAT(page.output, Not(HasSubstr(" of 200</dd>"))) << "it lacks none";
 }
 
 }  // namespace
