@@ -38,10 +38,18 @@ std::string names_of_keys(const std::vector<ThrowResult>& results) {
   return names;
 }
 
-// Of a key of the grid.
+std::optional<double> as_number(const std::string& text) {
+  const NumberForm form = number_form(text);
+  if (form != NumberForm::kDecimal && form != NumberForm::kInteger) return std::nullopt;
+  return parse_double(text);
+}
+
+// Of a key of the grid. A number reads alike however it is written: 0.10 is 0.1.
 std::optional<std::string> value_in_cell(const ThrowResult& result, const std::string& key) {
   for (const AxisValue& of_cell : result.cell_values) {
-    if (of_cell.key == key) return of_cell.value;
+    if (of_cell.key != key) continue;
+    const std::optional<double> number = as_number(of_cell.value);
+    return number ? to_text(*number) : of_cell.value;
   }
   return std::nullopt;
 }
@@ -111,6 +119,10 @@ void Axis::set_names(const std::vector<ThrowResult>& results, const NameOf& name
       values_.push_back(*name);
     }
   }
+  for (const std::string& value : values_) {
+    if (const auto number = as_number(value)) middles_.push_back(*number);
+  }
+  if (middles_.size() < values_.size()) middles_.clear();
   of_ = [values = values_, name_of](const ThrowResult& result) -> std::optional<std::size_t> {
     const auto name = name_of(result);
     if (!name) return std::nullopt;
@@ -141,5 +153,13 @@ void Axis::set_numeric(const std::vector<ThrowResult>& results, double ThrowResu
 }
 
 std::optional<std::size_t> Axis::of(const ThrowResult& result) const { return of_(result); }
+
+std::vector<Axis> grid_axes(const std::vector<ThrowResult>& results) {
+  std::vector<Axis> axes;
+  if (results.empty()) return axes;
+  for (const AxisValue& of_cell : results.front().cell_values)
+    axes.emplace_back(of_cell.key, results);
+  return axes;
+}
 
 }  // namespace dodgesim

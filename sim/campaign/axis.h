@@ -32,7 +32,7 @@ class Axis {
 
   const std::string& name() const { return name_; }
   const std::vector<std::string>& values() const { return values_; }  // as text, in order
-  // The middle of each numeric value or bin; empty for an axis of names.
+  // The middle of each value or bin, if all are numbers; else empty.
   const std::vector<double>& middles() const { return middles_; }
 
   // Which of the values a throw has; nothing where nobody threw.
@@ -49,5 +49,8 @@ class Axis {
   std::vector<double> middles_;
   std::function<std::optional<std::size_t>(const ThrowResult&)> of_;
 };
+
+// An axis for each key of the scenario's grid, in its order.
+std::vector<Axis> grid_axes(const std::vector<ThrowResult>& results);
 
 }  // namespace dodgesim

@@ -174,7 +174,6 @@ CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& op
     index.throws.erase(index.throws.lower_bound(summary.wanted), index.throws.end());
   }
   if (summary.missing > 0) return summary;
-  if (stop) summary.stop_text = stop->text();
   write_result_files(options.out, scenario, index, options.truth, summary);
   summary.wall_s = seconds_since(begin);
   write_file(options.out / "manifest.json", manifest_json(scenario, options, summary, started));

@@ -45,7 +45,6 @@ struct CampaignSummary {
   std::vector<ThrowResult> results;  // in throw order, without their detections
   int wanted = 0;                    // throws of the shard
   int missing = 0;                   // of these, not flown yet because somebody stopped it
-  std::string stop_text;             // what the scenario's key stop has done; empty without it
   std::string table;                 // Markdown
   int errors = 0;                    // throws of which a flight failed
   EventTruthSums truth;              // of all throws, when their results have it

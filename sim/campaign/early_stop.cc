@@ -25,16 +25,21 @@ void EarlyStop::add(const ThrowResult& result) {
   }
 }
 
+SequentialInterval EarlyStop::interval() const {
+  return {end_ ? rule_.interval(sum_.dodged, sum_.would_have_hit)
+               : confidence_sequence(sum_.dodged, sum_.would_have_hit, spec_.confidence),
+          spec_.confidence};
+}
+
 std::string EarlyStop::text() const {
-  const Interval interval =
-      end_ ? rule_.interval(sum_.dodged, sum_.would_have_hit)
-           : confidence_sequence(sum_.dodged, sum_.would_have_hit, spec_.confidence);
+  const Interval interval = this->interval().interval;
   char text[240];
   std::snprintf(text, sizeof text,
                 "%s after %d throws: %d of %d dodged, %.4g %% interval %.3f to %.3f (valid though "
-                "the results decided when to stop; asked for: +- %g)",
-                end_ ? "Stopped" : "Not stopped", next_, sum_.dodged, sum_.would_have_hit,
-                100 * spec_.confidence, interval.lo, interval.hi, spec_.half_width);
+                "the results decided when to stop; asked for: +- %g).",
+                end_ ? "Ended by stop" : "Not ended by stop", next_, sum_.dodged,
+                sum_.would_have_hit, 100 * spec_.confidence, interval.lo, interval.hi,
+                spec_.half_width);
   return text;
 }
 

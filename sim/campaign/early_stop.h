@@ -24,8 +24,12 @@ class EarlyStop {
   // After how many throws the campaign ends; empty: not yet.
   std::optional<int> end() const { return end_; }
 
+  // Of the success rate over the throws so far or, after the end, over those before it. It holds
+  // although the campaign chose when to stop.
+  SequentialInterval interval() const;
+
   // Of the throws so far or, after the end, of those before it: dodged of those that would have
-  // hit, with an interval that holds although the campaign chose when to stop. One sentence.
+  // hit, with that interval. One sentence.
   std::string text() const;
 
  private:

@@ -1,38 +1,44 @@
 #include "sim/campaign/load_campaign.h"
 
-#include "sim/campaign/early_stop.h"
+#include <utility>
+
 #include "sim/campaign/journal.h"
 #include "sim/campaign/result_files.h"
 
 namespace dodgesim {
 
-namespace {
-
-// Throws that were flown while the campaign came to its early end.
-void drop_beyond_end(LoadedCampaign& campaign) {
-  EarlyStop stop(campaign.scenario);
-  for (const ThrowResult& result : campaign.results) stop.add(result);
-  if (!stop.end()) return;
-  std::erase_if(campaign.results,
-                [&](const ThrowResult& result) { return result.index >= *stop.end(); });
+LoadedCampaign campaign_of(Scenario scenario, std::string program,
+                           std::vector<ThrowResult> results) {
+  LoadedCampaign campaign = {std::move(scenario), std::move(program), std::move(results), {}};
+  if (!campaign.scenario.stop) return campaign;
+  campaign.stop.emplace(campaign.scenario);
+  for (const ThrowResult& result : campaign.results) campaign.stop->add(result);
+  if (!campaign.ended_early()) return campaign;
+  std::erase_if(campaign.results, [end = *campaign.stop->end()](const ThrowResult& result) {
+    return result.index >= end;
+  });
+  return campaign;
 }
 
-}  // namespace
+std::vector<Part> parts_of(const LoadedCampaign& campaign) {
+  std::vector<Part> parts = parts_of(campaign.results, campaign.scenario.pilot);
+  // The key stop excludes a sweep: there is one part.
+  if (campaign.stop) parts.front().sequential = campaign.stop->interval();
+  return parts;
+}
 
 LoadedCampaign load_campaign(const std::filesystem::path& directory) {
   const std::filesystem::path journal = directory / kJournalFile;
   const JournalIndex index = read_journal(journal);
-  LoadedCampaign campaign;
-  campaign.scenario = parse_scenario(index.identity.scenario, kScenarioFile, "");
-  campaign.program = index.identity.program;
+  std::vector<ThrowResult> results;
   for_each_result(journal, index, [&](ThrowResult result) {
     result.truth_rows = {};
     result.detection_rows = {};
     result.object_rows = {};
-    campaign.results.push_back(std::move(result));
+    results.push_back(std::move(result));
   });
-  if (campaign.scenario.stop) drop_beyond_end(campaign);
-  return campaign;
+  return campaign_of(parse_scenario(index.identity.scenario, kScenarioFile, ""),
+                     index.identity.program, std::move(results));
 }
 
 }  // namespace dodgesim

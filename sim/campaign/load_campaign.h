@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/campaign/early_stop.h"
 #include "sim/campaign/result.h"
+#include "sim/campaign/throw_statistics.h"
 #include "sim/config/expand.h"
 
 namespace dodgesim {
@@ -15,9 +17,20 @@ struct LoadedCampaign {
   Scenario scenario;
   std::string program;               // version and commit that flew it
   std::vector<ThrowResult> results;  // in throw order, without rows of detections and objects
+  std::optional<EarlyStop> stop;     // with the results; empty without the scenario's key stop
 
-  bool complete() const { return static_cast<int>(results.size()) == throw_count(scenario); }
+  // The number of its throws: fewer than the scenario's when stop has ended it.
+  int wanted() const { return ended_early() ? *stop->end() : throw_count(scenario); }
+  bool ended_early() const { return stop && stop->end(); }
+  bool complete() const { return static_cast<int>(results.size()) == wanted(); }
 };
+
+// Leaves out throws that were flown while the campaign came to its early end.
+LoadedCampaign campaign_of(Scenario scenario, std::string program,
+                           std::vector<ThrowResult> results);
+
+// What may be pooled of it (throw_statistics.h).
+std::vector<Part> parts_of(const LoadedCampaign& campaign);
 
 // Reads results.bin, also of a campaign under way. Throws IoError if it is none.
 LoadedCampaign load_campaign(const std::filesystem::path& directory);

@@ -54,13 +54,42 @@ std::uint8_t cause_of(const ThrowResult& result) {
   return kNone;
 }
 
+using Values = std::vector<std::string>;
+
 struct Axes {
   explicit Axes(const std::vector<ThrowResult>& results)
-      : size("size_m", results),
-        distance("distance_m", results),
-        speed("speed_mps", results),
-        object("object", results) {}
-  Axis size, distance, speed, object;
+      : grid(grid_axes(results)), speed("speed_mps", results), object("object", results) {
+    for (const Axis& axis : grid) {
+      if (!axis.middles().empty() && heat.size() < 2) heat.push_back(axis);
+    }
+    if (heat.size() < 2) heat = {Axis("size_m", results), Axis("distance_m", results)};
+    if (grid.empty()) return;
+    cells.emplace_back();
+    for (const Axis& axis : grid) {
+      std::vector<Values> longer;
+      for (const Values& cell : cells) {
+        for (const std::string& value : axis.values()) {
+          longer.push_back(cell);
+          longer.back().push_back(value);
+        }
+      }
+      cells = std::move(longer);
+    }
+  }
+
+  // Where in `cells` a throw stands.
+  std::uint32_t cell_of(const ThrowResult& result) const {
+    std::size_t place = 0;
+    for (const Axis& axis : grid)
+      place = place * axis.values().size() + axis.of(result).value_or(0);
+    return static_cast<std::uint32_t>(place);
+  }
+
+  std::vector<Axis> grid;
+  std::vector<Axis> heat;  // rows and columns of the heat map: the first two numeric keys of the
+                           // grid, or size and distance
+  Axis speed, object;
+  std::vector<Values> cells;  // of the grid, the values of its last key changing fastest
 };
 
 // Numbers of all throws as base64, by name.
@@ -96,8 +125,9 @@ Json columns_of(const std::vector<ThrowResult>& results, const Axes& axes) {
   columns.add("sweep", [](const R& r) { return static_cast<std::uint16_t>(r.sweep); });
   columns.add("flags", [](const R& r) { return static_cast<std::uint16_t>(flags_of(r)); });
   columns.add("cause", cause_of);
-  columns.add("size_bin", [&](const R& r) { return place(axes.size.of(r)); });
-  columns.add("distance_bin", [&](const R& r) { return place(axes.distance.of(r)); });
+  columns.add("heat_row", [&](const R& r) { return place(axes.heat[0].of(r)); });
+  columns.add("heat_column", [&](const R& r) { return place(axes.heat[1].of(r)); });
+  columns.add("cell", [&](const R& r) { return axes.cell_of(r); });
   columns.add("object", [&](const R& r) { return place(axes.object.of(r)); });
   columns.add("size", [](const R& r) { return number(r.size_m); });
   columns.add("distance", [](const R& r) { return number(r.distance_m); });
@@ -131,9 +161,11 @@ Json columns_of(const std::vector<ThrowResult>& results, const Axes& axes) {
   return columns.take();
 }
 
-// [count, of, lo, hi]
+// [count, of, lo, hi], and the name of the interval if it is not Wilson's
 Json rate_of(const Rate& rate) {
-  return {rate.count, rate.of, rate.interval().lo, rate.interval().hi};
+  Json json = {rate.count, rate.of, rate.interval().lo, rate.interval().hi};
+  if (rate.sequential) json.push_back(rate.interval_name());
+  return json;
 }
 
 // What the charts show of one pilot.
@@ -142,40 +174,42 @@ Json pilot_rate(const ThrowStatistics* statistics, std::size_t pilot) {
   return rate_of(statistics->pilots[pilot].tally.shown(pilot == 2));
 }
 
-const ThrowStatistics* find(const StatisticsTable& table, const std::vector<std::string>& values) {
+const ThrowStatistics* find(const StatisticsTable& table, const Values& values) {
   const auto row = std::find_if(table.rows.begin(), table.rows.end(),
                                 [&](const auto& r) { return r.values == values; });
   return row == table.rows.end() ? nullptr : &row->statistics;
 }
 
 Json section_of(const Part& part, const Axes& axes) {
-  const StatisticsTable by_cell = group_by(part, {axes.size, axes.distance});
+  const StatisticsTable by_heat = group_by(part, axes.heat);
   const StatisticsTable by_speed = group_by(part, {axes.speed});
-  const ThrowStatistics& all = by_cell.rows.back().statistics;
+  const StatisticsTable by_cell = group_by(part, axes.grid);
+  const ThrowStatistics& all = by_heat.rows.back().statistics;
   Json pilots = Json::array();
-  for (const std::size_t k : shown_pilots(by_cell)) {
-    Json cells = Json::array(), speeds = Json::array();
-    for (const std::string& size : axes.size.values()) {
+  for (const std::size_t k : shown_pilots(by_heat)) {
+    Json heat = Json::array(), speeds = Json::array(), cells = Json::array();
+    for (const std::string& row_value : axes.heat[0].values()) {
       Json row = Json::array();
-      for (const std::string& distance : axes.distance.values()) {
-        row.push_back(pilot_rate(find(by_cell, {size, distance}), k));
+      for (const std::string& value : axes.heat[1].values()) {
+        row.push_back(pilot_rate(find(by_heat, {row_value, value}), k));
       }
-      cells.push_back(std::move(row));
+      heat.push_back(std::move(row));
     }
     for (const std::string& speed : axes.speed.values()) {
       speeds.push_back(pilot_rate(find(by_speed, {speed}), k));
     }
+    for (const Values& cell : axes.cells) cells.push_back(pilot_rate(find(by_cell, cell), k));
     pilots.push_back({{"name", all.pilots[k].pilot},
                       {"total", pilot_rate(&all, k)},
-                      {"cells", std::move(cells)},
-                      {"by_speed", std::move(speeds)}});
+                      {"heat", std::move(heat)},
+                      {"by_speed", std::move(speeds)},
+                      {"by_cell", std::move(cells)}});
   }
-  return {{"label", label(part.values)},
-          {"sweep", part.sweep},
-          {"value", part.values.size() == 1 ? part.values[0].value : ""},
-          {"pilots", std::move(pilots)},
-          {"detected", rate_of(all.detected)},
-          {"false_alarms", rate_of(all.false_alarms)}};
+  Json values = Json::array();
+  for (const AxisValue& value : part.values) values.push_back(value.value);
+  return {{"label", label(part.values)},       {"sweep", part.sweep},
+          {"values", std::move(values)},       {"pilots", std::move(pilots)},
+          {"detected", rate_of(all.detected)}, {"false_alarms", rate_of(all.false_alarms)}};
 }
 
 // An argument as a shell takes it.
@@ -200,9 +234,14 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
     computing_s += result.wall_s;
     if (result.flown.failed()) errors[std::to_string(result.index)] = result.flown.error;
   }
-  const std::vector<Part> parts = parts_of(results, scenario.pilot);
+  const std::vector<Part> parts = parts_of(campaign);
   Json sections = Json::array();
   for (const Part& part : parts) sections.push_back(section_of(part, axes));
+  Json heat = Json::array(), grid_keys = Json::array(), sweep_keys = Json::array();
+  for (const Axis& axis : axes.heat)
+    heat.push_back({{"key", axis.name()}, {"values", axis.values()}});
+  for (const Axis& axis : axes.grid) grid_keys.push_back(axis.name());
+  for (const AxisValue& value : parts.front().values) sweep_keys.push_back(value.key);
   Json causes = Json::array(), flags = Json::object();
   for (const CollisionCause cause : kCollisionCauses) causes.push_back(to_text(cause));
   for (std::size_t i = 0; i < std::size(kFlags); ++i) flags[kFlags[i]] = 1U << i;
@@ -211,18 +250,18 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
           {"pilot", scenario.pilot},
           {"seed", std::to_string(scenario.seed)},
           {"program", "dodgesim " + campaign.program},
-          {"wanted", throw_count(scenario)},
+          {"wanted", campaign.wanted()},
+          {"stop", campaign.stop ? campaign.stop->text() : ""},
           {"replay", "dodgesim replay " + quoted(directory) + " --throw "},
           {"real_time_factor", computing_s > 0 ? simulated_s / computing_s : 0.0},
-          {"sizes", axes.size.values()},
-          {"distances", axes.distance.values()},
-          {"speeds", axes.speed.middles()},
-          {"speed_texts", axes.speed.values()},
+          {"heat", std::move(heat)},
+          {"cells", {{"keys", std::move(grid_keys)}, {"values", axes.cells}}},
+          {"speed", {{"values", axes.speed.values()}, {"middles", axes.speed.middles()}}},
           {"objects", axes.object.values()},
           {"causes", std::move(causes)},
           {"flags", std::move(flags)},
           {"errors", std::move(errors)},
-          {"sweep_key", parts.front().values.size() == 1 ? parts.front().values[0].key : ""},
+          {"sweep_keys", std::move(sweep_keys)},
           {"sections", std::move(sections)},
           {"columns", columns_of(results, axes)}};
 }

@@ -92,13 +92,13 @@ void write_result_files(const fs::path& out, const Scenario& scenario, const Jou
     summary.results.push_back(std::move(result));
   });
   if (computing_s > 0) summary.real_time_factor = simulated_s / computing_s;
-  Tables tables = make_tables(summary.results, scenario.name, scenario.pilot);
-  if (!summary.stop_text.empty()) tables.markdown += summary.stop_text + "\n";
+  LoadedCampaign campaign =
+      campaign_of(scenario, index.identity.program, std::move(summary.results));
+  const Tables tables = make_tables(campaign);
   summary.table = tables.markdown;
   rows.commit();
   write_file(out / "table.md", tables.markdown);
   write_file(out / "table.csv", tables.csv);
-  LoadedCampaign campaign = {scenario, index.identity.program, std::move(summary.results)};
   write_file(out / kReportFile, report_html(campaign, out.string()));
   summary.results = std::move(campaign.results);
 }

@@ -24,8 +24,7 @@ StatisticsTable group_by(const Part& part, const std::vector<Axis>& axes) {
     }
     row.statistics = statistics_of(group, part.pilot);
   }
-  table.rows.push_back(
-      {std::vector<std::string>(axes.size(), "all"), statistics_of(part.results, part.pilot)});
+  table.rows.push_back({std::vector<std::string>(axes.size(), "all"), statistics_of(part)});
   return table;
 }
 

@@ -31,8 +31,10 @@ StatisticsTable of_sweep(const Part& part, StatisticsTable table);
 // Which of ThrowStatistics::pilots are worth a column: not the oracle if it flew nowhere.
 std::vector<std::size_t> shown_pilots(const StatisticsTable& table);
 
-// Rates with counts and intervals (those of dodged throws on request); then samples as "median (10
-// % to 90 % quantile), count".
+// Rates with counts and intervals (those of dodged throws on request).
+std::string rates_to_markdown(const StatisticsTable& table, bool with_dodged = true);
+
+// The rates; then samples as "median (10 % to 90 % quantile), count".
 std::string to_markdown(const StatisticsTable& table, bool with_dodged = true);
 
 // The same two as tabulars for LaTeX's package booktabs.

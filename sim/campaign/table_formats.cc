@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "sim/campaign/csv.h"
@@ -26,7 +28,7 @@ std::string rounded(double value) {
   return text.data();
 }
 
-std::string sample_text(const Sample& sample) {
+std::string sample_text(const Measured& sample) {
   if (sample.count() == 0) return "-";
   return rounded(sample.quantile(0.5)->value) + " (" + rounded(sample.quantile(0.1)->value) +
          " to " + rounded(sample.quantile(0.9)->value) + "), " + std::to_string(sample.count());
@@ -103,17 +105,21 @@ std::string markdown_of(const TextTable& table) {
   return text;
 }
 
+// "<", ">" and "|" are other signs in LaTeX's default font encoding, and "[" or "*" at the start of
+// a row would belong to the end of the row before.
 std::string latex_escaped(const std::string& text) {
+  static const std::map<char, std::string> kEscapes = {
+      {'\\', "\\textbackslash{}"}, {'~', "\\~{}"},       {'^', "\\^{}"}, {'<', "\\textless{}"},
+      {'>', "\\textgreater{}"},    {'|', "\\textbar{}"}, {'[', "{[}"},   {'*', "{*}"}};
   std::string escaped;
   for (const char c : text) {
-    if (c == '\\') {
-      escaped += "\\textbackslash{}";
-    } else if (c == '~' || c == '^') {
-      escaped += std::string("\\") + c + "{}";
-    } else {
-      if (std::string("&%$#_{}").find(c) != std::string::npos) escaped += '\\';
-      escaped += c;
+    const auto at = kEscapes.find(c);
+    if (at != kEscapes.end()) {
+      escaped += at->second;
+      continue;
     }
+    if (std::strchr("&%$#_{}", c) != nullptr) escaped += '\\';
+    escaped += c;
   }
   return escaped;
 }
@@ -147,7 +153,7 @@ class CsvRow {
     add(name + "_lo", cell_of(rate.interval().lo));
     add(name + "_hi", cell_of(rate.interval().hi));
   }
-  void sample(const std::string& name, const Sample& sample) {
+  void sample(const std::string& name, const Measured& sample) {
     count(name + "_n", static_cast<std::int64_t>(sample.count()));
     const auto median = sample.quantile(0.5);
     const auto value = [&](double share) -> std::optional<double> {
@@ -187,6 +193,7 @@ CsvRow csv_row_of(const StatisticsTable& table, const StatisticsTable::Row& row,
   csv.count("would_have_hit", of.tally.would_have_hit);
   csv.count("dodged", of.tally.dodged);
   csv.rate("rate", of.tally.success());
+  csv.text("rate_interval", of.tally.success().interval_name());
   csv.count("errors", of.tally.errors);
   csv.count("flights", of.tally.collisions.of);
   csv.count("collisions", of.tally.collisions.count);
@@ -212,10 +219,11 @@ Json json_of(const Rate& rate) {
           {"of", rate.of},
           {"rate", json_number(rate.value())},
           {"lo", rate.interval().lo},
-          {"hi", rate.interval().hi}};
+          {"hi", rate.interval().hi},
+          {"interval", rate.interval_name()}};
 }
 
-Json json_of(const Sample& sample) {
+Json json_of(const Measured& sample) {
   Json json = {{"count", sample.count()}};
   for (const auto& [name, share] : {std::pair{"q10", 0.1}, {"q50", 0.5}, {"q90", 0.9}}) {
     const auto quantile = sample.quantile(share);
@@ -250,8 +258,12 @@ Json json_of(const StatisticsTable& table, const StatisticsTable::Row& row) {
 
 }  // namespace
 
+std::string rates_to_markdown(const StatisticsTable& table, bool with_dodged) {
+  return markdown_of(rates_of(table, with_dodged));
+}
+
 std::string to_markdown(const StatisticsTable& table, bool with_dodged) {
-  return markdown_of(rates_of(table, with_dodged)) + "\n" + markdown_of(samples_of(table));
+  return rates_to_markdown(table, with_dodged) + "\n" + markdown_of(samples_of(table));
 }
 
 std::string to_latex(const StatisticsTable& table) {

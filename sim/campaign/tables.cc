@@ -18,34 +18,55 @@ std::string count_text(std::int64_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
-// Rows told apart by some of the axes only, with "all" for the others; the row of all throws is
-// left out.
+// Under which key the tables show a key of the grid: throw.size_m is size_m.
+std::string shown_key(const std::string& key) {
+  const auto at = std::find_if(kKeys.begin(), kKeys.end(),
+                               [&](const std::string& k) { return "throw." + k == key; });
+  return at == kKeys.end() ? key : *at;
+}
+
+const StatisticsTable::Row* find(const StatisticsTable& table,
+                                 const std::vector<std::string>& values) {
+  const auto row = std::find_if(table.rows.begin(), table.rows.end(),
+                                [&](const auto& r) { return r.values == values; });
+  return row == table.rows.end() ? nullptr : &*row;
+}
+
+// Rows told apart by some of the keys only, with "all" for the others; the row of all throws, and
+// rows that are there already, are left out.
 void append(const Part& part, const std::vector<Axis>& by, StatisticsTable& table) {
   StatisticsTable grouped = group_by(part, by);
   grouped.rows.pop_back();
   for (StatisticsTable::Row& row : grouped.rows) {
-    std::vector<std::string> values(kKeys.size(), "all");
+    std::vector<std::string> values(table.keys.size(), "all");
     for (std::size_t i = 0; i < by.size(); ++i) {
-      const auto at = std::find(kKeys.begin(), kKeys.end(), by[i].name());
-      values[static_cast<std::size_t>(at - kKeys.begin())] = row.values[i];
+      const auto at = std::find(table.keys.begin(), table.keys.end(), shown_key(by[i].name()));
+      values[static_cast<std::size_t>(at - table.keys.begin())] = row.values[i];
     }
+    if (find(table, values) != nullptr) continue;
     table.rows.push_back({std::move(values), std::move(row.statistics)});
   }
 }
 
 struct Axes {
   Axis size, distance, speed;
+  std::vector<Axis> grid;
 };
 
 // Every cell that the tables of a part show.
 StatisticsTable all_cells(const Part& part, const Axes& axes) {
   StatisticsTable table;
   table.keys = kKeys;
+  for (const Axis& axis : axes.grid) {
+    const std::string key = shown_key(axis.name());
+    if (key == axis.name()) table.keys.push_back(key);
+  }
   append(part, {axes.size, axes.distance}, table);
   append(part, {axes.size}, table);
   append(part, {axes.distance}, table);
   append(part, {axes.speed}, table);
-  table.rows.push_back({{"all", "all", "all"}, statistics_of(part.results, part.pilot)});
+  append(part, axes.grid, table);
+  table.rows.push_back({std::vector<std::string>(table.keys.size(), "all"), statistics_of(part)});
   return table;
 }
 
@@ -82,12 +103,18 @@ class MarkdownWriter {
     text_ += "\n";
   }
 
+  void by_cell() {
+    if (axes_.grid.empty()) return;
+    text_ += "## By cell of the grid\n\n" + rates_to_markdown(group_by(part_, axes_.grid)) + "\n";
+  }
+
   // What the pilot saw and did, by size.
   void perception() {
     StatisticsTable by_size;
     by_size.keys = {"size_m"};
     for (const StatisticsTable::Row& row : table_.rows) {
-      if (row.values[1] == "all" && row.values[2] == "all") {
+      if (std::all_of(row.values.begin() + 1, row.values.end(),
+                      [](const std::string& value) { return value == "all"; })) {
         by_size.rows.push_back({{row.values[0]}, row.statistics});
       }
     }
@@ -119,10 +146,11 @@ class MarkdownWriter {
     return pilot == 2 ? "none: would have hit" : all().pilots[pilot].pilot;
   }
 
-  std::string cell(const std::vector<std::string>& values, std::size_t pilot) const {
-    const auto row = std::find_if(table_.rows.begin(), table_.rows.end(),
-                                  [&](const auto& r) { return r.values == values; });
-    const Tally tally = row == table_.rows.end() ? Tally{} : row->statistics.pilots[pilot].tally;
+  // `values`: of kKeys.
+  std::string cell(std::vector<std::string> values, std::size_t pilot) const {
+    values.resize(table_.keys.size(), "all");
+    const StatisticsTable::Row* const row = find(table_, values);
+    const Tally tally = row == nullptr ? Tally{} : row->statistics.pilots[pilot].tally;
     std::string text = rate_text(tally.shown(pilot == 2));
     if (tally.errors > 0) text += ", " + std::to_string(tally.errors) + " errors";
     return text;
@@ -215,23 +243,26 @@ std::string markdown_of(const Part& part, const Axes& axes, const StatisticsTabl
     writer.by_speed();
     writer.perception();
   }
+  writer.by_cell();
   writer.causes();
   return head + writer.take() + asides(part);
 }
 
 }  // namespace
 
-Tables make_tables(const std::vector<ThrowResult>& results, const std::string& title,
-                   const std::string& pilot) {
+Tables make_tables(const LoadedCampaign& campaign) {
+  const std::vector<ThrowResult>& results = campaign.results;
   Tables tables;
-  tables.markdown = "# " + title + "\n\n" +
+  tables.markdown = "# " + campaign.scenario.name + "\n\n" +
                     count_text(static_cast<std::int64_t>(results.size()), "throw") + ", pilot " +
-                    pilot + ". Cells: dodged / would have hit (rate, 95 % Wilson interval); for " +
+                    campaign.scenario.pilot +
+                    ". Cells: dodged / would have hit (rate, 95 % Wilson interval); for " +
                     "the pilot none: would have hit / throws.\n\n";
+  if (campaign.stop) tables.markdown += campaign.stop->text() + "\n\n";
   const Axes axes = {Axis("size_m", results), Axis("distance_m", results),
-                     Axis("speed_mps", results)};
+                     Axis("speed_mps", results), grid_axes(results)};
   StatisticsTable all;
-  for (const Part& part : parts_of(results, pilot)) {
+  for (const Part& part : parts_of(campaign)) {
     const StatisticsTable table = all_cells(part, axes);
     tables.markdown += markdown_of(part, axes, table);
     StatisticsTable swept = of_sweep(part, table);

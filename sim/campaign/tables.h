@@ -2,20 +2,17 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "sim/campaign/result.h"
+#include "sim/campaign/load_campaign.h"
 
 namespace dodgesim {
 
 struct Tables {
   std::string markdown;
-  std::string csv;  // to_csv() of statistics_table.h by size, distance, both, and speed
+  std::string csv;  // to_csv() of statistics_table.h by size, distance, both, speed and cell
 };
 
-// `results` in throw order; `title` and `pilot` are the scenario's. Values of the sweep stand
-// apart.
-Tables make_tables(const std::vector<ThrowResult>& results, const std::string& title,
-                   const std::string& pilot);
+// Values of the sweep stand apart.
+Tables make_tables(const LoadedCampaign& campaign);
 
 }  // namespace dodgesim

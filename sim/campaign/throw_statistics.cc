@@ -52,12 +52,19 @@ std::optional<double> Rate::value() const {
   return static_cast<double>(count) / static_cast<double>(of);
 }
 
+std::string Rate::interval_name() const {
+  if (!sequential) return "Wilson 95 %";
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "sequential %.4g %%", 100 * sequential->confidence);
+  return text.data();
+}
+
 std::string rate_text(const Rate& rate) {
   std::string text = std::to_string(rate.count) + " / " + std::to_string(rate.of);
   if (rate.of == 0) return text;
   const Interval interval = rate.interval();
   return text + " (" + fixed(*rate.value()) + ", " + fixed(interval.lo) + " to " +
-         fixed(interval.hi) + ")";
+         fixed(interval.hi) + (rate.sequential ? ", " + rate.interval_name() : "") + ")";
 }
 
 void Tally::add(const FlightResult& flight, const FlightResult& none) {
@@ -70,7 +77,7 @@ void Tally::add(const FlightResult& flight, const FlightResult& none) {
   if (none.ok() && flight.unharmed()) ++dodged;
 }
 
-std::optional<QuantileEstimate> Sample::quantile(double share) const {
+std::optional<QuantileEstimate> Measured::quantile(double share) const {
   std::vector<double> sorted = values_;
   std::sort(sorted.begin(), sorted.end());
   return estimate_quantile(sorted, share);
@@ -107,6 +114,12 @@ ThrowStatistics statistics_of(const Results& results, const std::string& pilot) 
     add_flight(result->none, *result, sum.pilots[2]);
     if (result->flown.ok()) add_perception(*result, sum);
   }
+  return sum;
+}
+
+ThrowStatistics statistics_of(const Part& part) {
+  ThrowStatistics sum = statistics_of(part.results, part.pilot);
+  sum.pilots[0].tally.sequential = part.sequential;
   return sum;
 }
 

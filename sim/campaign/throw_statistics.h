@@ -14,19 +14,29 @@
 
 namespace dodgesim {
 
+// Of a rate whose counts decided when to stop counting, which makes the usual interval too narrow
+// (sequential.h).
+struct SequentialInterval {
+  Interval interval;
+  double confidence = 0.95;
+};
+
 struct Rate {
   std::int64_t count = 0;
   std::int64_t of = 0;
+  std::optional<SequentialInterval> sequential = {};  // in place of Wilson's
 
   void add(bool success) {
     ++of;
     count += success ? 1 : 0;
   }
   std::optional<double> value() const;  // empty when nothing was counted
-  Interval interval() const { return wilson(count, of); }
+  Interval interval() const { return sequential ? sequential->interval : wilson(count, of); }
+  std::string interval_name() const;  // "Wilson 95 %" or "sequential 95 %"
 };
 
-// "25 / 34 (0.735, 0.569 to 0.854)"; "0 / 0" without trials.
+// "25 / 34 (0.735, 0.569 to 0.854)"; "0 / 0" without trials. An interval other than Wilson's is
+// named: "25 / 34 (0.735, 0.569 to 0.854, sequential 95 %)".
 std::string rate_text(const Rate& rate);
 
 // Counts over some throws, for one pilot.
@@ -36,15 +46,16 @@ struct Tally {
   int dodged = 0;          // of those that would have hit
   int errors = 0;          // flights of this pilot, or of the pilot none, that failed
   Rate collisions;         // hit or crashed, of all flights of the pilot that did not fail
+  std::optional<SequentialInterval> sequential = {};  // of the success rate, see Rate
 
   void add(const FlightResult& flight, const FlightResult& none);
-  Rate success() const { return {dodged, would_have_hit}; }
+  Rate success() const { return {dodged, would_have_hit, sequential}; }
   // What tables show. The pilot none dodges nothing: of it, how many throws would have hit.
   Rate shown(bool none) const { return none ? Rate{would_have_hit, throws} : success(); }
 };
 
 // Numbers of throws that lie on a line, such as the clearance.
-class Sample {
+class Measured {
  public:
   void add(std::optional<double> value) {
     if (value) values_.push_back(*value);
@@ -60,7 +71,7 @@ class Sample {
 struct PilotStatistics {
   std::string pilot;
   Tally tally;
-  Sample clearance_m;  // 0 when it was hit
+  Measured clearance_m;  // 0 when it was hit
 };
 
 struct ThrowStatistics {
@@ -71,12 +82,12 @@ struct ThrowStatistics {
   Rate detected;                      // of the throws that came into view
   Rate false_alarms;                  // of all flights: evaded before it had detected an object
   std::map<std::string, int> causes;  // of its hits and crashes
-  Sample detection_distance_m;        // of the first detection of a true object
-  Sample time_to_contact_s;           // from there, if nobody dodged
+  Measured detection_distance_m;      // of the first detection of a true object
+  Measured time_to_contact_s;         // from there, if nobody dodged
   // The latency chain of the first detection: from the first moment in view to its output, from
   // the instant that it speaks of to its output, from there to the first evasive command at the
   // flight controller.
-  Sample view_to_detection_s, image_to_detection_s, detection_to_command_s;
+  Measured view_to_detection_s, image_to_detection_s, detection_to_command_s;
 
   const PilotStatistics& flown() const { return pilots.front(); }
 };
@@ -84,7 +95,7 @@ struct ThrowStatistics {
 // The samples with the names that they have in tables.
 struct NamedSample {
   const char* name;
-  Sample ThrowStatistics::*sample;
+  Measured ThrowStatistics::*sample;
 };
 inline constexpr NamedSample kSamples[] = {
     {"detection_distance_m", &ThrowStatistics::detection_distance_m},
@@ -102,6 +113,7 @@ struct Part {
   std::vector<AxisValue> values;
   std::string pilot;  // who flew it
   Results results;
+  std::optional<SequentialInterval> sequential = {};  // of its success rate, see Rate
 };
 
 // In the order of the sweep; one part without a sweep. `pilot` is the scenario's.
@@ -109,5 +121,8 @@ std::vector<Part> parts_of(const std::vector<ThrowResult>& results, const std::s
 
 // `pilot` is the flown one's name.
 ThrowStatistics statistics_of(const Results& results, const std::string& pilot);
+
+// Of all throws of the part, with the interval that holds for it.
+ThrowStatistics statistics_of(const Part& part);
 
 }  // namespace dodgesim

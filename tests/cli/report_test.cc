@@ -82,4 +82,54 @@ TEST_F(ReportCommandTest, ReportAndTableReadADirectory) {
   EXPECT_EQ(dodgesim("table " + path("nowhere")).exit_code, 4);
 }
 
+int count_of(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; ++at) ++count;
+  return count;
+}
+
+TEST_F(ReportCommandTest, ASweepHasACurveWithItsBandForEachCellOfTheGrid) {
+  const Outcome run = dodgesim("sweep " + path("s.yaml") + " -j 1 --throws 2 --out " +
+                               path("swept") + " --set 'grid={throw.speed_mps: [4, 8]}'" +
+                               " --over delays.compute_us=0,10000,30000");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const std::string dom = browse(path("swept/report.html")).output;
+  EXPECT_THAT(dom, Not(HasSubstr(":CONSOLE:"))) << dom.substr(0, 4000);
+  EXPECT_EQ(count_of(dom, "class=\"band\""), 1 + 2) << "over the speed; over the sweep, by speed";
+  EXPECT_THAT(dom, HasSubstr("speed 8 m/s</span>"));
+  EXPECT_EQ(count_of(dom, "aria-label=\"delays.compute_us 30000, speed "), 2) << "the table's rows";
+  // Without --by the cells of the grid are told apart.
+  EXPECT_THAT(dodgesim("table " + path("swept") + " --format csv").output,
+              testing::StartsWith("delays.compute_us,throw.speed_mps,pilot,"));
+}
+
+TEST_F(ReportCommandTest, ASweepOverNamesSaysThatThereIsNoCurve) {
+  dodgesim("sweep " + path("s.yaml") + " -j 1 --throws 2 --out " + path("names") +
+           " --over throw.object=ball,box");
+  const std::string dom = browse(path("names/report.html")).output;
+  EXPECT_THAT(dom, Not(HasSubstr(":CONSOLE:"))) << dom.substr(0, 4000);
+  EXPECT_THAT(dom, HasSubstr("No key of the sweep is a number: no curve."));
+  EXPECT_THAT(dom, HasSubstr("aria-label=\"throw.object box\""));
+}
+
+// 20 of 200 throws are enough for so wide an interval.
+TEST_F(ReportCommandTest, ACampaignThatStopEndedIsWhole) {
+  const Outcome run = dodgesim("run " + path("s.yaml") + " -j 1 --out " + path("early") +
+                               " --throws 200 --set 'stop={half_width: 0.3}'");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  const Outcome table = dodgesim("table " + path("early"));
+  EXPECT_EQ(table.exit_code, 0) << table.output;
+  EXPECT_THAT(table.output, HasSubstr("sequential 95 %"));
+  EXPECT_THAT(table.output, testing::ContainsRegex("ended by stop after [0-9]+ of at most 200"));
+  const Outcome report = dodgesim("report " + path("early"));
+  EXPECT_EQ(report.exit_code, 0) << report.output;
+  const Outcome check = dodgesim("merge --check " + path("early"));
+  EXPECT_EQ(check.exit_code, 0) << check.output;
+  const Outcome page = browse(path("early/report.html"));
+  EXPECT_THAT(page.output, Not(HasSubstr(":CONSOLE:"))) << page.output.substr(0, 4000);
+  EXPECT_THAT(page.output, HasSubstr("<p id=\"stop\">Ended by stop after "));
+  EXPECT_THAT(page.output, HasSubstr(", sequential 95 %</span>"));
+  EXPECT_THAT(page.output, Not(HasSubstr(" of 200</dd>"))) << "it lacks none";
+}
+
 }  // namespace

@@ -1,8 +1,10 @@
 #include "tools/commands/command.h"
 
 #include <cstdio>
+#include <iostream>
 
 #include "sim/base/error.h"
+#include "sim/campaign/load_campaign.h"
 
 namespace dodgesim {
 
@@ -50,6 +52,19 @@ std::vector<Setting> parse_settings(const std::string& option,
     settings.push_back({text.substr(0, equals), text.substr(equals + 1), shown});
   }
   return settings;
+}
+
+int completeness(const std::string& directory, const LoadedCampaign& campaign) {
+  const std::string all = count_of_throws(throw_count(campaign.scenario));
+  if (!campaign.complete()) {
+    std::cerr << directory << " has " << campaign.results.size() << " of " << all << " only.\n";
+    return kIncomplete;
+  }
+  if (campaign.ended_early()) {
+    std::cerr << directory << " was ended by stop after " << campaign.wanted() << " of at most "
+              << all << ".\n";
+  }
+  return kOk;
 }
 
 std::string count_of_throws(int n) { return std::to_string(n) + (n == 1 ? " throw" : " throws"); }

@@ -10,6 +10,8 @@
 
 namespace dodgesim {
 
+struct LoadedCampaign;
+
 // Exit codes of the program.
 inline constexpr int kOk = 0;
 inline constexpr int kBelowBar = 1;    // below the baseline, or not what was flown before
@@ -45,6 +47,10 @@ std::vector<Setting> parse_settings(const std::string& option,
 
 // Two lines about precision and recall, without the last line's end.
 std::string truth_text(const EventTruthSums& sums);
+
+// The exit code of a command that reads a campaign; tells on standard error of throws that it
+// lacks, or that its scenario's key stop has ended it.
+int completeness(const std::string& directory, const LoadedCampaign& campaign);
 
 // The text "n throws" with the right plural.
 std::string count_of_throws(int n);

@@ -22,10 +22,7 @@ int report(const Arguments& arguments) {
       arguments.out.empty() ? arguments.directory + "/" + kReportFile : arguments.out;
   write_file(out, report_html(campaign, arguments.directory));
   std::cout << "Report: " << out << "\n";
-  if (campaign.complete()) return kOk;
-  std::cerr << arguments.directory << " has " << campaign.results.size() << " of "
-            << count_of_throws(throw_count(campaign.scenario)) << " only.\n";
-  return kIncomplete;
+  return completeness(arguments.directory, campaign);
 }
 
 }  // namespace

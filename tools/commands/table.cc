@@ -15,7 +15,7 @@ namespace {
 struct Arguments {
   std::string directory;
   std::string format = "md";
-  std::vector<std::string> by = {"size_m", "distance_m"};
+  std::vector<std::string> by;
   std::string out;  // empty: standard output
 };
 
@@ -28,9 +28,11 @@ std::string formatted(const StatisticsTable& table, const std::string& format) {
 
 int table(const Arguments& arguments) {
   const LoadedCampaign campaign = load_campaign(arguments.directory);
-  const std::vector<Part> parts = parts_of(campaign.results, campaign.scenario.pilot);
-  std::vector<Axis> axes;
-  for (const std::string& key : arguments.by) {
+  const std::vector<Part> parts = parts_of(campaign);
+  std::vector<Axis> axes = arguments.by.empty() ? grid_axes(campaign.results) : std::vector<Axis>();
+  std::vector<std::string> keys = arguments.by;
+  if (keys.empty() && axes.empty()) keys = {"size_m", "distance_m"};
+  for (const std::string& key : keys) {
     // What is swept stands apart in any case.
     const std::vector<AxisValue>& swept = parts.front().values;
     if (std::any_of(swept.begin(), swept.end(), [&](const auto& v) { return v.key == key; })) {
@@ -44,10 +46,7 @@ int table(const Arguments& arguments) {
   } else {
     write_file(arguments.out, text);
   }
-  if (campaign.complete()) return kOk;
-  std::cerr << arguments.directory << " has " << campaign.results.size() << " of "
-            << count_of_throws(throw_count(campaign.scenario)) << " only.\n";
-  return kIncomplete;
+  return completeness(arguments.directory, campaign);
 }
 
 }  // namespace
@@ -65,10 +64,10 @@ void add_table_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("--by", arguments->by,
                    "What tells the groups apart, with commas: size_m, distance_m, speed_mps,\n"
-                   "bearing_deg, launch_height_m, object, or a key of the scenario's grid; the\n"
-                   "values of a sweep always stand apart")
+                   "bearing_deg, launch_height_m, object, or a key of the scenario's grid (when\n"
+                   "not given: all of those, or size_m and distance_m without a grid); the values\n"
+                   "of a sweep always stand apart")
       ->delimiter(',')
-      ->capture_default_str()
       ->type_name("KEYS");
   command->add_option("--out", arguments->out, "Where it goes, instead of the terminal")
       ->type_name("FILE");

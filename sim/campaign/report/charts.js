@@ -10,11 +10,12 @@ function svg(tag, attributes = {}, ...children) {
   return element;
 }
 
-// A rate is [count, of, lo, hi].
+// A rate is [count, of, lo, hi], with the name of its interval if that is not Wilson's.
 const rateOf = ([count, of]) => (of ? count / of : NaN);
 const two = (x) => x.toFixed(2);
+const intervalText = ([, , lo, hi, name]) => `${two(lo)} to ${two(hi)}${name ? `, ${name}` : ''}`;
 const rateText = (rate) =>
-    rate[1] ? `${two(rateOf(rate))} (${rate[0]} of ${rate[1]}, ${two(rate[2])} to ${two(rate[3])})`
+    rate[1] ? `${two(rateOf(rate))} (${rate[0]} of ${rate[1]}, ${intervalText(rate)})`
             : 'no throws';
 
 // Makes an element act as a button.
@@ -133,15 +134,17 @@ function legendOf(names) {
   return legend;
 }
 
-// Rates over a number, with the band of their intervals. series: [{name, points: [[x, rate]]}]
+// Rates over a number, with the band of their intervals. series: [{name, points: [[x, rate]]}].
+// They stand a little apart, so that none hides behind another.
 function rateCurves({series, xLabel, label}) {
   const xs = series.flatMap((s) => s.points.map(([x]) => x));
   const [least, most] = [Math.min(...xs), Math.max(...xs)];
   const margin = 0.06 * (most - least) || 0.5;
-  const {chart, x, y} = axes({xLabel, yLabel: 'dodged', label, xLo: least - margin,
-                              xHi: most + margin, yLo: 0, yHi: 1});
+  const {chart, x: place, y} = axes({xLabel, yLabel: 'dodged', label, xLo: least - margin,
+                                     xHi: most + margin, yLo: 0, yHi: 1});
   series.forEach((s, k) => {
-    const points = s.points.filter(([, rate]) => rate[1] > 0);
+    const x = (v) => place(v) + 4 * (k - (series.length - 1) / 2);
+    const points = s.points.filter(([, rate]) => rate[1] > 0).sort(([a], [b]) => a - b);
     const group = svg('g', {class: `series s${k % 6}`});
     const forth = points.map(([v, r]) => `${x(v)},${y(r[3])}`);
     const back = points.map(([v, r]) => `${x(v)},${y(r[2])}`).reverse();

@@ -1,7 +1,7 @@
 # Writes the files of the report into a C++ source, so that the program needs none of them beside it.
 #   cmake -DSOURCE_DIR=... -DOUTPUT=... -P embed.cmake
 set(code "// Generated from sim/campaign/report/ by embed.cmake.\n#include \"sim/campaign/report_files.h\"\n\nnamespace dodgesim {\n\n")
-foreach(part IN ITEMS page:report.html style:report.css script:trajectory.js,view3d.js,charts.js,report.js)
+foreach(part IN ITEMS page:report.html style:report.css script:data.js,trajectory.js,view3d.js,charts.js,throw.js,success.js,report.js)
   string(REGEX MATCH "^(.*):(.*)$" _ ${part})
   set(name ${CMAKE_MATCH_1})
   string(REPLACE "," ";" files ${CMAKE_MATCH_2})

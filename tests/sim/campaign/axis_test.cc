@@ -90,6 +90,32 @@ TEST(Axis, MayBeAKeyOfTheGridInItsOrder) {
   EXPECT_EQ(speed.of(results[2]), 0u);
 }
 
+TEST(Axis, TakesDifferentSpellingsOfANumberForOneValue) {
+  std::vector<ThrowResult> results;
+  for (const char* size : {"0.1", "0.10", "0.3", "1.0e-1"}) {
+    results.push_back(ball(0, std::stod(size), 3, 5));
+    results.back().cell_values = {{"throw.size_m", size}};
+  }
+  for (const char* name : {"size_m", "throw.size_m"}) {
+    const Axis axis(name, results);
+    EXPECT_THAT(axis.values(), ElementsAre("0.1", "0.3"));
+    EXPECT_THAT(axis.middles(), ElementsAre(0.1, 0.3));
+    EXPECT_EQ(axis.of(results[1]), 0u);
+    EXPECT_EQ(axis.of(results[3]), 0u);
+  }
+}
+
+TEST(Axis, OfAGridHasMiddlesOnlyIfAllItsValuesAreNumbers) {
+  std::vector<ThrowResult> results = {ball(0, 0.1, 3, 4), ball(1, 0.1, 3, 8)};
+  results[0].cell_values = {{"throw.speed_mps", "4"}, {"throw.object", "ball"}};
+  results[1].cell_values = {{"throw.speed_mps", "!uniform [8, 9]"}, {"throw.object", "box"}};
+  const std::vector<Axis> axes = grid_axes(results);
+  ASSERT_EQ(axes.size(), 2u);
+  EXPECT_EQ(axes[1].name(), "throw.object");
+  for (const Axis& axis : axes) EXPECT_THAT(axis.middles(), testing::IsEmpty());
+  EXPECT_TRUE(grid_axes({ball(0, 0.1, 3, 4)}).empty());
+}
+
 TEST(Axis, ThatThereIsNoneOfIsAnErrorThatListsThem) {
   try {
     Axis("colour", {});

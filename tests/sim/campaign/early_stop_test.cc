@@ -7,6 +7,8 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/load_campaign.h"
+#include "sim/campaign/report.h"
+#include "sim/campaign/statistics_table.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 
 namespace dodgesim {
@@ -40,8 +42,9 @@ TEST(EarlyStop, comes_with_the_throw_at_which_the_rule_is_met) {
   }
   for (int i = 0; i < 1000; ++i) stop.add(nth_throw(i));
   EXPECT_EQ(stop.end(), expected);
-  EXPECT_THAT(stop.text(), HasSubstr("Stopped after " + std::to_string(expected) + " throws: " +
-                                     std::to_string(dodged) + " of " + std::to_string(trials)));
+  EXPECT_THAT(stop.text(),
+              HasSubstr("Ended by stop after " + std::to_string(expected) +
+                        " throws: " + std::to_string(dodged) + " of " + std::to_string(trials)));
 }
 
 TEST(EarlyStop, does_not_depend_on_the_order_in_which_throws_finish) {
@@ -65,7 +68,7 @@ TEST(EarlyStop, states_a_wider_interval_when_it_has_not_come) {
   EarlyStop stop(stopping(0.1, 1000));
   for (int i = 0; i < 20; ++i) stop.add(nth_throw(i));
   EXPECT_FALSE(stop.end());
-  EXPECT_THAT(stop.text(), HasSubstr("Not stopped after 20 throws: 14 of 18 dodged"));
+  EXPECT_THAT(stop.text(), HasSubstr("Not ended by stop after 20 throws: 14 of 18 dodged"));
 }
 
 class EarlyStopCampaignTest : public CampaignTest {
@@ -86,8 +89,40 @@ TEST_F(EarlyStopCampaignTest, FliesNoMoreThanItNeedsWhateverTheWorkers) {
   for (const char* file : kReproducible) {
     EXPECT_EQ(read(root_ / "one" / file), read(root_ / "three" / file)) << file;
   }
-  EXPECT_THAT(read(root_ / "one/table.md"), HasSubstr("Stopped after"));
-  EXPECT_EQ(static_cast<int>(load_campaign(root_ / "three").results.size()), one.wanted);
+}
+
+TEST_F(EarlyStopCampaignTest, IsCompleteForWhoReadsItAndStatesTheIntervalThatHolds) {
+  const int flown = run_campaign(scenario_, options("out"), fly_nth()).wanted;
+  const LoadedCampaign campaign = load_campaign(root_ / "out");
+  EXPECT_TRUE(campaign.complete());
+  EXPECT_TRUE(campaign.ended_early());
+  EXPECT_EQ(static_cast<int>(campaign.results.size()), flown);
+  EXPECT_EQ(expect_complete({root_ / "out"}), flown);
+
+  const Rate headline = statistics_of(parts_of(campaign).front()).flown().tally.success();
+  EXPECT_EQ(headline.interval_name(), "sequential 95 %");
+  EXPECT_NEAR(headline.interval().half_width(), 0.2, 1e-3) << "as asked for, where it is not cut";
+  EXPECT_NE(headline.interval().lo, wilson(headline.count, headline.of).lo);
+  const std::string table = read(root_ / "out/table.md");
+  EXPECT_THAT(table, HasSubstr("Ended by stop after " + std::to_string(flown) + " throws"));
+  EXPECT_THAT(table, HasSubstr("Dodged: " + rate_text(headline)));
+  EXPECT_THAT(rate_text(headline), ::testing::EndsWith(", sequential 95 %)"));
+  EXPECT_THAT(read(root_ / "out/table.csv"), HasSubstr(",sequential 95 %,"));
+  const StatisticsTable grouped = group_by(parts_of(campaign), {});
+  EXPECT_THAT(to_json(grouped), HasSubstr("\"interval\": \"sequential 95 %\""));
+  EXPECT_THAT(to_latex(grouped), HasSubstr("sequential 95 \\%)"));
+  EXPECT_THAT(report_html(campaign, "out"), HasSubstr("\"sequential 95 %\""));
+}
+
+TEST_F(EarlyStopCampaignTest, LacksThrowsUntilItHasEnded) {
+  CampaignOptions part = options("part");
+  int flown_so_far = 0;
+  part.stop = [&flown_so_far] { return ++flown_so_far > 3; };
+  run_campaign(scenario_, part, fly_nth());
+  const LoadedCampaign campaign = load_campaign(root_ / "part");
+  EXPECT_FALSE(campaign.complete());
+  EXPECT_FALSE(campaign.ended_early());
+  EXPECT_THROW(expect_complete({root_ / "part"}), MissingThrows);
 }
 
 TEST_F(EarlyStopCampaignTest, GoesOnWhereItWasInterrupted) {

@@ -106,7 +106,7 @@ TEST(ReportPage, ChartsShowTheCountsOfTheTables) {
   EXPECT_EQ(section["pilots"][2]["total"][0], 48);
   EXPECT_EQ(section["pilots"][2]["total"][1], 60);
   int would_have_hit = 0;
-  for (const auto& row : pilot["cells"]) {
+  for (const auto& row : pilot["heat"]) {
     ASSERT_EQ(row.size(), 2u);
     for (const auto& cell : row) would_have_hit += cell[1].get<int>();
   }
@@ -120,10 +120,32 @@ TEST(ReportPage, ValuesOfASweepHaveChartsOfTheirOwn) {
     result.sweep_values = {{"delays.compute_us", result.sweep == 0 ? "0" : "10000"}};
   }
   const auto data = data_of(report_html(swept, "out/x"));
-  EXPECT_EQ(data["sweep_key"], "delays.compute_us");
+  EXPECT_EQ(data["sweep_keys"], nlohmann::json::parse(R"(["delays.compute_us"])"));
   ASSERT_EQ(data["sections"].size(), 2u);
-  EXPECT_EQ(data["sections"][1]["value"], "10000");
+  EXPECT_EQ(data["sections"][1]["values"][0], "10000");
   EXPECT_EQ(data["sections"][1]["pilots"][2]["total"][1], 10);
+}
+
+TEST(ReportPage, ShowsTheCellsOfAnyGridAndTheHeatMapOfItsFirstTwoNumbers) {
+  LoadedCampaign grid = campaign(48);
+  for (ThrowResult& result : grid.results) {
+    const int i = result.index;
+    result.cell_values = {{"throw.object", i % 2 == 0 ? "ball" : "box"},
+                          {"throw.bearing_deg", i % 6 < 2   ? "-20"
+                                                : i % 6 < 4 ? "0"
+                                                            : "20"},
+                          {"delays.command_us", "5000"}};
+  }
+  const auto data = data_of(report_html(grid, "out/x"));
+  EXPECT_EQ(data["heat"][0]["key"], "throw.bearing_deg");
+  EXPECT_EQ(data["heat"][1]["key"], "delays.command_us");
+  ASSERT_EQ(data["cells"]["values"].size(), 6u);
+  EXPECT_EQ(data["cells"]["values"][4], nlohmann::json::parse(R"(["box", "0", "5000"])"));
+  const auto& none = data["sections"][0]["pilots"][2];
+  ASSERT_EQ(none["by_cell"].size(), 6u);
+  for (const auto& rate : none["by_cell"]) EXPECT_EQ(rate[1], 8);
+  EXPECT_EQ(none["heat"].size(), 3u);
+  EXPECT_EQ(none["heat"][2][0][1], 16);
 }
 
 TEST(ReportPage, OfNoThrowsAndOfQuietFlightsIsAPage) {
@@ -131,7 +153,7 @@ TEST(ReportPage, OfNoThrowsAndOfQuietFlightsIsAPage) {
   LoadedCampaign quiet = campaign(0);
   quiet.results.resize(2);
   for (ThrowResult& result : quiet.results) result.flown = flown(false);
-  EXPECT_EQ(data_of(report_html(quiet, "out/x"))["sizes"].size(), 0u);
+  EXPECT_EQ(data_of(report_html(quiet, "out/x"))["heat"][0]["values"].size(), 0u);
 }
 
 TEST(ReportPage, OfTenThousandThrowsIsBelow20Megabytes) {

@@ -56,8 +56,9 @@ TEST(GroupBy, KeepsValuesOfASweepApart) {
 TEST(TableFormats, CsvHasEqualColumnsAndEmptyCellsForTheUnknown) {
   const std::vector<std::string> rows = lines(to_csv(table()));
   ASSERT_EQ(rows.size(), 1 + 3 * 2u);
-  EXPECT_THAT(rows[0], testing::StartsWith("object,size_m,pilot,throws,would_have_hit,dodged,rate,"
-                                           "rate_lo,rate_hi,errors,flights,collisions,"));
+  EXPECT_THAT(rows[0],
+              testing::StartsWith("object,size_m,pilot,throws,would_have_hit,dodged,rate,"
+                                  "rate_lo,rate_hi,rate_interval,errors,flights,collisions,"));
   const auto commas = std::count(rows[0].begin(), rows[0].end(), ',');
   for (std::size_t i = 3; i < rows.size(); ++i) {
     EXPECT_EQ(std::count(rows[i].begin(), rows[i].end(), ','), commas) << rows[i];
@@ -80,9 +81,19 @@ TEST(TableFormats, JsonIsValidAndHasNullForTheUnknown) {
 TEST(TableFormats, LatexIsEscaped) {
   const std::string latex = to_latex(table());
   EXPECT_THAT(latex, HasSubstr("\\begin{tabular}{lllllll}\n  \\toprule\n"));
-  EXPECT_THAT(latex, HasSubstr("  a\\_b \\& \"c\" | \\textbackslash{} 50\\%, "));
+  EXPECT_THAT(latex, HasSubstr("  a\\_b \\& \"c\" \\textbar{} \\textbackslash{} 50\\%, "));
   EXPECT_THAT(latex, HasSubstr("  object & size\\_m & falanga2020: dodged & "));
   EXPECT_EQ(lines(latex).size(), 2 * (2 + 1 + 1 + 3 + 2) + 1u);
+}
+
+TEST(TableFormats, LatexKeepsKeysAndValuesOfAGridAsTheyAre) {
+  std::vector<ThrowResult> results = {ball(0, 0.1, 2, 4)};
+  results[0].cell_values = {{"throw.aim_offset_m", "[0, 1]"}, {"a#b$c{d}~^", "<x> *"}};
+  const std::string latex =
+      to_latex(group_by(parts_of(results, "falanga2020"), grid_axes(results)));
+  EXPECT_THAT(latex, HasSubstr("  throw.aim\\_offset\\_m & a\\#b\\$c\\{d\\}\\~{}\\^{} & "));
+  // A row that began with "[" would be the length by which \\ of the row before skips.
+  EXPECT_THAT(latex, HasSubstr("\n  {[}0, 1] & \\textless{}x\\textgreater{} {*} & "));
 }
 
 TEST(TableFormats, MarkdownKeepsItsColumns) {

@@ -20,7 +20,10 @@ ThrowResult throw_with(int index, const FlightResult& pilot, const FlightResult&
 }
 
 Tables tables(const std::vector<ThrowResult>& results) {
-  return make_tables(results, "test", "falanga2020");
+  LoadedCampaign campaign;
+  campaign.scenario.name = "test";
+  campaign.results = results;
+  return make_tables(campaign);
 }
 
 TEST(Tables, MarkdownAndCsvAreAsExpected) {
@@ -83,11 +86,41 @@ All throws. Median (10 % to 90 % quantile), count.
 Of 1 throw that would have missed, falanga2020 evaded 1 and was hit by 0.
 
 )");
-  EXPECT_THAT(made.csv, testing::StartsWith("size_m,distance_m,speed_mps,pilot,throws,"
-                                            "would_have_hit,dodged,rate,rate_lo,rate_hi,errors,"));
+  EXPECT_THAT(made.csv, testing::StartsWith(
+                            "size_m,distance_m,speed_mps,pilot,throws,"
+                            "would_have_hit,dodged,rate,rate_lo,rate_hi,rate_interval,errors,"));
   EXPECT_THAT(made.csv, HasSubstr("\n0.1,2,all,falanga2020,2,1,1,1,"));
   EXPECT_THAT(made.csv, HasSubstr("\nall,all,all,falanga2020,3,2,1,0.5,"));
   EXPECT_THAT(made.csv, HasSubstr("\nall,all,4,none,3,2,0,0,"));
+}
+
+TEST(Tables, EveryCellOfAGridHasItsRowWhateverTheKeys) {
+  std::vector<ThrowResult> results;
+  for (int i = 0; i < 8; ++i) {
+    results.push_back(throw_with(i, flown(i == 3), flown(true), FlightResult{}));
+    results.back().cell_values = {{"throw.bearing_deg", i % 2 == 0 ? "-20" : "20"},
+                                  {"delays.command_us", i % 4 < 2 ? "0" : "10000"},
+                                  {"throw.size_m", "0.1"}};
+  }
+  const Tables made = tables(results);
+  EXPECT_THAT(made.markdown, HasSubstr("## By cell of the grid\n\n| throw.bearing_deg | "
+                                       "delays.command_us | throw.size_m | falanga2020: dodged |"));
+  EXPECT_THAT(made.markdown, HasSubstr("\n| -20 | 0 | 0.1 | 2 / 2 (1.000, 0.342 to 1.000) |"));
+  EXPECT_THAT(made.markdown, HasSubstr("\n| 20 | 10000 | 0.1 | 1 / 2 (0.500, 0.095 to 0.905) |"));
+  EXPECT_THAT(made.csv, testing::StartsWith(
+                            "size_m,distance_m,speed_mps,throw.bearing_deg,delays.command_us,"));
+  EXPECT_THAT(made.csv, HasSubstr("\n0.1,all,all,20,10000,falanga2020,2,2,1,"));
+  EXPECT_THAT(made.csv, HasSubstr("\n0.1,2,all,all,all,falanga2020,8,8,7,"));
+  EXPECT_THAT(made.csv, HasSubstr("\nall,all,all,all,all,falanga2020,8,8,7,"));
+}
+
+TEST(Tables, ACellThatTheOtherTablesShowHasOneRowInTheCsv) {
+  std::vector<ThrowResult> results = {throw_with(0, flown(false), flown(true), FlightResult{})};
+  results[0].cell_values = {{"throw.distance_m", "2"}};
+  const std::string csv = tables(results).csv;
+  const std::size_t at = csv.find("\nall,2,all,falanga2020,");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_EQ(csv.find("\nall,2,all,falanga2020,", at + 1), std::string::npos);
 }
 
 TEST(Tables, WithoutOracleThereIsNoRowOfIt) {

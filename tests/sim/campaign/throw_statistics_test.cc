@@ -69,7 +69,7 @@ ThrowResult detected(int index) {
 TEST(ThrowStatistics, MeasureTheChainFromViewToCommand) {
   const std::vector<ThrowResult> results = {detected(0), detected(1)};
   const ThrowStatistics sum = statistics(results);
-  const auto median = [](const Sample& sample) { return sample.quantile(0.5)->value; };
+  const auto median = [](const Measured& sample) { return sample.quantile(0.5)->value; };
   EXPECT_DOUBLE_EQ(median(sum.view_to_detection_s), 0.2);
   EXPECT_DOUBLE_EQ(median(sum.image_to_detection_s), 0.015);
   EXPECT_DOUBLE_EQ(median(sum.detection_to_command_s), 0.01);

@@ -1,0 +1,148 @@
+// Rates of success: the heat map, the cells of the grid, the curves over speed and sweep.
+'use strict';
+
+const kUnits = {m: 'm', mps: 'm/s', deg: 'deg', us: 'us', s: 's', hz: 'Hz', px: 'px'};
+
+// "throw.size_m" is shown as "size", with the unit m beside its values.
+function shown(key) {
+  const [, name, unit] = /^(?:throw\.)?(.+?)(?:_(m|mps|deg|us|s|hz|px))?$/.exec(key);
+  return {name: name.replaceAll('_', ' '), unit: kUnits[unit] || ''};
+}
+
+function valueText(key, value) {
+  const {name, unit} = shown(key);
+  return `${name} ${value} ${unit}`.trim();
+}
+
+function fillHeat() {
+  const pilots = section().pilots;
+  byId('pilots').replaceChildren(...pilots.map((pilot, k) => {
+    const button = make('button', {type: 'button', textContent: pilot.name});
+    button.setAttribute('aria-pressed', k === state.pilot);
+    button.addEventListener('click', () => {
+      state.pilot = k;
+      fillHeat();
+      byId('pilots').children[k].focus();
+    });
+    return button;
+  }));
+  const [rows, columns] = data.heat;
+  byId('heat-title').textContent = `Dodged, by ${shown(rows.key).name} and ${
+      shown(columns.key).name}`;
+  const rates = pilots[state.pilot].heat;
+  byId('heat').replaceChildren(!rates.length ? empty('Nobody threw.') : heatMap({
+    rows: rows.values, columns: columns.values, rates,
+    rowUnit: shown(rows.key).unit, columnUnit: shown(columns.key).unit,
+    press: (i, j) => chooseCell(
+        `${valueText(rows.key, rows.values[i])}, ${valueText(columns.key, columns.values[j])}`,
+        (k) => throws.heat_row[k] === i && throws.heat_column[k] === j),
+  }));
+}
+
+// A line for each of `rows`: [{values, rates, label, press}].
+function rateTable(keys, pilots, rows) {
+  const head = [...keys, ...pilots.map((name) => (name === 'none' ? 'would have hit' :
+                                                                    `dodged by ${name}`))];
+  const cells = (row) => [...row.values.map((text) => make('td', {textContent: text})),
+                          ...row.rates.map((rate) => make('td', {textContent: rateText(rate)}))];
+  return make('table', {},
+      make('thead', {}, make('tr', {}, ...head.map((text) => make('th', {textContent: text,
+                                                                         scope: 'col'})))),
+      make('tbody', {}, ...rows.map((row) => pressable(make('tr', {}, ...cells(row)), row.label,
+                                                       row.press))));
+}
+
+const cellText = (values) => values.map((v, k) => valueText(data.cells.keys[k], v)).join(', ');
+
+// The rows of a part of the sweep: one for each cell of the grid.
+function cellRows(part) {
+  return data.cells.values.map((values, j) => ({
+    values, label: cellText(values), rate: (pilot) => pilot.by_cell[j],
+    press: () => {
+      if (part !== section()) chooseSection(data.sections.indexOf(part));
+      chooseCell(cellText(values), (i) => throws.cell[i] === j);
+    }}));
+}
+
+function fillCells() {
+  if (!data.cells.keys.length) return;
+  byId('cells-section').hidden = false;
+  const pilots = section().pilots;
+  byId('cells').replaceChildren(rateTable(data.cells.keys, pilots.map((p) => p.name),
+      cellRows(section()).map((row) => ({...row, rates: pilots.map(row.rate)}))));
+}
+
+function fillSpeed() {
+  const pilots = section().pilots.filter((p) => p.name !== 'none' || section().pilots.length === 1);
+  const {values, middles} = data.speed;
+  byId('speed').replaceChildren(
+      !values.length ? empty('Nobody threw.') :
+      !middles.length ? empty('The speeds of the grid are no numbers; see the table of its cells.') :
+      rateCurves({
+        series: pilots.map((p) => ({name: p.name,
+                                    points: p.by_speed.map((rate, k) => [middles[k], rate])})),
+        xLabel: 'speed [m/s]', label: 'Rate of dodged throws over speed'}));
+}
+
+// What the curves of a sweep tell apart: its other keys, else the cells of the grid, else the
+// speeds. [{name, sections, rate: (pilot) => rate}]
+function sweepLines(x) {
+  const all = data.sections;
+  if (data.sweep_keys.length > 1) {
+    const others = (s) => s.values.map((v, k) => (k === x ? '' : valueText(data.sweep_keys[k], v)))
+        .filter(Boolean).join(', ');
+    return [...new Set(all.map(others))].map((name) => ({
+      name, sections: all.filter((s) => others(s) === name), rate: (p) => p.total}));
+  }
+  if (data.cells.values.length > 1) {
+    return data.cells.values.map((values, j) => ({
+      name: cellText(values), sections: all, rate: (p) => p.by_cell[j]}));
+  }
+  const speeds = data.speed.values.length > 5 ? [] : data.speed.values;
+  return speeds.map((speed, j) => ({name: `${speed} m/s`, sections: all, rate: (p) => p.by_speed[j]}));
+}
+
+// A chart for each pilot, with its lines; or one for all of them, where there is but one line each.
+function sweepCharts(x) {
+  const key = data.sweep_keys[x];
+  const chart = (series) => rateCurves({series, xLabel: key, label: `Rate of dodged throws over ${key}`});
+  const swept = data.sections.some((s) => s.pilots[0].name !== data.sections[0].pilots[0].name);
+  const pilots = [{name: swept ? 'pilot of the sweep' : data.sections[0].pilots[0].name,
+                   of: (s) => s.pilots[0]},
+                  {name: 'oracle', of: (s) => s.pilots.slice(1).find((p) => p.name === 'oracle')}]
+      .filter((pilot) => data.sections.some(pilot.of));
+  const points = (pilot, sections, rate) => sections.filter(pilot.of)
+      .map((s) => [Number(s.values[x]), rate(pilot.of(s))]);
+  const lines = sweepLines(x);
+  if (lines.length < 2) {
+    return [chart(pilots.map((p) => ({name: p.name,
+                                      points: points(p, data.sections, (of) => of.total)})))];
+  }
+  if (lines.length > kMostLines) return [empty(`${lines.length} curves would be too many to read.`)];
+  return pilots.map((p) => make('figure', {}, make('figcaption', {textContent: p.name}), chart(
+      lines.map((line) => ({name: line.name, points: points(p, line.sections, line.rate)})))));
+}
+const kMostLines = 8;
+
+function fillSweep() {
+  if (data.sections.length < 2) return;
+  byId('sweep-section').hidden = false;
+  const x = data.sweep_keys.findIndex((_, k) =>
+      data.sections.every((s) => Number.isFinite(Number(s.values[k]))));
+  byId('sweep-curve').replaceChildren(...(x < 0 ? [empty('No key of the sweep is a number: no curve.')] :
+                                                  sweepCharts(x)));
+  // The flown pilot first, whoever that is in a part: a key may sweep the pilots.
+  const names = data.sections[0].pilots.map((p) => p.name);
+  const flewAs = (part, name, k) => (k ? part.pilots.find((p) => p.name === name) : part.pilots[0]);
+  const rows = data.sections.flatMap((part, k) => {
+    const inside = data.cells.keys.length ? cellRows(part) :
+        [{values: [], rate: (pilot) => pilot.total, press: () => chooseSection(k)}];
+    const pilots = names.map((name, j) => flewAs(part, name, j));
+    return inside.map((row) => ({
+      ...row, label: [part.label, row.label].filter(Boolean).join(', '),
+      values: [...part.values, ...row.values],
+      rates: pilots.map((pilot) => (pilot ? row.rate(pilot) : [0, 0, 0, 1]))}));
+  });
+  byId('sweep-table').replaceChildren(
+      rateTable([...data.sweep_keys, ...data.cells.keys], names, rows));
+}
