@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 class ModelsDigest : public testing::Test {
  protected:
   void SetUp() override {
-    directory_ = fs::path(testing::TempDir()) / "dodgesim_models_digest";
+    directory_ = fs::path(testing::TempDir()) /
+                 testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(directory_);
     fs::copy(test_spec().models_dir, directory_, fs::copy_options::recursive);
     spec_ = test_spec({{"ball", 0.2}});
