@@ -3,11 +3,11 @@
 // A pixel answers to the signal S: the response L to the luminance (response.h), behind the
 // photoreceptor's bandwidth (photoreceptor.h), plus what the leak has added to it. From sample to
 // sample S runs linearly, or as a bandwidth bends it: exactly where a pixel makes one event and the
-// bandwidth is of first order (crossings.h), else in straight pieces that stay within kCurveShare of
-// the thresholds. A pixel fires an ON event when S reaches reference + C_on
-// and an OFF event when S falls to reference - C_off, stamped at that crossing (Lichtsteiner et al.
-// 2008; the event model (1) of Falanga et al. 2020); the reference then moves to the level that was
-// crossed, so one interval may hold several events of a pixel.
+// bandwidth is of first order (crossings.h), else in straight pieces that stay within kCurveShare
+// of the thresholds. A pixel fires an ON event when S reaches reference + C_on and an OFF event
+// when S falls to reference - C_off, stamped at that crossing (Lichtsteiner et al. 2008; the event
+// model (1) of Falanga et al. 2020); the reference then moves to the level that was crossed, so one
+// interval may hold several events of a pixel.
 //
 // Refractory period: as in the real pixel, whose differencing amplifier is kept in reset after an
 // event, the pixel is held for `refractory_us` and re-armed at its end with reference = S at that
