@@ -47,6 +47,11 @@ std::uint8_t place(std::optional<std::size_t> at) {
   return at && *at < kNone ? static_cast<std::uint8_t>(*at) : kNone;
 }
 
+// A grid may have more rows than `place` can tell apart.
+std::uint32_t heat_place(std::optional<std::size_t> at) {
+  return at ? static_cast<std::uint32_t>(*at) : std::numeric_limits<std::uint32_t>::max();
+}
+
 std::uint8_t cause_of(const ThrowResult& result) {
   for (std::size_t i = 0; i < kCollisionCauses.size(); ++i) {
     if (to_text(kCollisionCauses[i]) == result.cause) return static_cast<std::uint8_t>(i);
@@ -125,8 +130,8 @@ Json columns_of(const std::vector<ThrowResult>& results, const Axes& axes) {
   columns.add("sweep", [](const R& r) { return static_cast<std::uint16_t>(r.sweep); });
   columns.add("flags", [](const R& r) { return static_cast<std::uint16_t>(flags_of(r)); });
   columns.add("cause", cause_of);
-  columns.add("heat_row", [&](const R& r) { return place(axes.heat[0].of(r)); });
-  columns.add("heat_column", [&](const R& r) { return place(axes.heat[1].of(r)); });
+  columns.add("heat_row", [&](const R& r) { return heat_place(axes.heat[0].of(r)); });
+  columns.add("heat_column", [&](const R& r) { return heat_place(axes.heat[1].of(r)); });
   columns.add("cell", [&](const R& r) { return axes.cell_of(r); });
   columns.add("object", [&](const R& r) { return place(axes.object.of(r)); });
   columns.add("size", [](const R& r) { return number(r.size_m); });

@@ -22,7 +22,8 @@ StatisticsTable group_by(const Part& part, const std::vector<Axis>& axes) {
     for (std::size_t i = 0; i < axes.size(); ++i) {
       row.values.push_back(axes[i].values()[place[i]]);
     }
-    row.statistics = statistics_of(group, part.pilot);
+    row.statistics = group.size() == part.results.size() ? statistics_of(part)
+                                                         : statistics_of(group, part.pilot);
   }
   table.rows.push_back({std::vector<std::string>(axes.size(), "all"), statistics_of(part)});
   return table;

@@ -65,6 +65,11 @@ void expect_same_throws(const Scenario& scenario, const Baseline& baseline, cons
     throw ScenarioError(what + " (" + why +
                         "); to make a new baseline of this scenario, add --update.");
   };
+  if (drawn.size() != before.size() && to_yaml(scenario) == baseline.scenario) {
+    throw IoError((where / "throws.csv").string() + " has " + std::to_string(before.size()) +
+                  " of the " + std::to_string(drawn.size()) + " throws of its scenario; --update " +
+                  "replaces it.");
+  }
   if (drawn.size() != before.size()) {
     refuse("The scenario has " + std::to_string(drawn.size()) + " throws, " + where.string() +
            " has " + std::to_string(before.size()));
@@ -141,7 +146,7 @@ void expect_gateable(const Scenario& scenario, const Arguments& arguments) {
   if (scenario.stop) {
     throw ScenarioError(arguments.scenario +
                         ": a gate's scenario has no key stop, as every throw of the baseline must "
-                        "be flown; --set stop=~ leaves it out.");
+                        "be flown; --set 'stop=~' leaves it out.");
   }
 }
 

@@ -114,11 +114,13 @@ function sweepCharts(x) {
   const points = (pilot, sections, rate) => sections.filter(pilot.of)
       .map((s) => [Number(s.values[x]), rate(pilot.of(s))]);
   const lines = sweepLines(x);
-  if (lines.length < 2) {
-    return [chart(pilots.map((p) => ({name: p.name,
-                                      points: points(p, data.sections, (of) => of.total)})))];
+  const together = () => chart(pilots.map((p) => (
+      {name: p.name, points: points(p, data.sections, (of) => of.total)})));
+  if (lines.length < 2) return [together()];
+  if (lines.length > kMostLines) {
+    const note = empty(`${lines.length} curves would be too many to read; the table has them all.`);
+    return data.sweep_keys.length > 1 ? [note] : [together(), note];
   }
-  if (lines.length > kMostLines) return [empty(`${lines.length} curves would be too many to read.`)];
   return pilots.map((p) => make('figure', {}, make('figcaption', {textContent: p.name}), chart(
       lines.map((line) => ({name: line.name, points: points(p, line.sections, line.rate)})))));
 }

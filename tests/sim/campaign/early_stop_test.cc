@@ -112,6 +112,10 @@ TEST_F(EarlyStopCampaignTest, IsCompleteForWhoReadsItAndStatesTheIntervalThatHol
   EXPECT_THAT(to_json(grouped), HasSubstr("\"interval\": \"sequential 95 %\""));
   EXPECT_THAT(to_latex(grouped), HasSubstr("sequential 95 \\%)"));
   EXPECT_THAT(report_html(campaign, "out"), HasSubstr("\"sequential 95 %\""));
+  const StatisticsTable alike = group_by(parts_of(campaign), {Axis("object", campaign.results)});
+  ASSERT_EQ(alike.rows.size(), 2u);
+  EXPECT_EQ(alike.rows[0].statistics.flown().tally.success().interval_name(), "sequential 95 %")
+      << "a group of all throws is the whole";
 }
 
 TEST_F(EarlyStopCampaignTest, LacksThrowsUntilItHasEnded) {

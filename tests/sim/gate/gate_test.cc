@@ -59,6 +59,10 @@ TEST(Gate, FailsWhenItCouldNeverFail) {
   EXPECT_EQ(check(few, "enough throws").result, GateCheck::Result::kFailed);
   EXPECT_FALSE(judged("mmm", "mmm").passed()) << "nothing would have hit";
   EXPECT_TRUE(judged("dd", "dd").passed()) << "the bytes can fail";
+  EXPECT_FALSE(judge(baseline_of("dd"), tables_of({throw_that(0, 'd'), throw_that(1, 'd')}),
+                     "another kind", GateRules{})
+                   .passed())
+      << "the bytes are not compared";
 }
 
 TEST(Gate, SaysHowManyLossesItTakes) {
@@ -101,6 +105,13 @@ TEST(Gate, LetsNoThrowEscape) {
   missed[3] = 'm';
   EXPECT_THAT(reason(missed), HasSubstr("would have hit in the baseline or now, but not both: 3"));
   EXPECT_FALSE(judged(good, good.substr(2), {0.3, 0.95, "all"}).passed());
+
+  std::vector<ThrowResult> grazed;
+  for (int i = 0; i < 40; ++i) grazed.push_back(throw_that(i, i == 3 ? 'm' : 'd'));
+  const GateVerdict elsewhere =
+      judge(baseline_of(good), tables_of(grazed), "another kind", {0.05, 0.95, "all"});
+  EXPECT_TRUE(elsewhere.passed());
+  EXPECT_THAT(check(elsewhere, "same throws").reason, HasSubstr("but not both: 3"));
 }
 
 TEST(Gate, FailsWhenAThrowCouldNotBeFlown) {
@@ -140,10 +151,11 @@ TEST(Gate, HoldsTheBytesOfEveryObject) {
 }
 
 TEST(Gate, DoesNotCompareBytesAcrossKindsOfMachines) {
-  std::vector<ThrowResult> flown = {throw_that(0, 'd')};
+  std::vector<ThrowResult> flown;
+  for (int i = 0; i < 40; ++i) flown.push_back(throw_that(i, 'd'));
   flown[0].none.clearance_m = 1e-9;
   const GateVerdict verdict =
-      judge(baseline_of("d"), tables_of(flown), "another kind", GateRules{});
+      judge(baseline_of(std::string(40, 'd')), tables_of(flown), "another kind", GateRules{});
   EXPECT_TRUE(verdict.passed());
   EXPECT_EQ(check(verdict, "same bytes of the physics").result, GateCheck::Result::kLeftOut);
 }
