@@ -98,6 +98,7 @@ std::vector<Part> parts_of(const std::vector<ThrowResult>& results, const std::s
   }
   if (parts.empty()) parts[0].pilot = pilot;
   std::vector<Part> in_order;
+  in_order.reserve(parts.size());
   for (auto& [sweep, part] : parts) in_order.push_back(std::move(part));
   return in_order;
 }

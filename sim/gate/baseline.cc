@@ -112,7 +112,7 @@ bool is_marked_as_baseline(const fs::path& directory) {
 
 GateRules rules_or_default(const fs::path& directory) {
   try {
-    const GateRules rules = from_manifest(directory, rules_of);
+    GateRules rules = from_manifest(directory, rules_of);
     check(rules, directory);
     return rules;
   } catch (const IoError&) {

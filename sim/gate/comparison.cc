@@ -130,6 +130,7 @@ std::string list_of(const std::vector<std::string>& items) {
 
 std::string list_of(const std::vector<int>& numbers) {
   std::vector<std::string> items;
+  items.reserve(numbers.size());
   for (const int number : numbers) items.push_back(std::to_string(number));
   return list_of(items);
 }

@@ -19,7 +19,6 @@ using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
 
 class ScenarioCommandTest : public testing::Test {
  protected:
