@@ -174,15 +174,9 @@ Json rate_of(const Rate& rate) {
 }
 
 // What the charts show of one pilot.
-Json pilot_rate(const ThrowStatistics* statistics, std::size_t pilot) {
-  if (statistics == nullptr) return rate_of({});
-  return rate_of(statistics->pilots[pilot].tally.shown(pilot == 2));
-}
-
-const ThrowStatistics* find(const StatisticsTable& table, const Values& values) {
-  const auto row = std::find_if(table.rows.begin(), table.rows.end(),
-                                [&](const auto& r) { return r.values == values; });
-  return row == table.rows.end() ? nullptr : &row->statistics;
+Json pilot_rate(const StatisticsTable::Row* row, std::size_t pilot) {
+  if (row == nullptr) return rate_of({});
+  return rate_of(row->statistics.pilots[pilot].tally.shown(pilot == 2));
 }
 
 Json section_of(const Part& part, const Axes& axes) {
@@ -196,16 +190,16 @@ Json section_of(const Part& part, const Axes& axes) {
     for (const std::string& row_value : axes.heat[0].values()) {
       Json row = Json::array();
       for (const std::string& value : axes.heat[1].values()) {
-        row.push_back(pilot_rate(find(by_heat, {row_value, value}), k));
+        row.push_back(pilot_rate(find_row(by_heat, {row_value, value}), k));
       }
       heat.push_back(std::move(row));
     }
     for (const std::string& speed : axes.speed.values()) {
-      speeds.push_back(pilot_rate(find(by_speed, {speed}), k));
+      speeds.push_back(pilot_rate(find_row(by_speed, {speed}), k));
     }
-    for (const Values& cell : axes.cells) cells.push_back(pilot_rate(find(by_cell, cell), k));
+    for (const Values& cell : axes.cells) cells.push_back(pilot_rate(find_row(by_cell, cell), k));
     pilots.push_back({{"name", all.pilots[k].pilot},
-                      {"total", pilot_rate(&all, k)},
+                      {"total", pilot_rate(&by_heat.rows.back(), k)},
                       {"heat", std::move(heat)},
                       {"by_speed", std::move(speeds)},
                       {"by_cell", std::move(cells)}});

@@ -29,6 +29,13 @@ StatisticsTable group_by(const Part& part, const std::vector<Axis>& axes) {
   return table;
 }
 
+const StatisticsTable::Row* find_row(const StatisticsTable& table,
+                                     const std::vector<std::string>& values) {
+  const auto row = std::find_if(table.rows.begin(), table.rows.end(),
+                                [&](const auto& r) { return r.values == values; });
+  return row == table.rows.end() ? nullptr : &*row;
+}
+
 StatisticsTable of_sweep(const Part& part, StatisticsTable table) {
   std::vector<std::string> keys, values;
   for (const AxisValue& value : part.values) {

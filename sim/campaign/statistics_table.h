@@ -25,6 +25,10 @@ StatisticsTable group_by(const Part& part, const std::vector<Axis>& axes);
 // The same for all parts, one after the other, with the keys of the sweep in front.
 StatisticsTable group_by(const std::vector<Part>& parts, const std::vector<Axis>& axes);
 
+// The row of these values; null if there is none.
+const StatisticsTable::Row* find_row(const StatisticsTable& table,
+                                     const std::vector<std::string>& values);
+
 // Puts the keys and values of the part in front of those of the table.
 StatisticsTable of_sweep(const Part& part, StatisticsTable table);
 

@@ -25,13 +25,6 @@ std::string shown_key(const std::string& key) {
   return at == kKeys.end() ? key : *at;
 }
 
-const StatisticsTable::Row* find(const StatisticsTable& table,
-                                 const std::vector<std::string>& values) {
-  const auto row = std::find_if(table.rows.begin(), table.rows.end(),
-                                [&](const auto& r) { return r.values == values; });
-  return row == table.rows.end() ? nullptr : &*row;
-}
-
 // Rows told apart by some of the keys only, with "all" for the others; the row of all throws, and
 // rows that are there already, are left out.
 void append(const Part& part, const std::vector<Axis>& by, StatisticsTable& table) {
@@ -43,7 +36,7 @@ void append(const Part& part, const std::vector<Axis>& by, StatisticsTable& tabl
       const auto at = std::find(table.keys.begin(), table.keys.end(), shown_key(by[i].name()));
       values[static_cast<std::size_t>(at - table.keys.begin())] = row.values[i];
     }
-    if (find(table, values) != nullptr) continue;
+    if (find_row(table, values) != nullptr) continue;
     table.rows.push_back({std::move(values), std::move(row.statistics)});
   }
 }
@@ -149,7 +142,7 @@ class MarkdownWriter {
   // `values`: of kKeys.
   std::string cell(std::vector<std::string> values, std::size_t pilot) const {
     values.resize(table_.keys.size(), "all");
-    const StatisticsTable::Row* const row = find(table_, values);
+    const StatisticsTable::Row* const row = find_row(table_, values);
     const Tally tally = row == nullptr ? Tally{} : row->statistics.pilots[pilot].tally;
     std::string text = rate_text(tally.shown(pilot == 2));
     if (tally.errors > 0) text += ", " + std::to_string(tally.errors) + " errors";

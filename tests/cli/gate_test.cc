@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/cli/program.h"
+#include "tests/cli/command_test.h"
 
 namespace {
 
@@ -18,26 +18,14 @@ using dodgesim::testing::Outcome;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class GateCommandTest : public testing::Test {
+class GateCommandTest : public dodgesim::testing::CommandTest {
  protected:
   GateCommandTest() {
-    fs::create_directories(root_);
     write("s.yaml",
           "seed: 3\nrepeats: 3\npilot: none\nfly_oracle: false\nafter_s: 0.1\n"
           "throws: [{launch_s: 0.1}, {count: 2, speed_mps: !uniform [5, 8]}]\n");
   }
-  ~GateCommandTest() override { fs::remove_all(root_); }
 
-  std::string path(const std::string& name) const { return (root_ / name).string(); }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(root_ / name) << text;
-  }
-  std::string contents(const std::string& name) const {
-    std::ifstream file(root_ / name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
   Outcome gate(const std::string& options = "") const {
     return dodgesim("gate " + path("s.yaml") + " --baseline " + path("b") + " --out " +
                     path("out") + " --force " + options);
@@ -49,8 +37,6 @@ class GateCommandTest : public testing::Test {
     ASSERT_NE(at, std::string::npos) << from;
     write(file, text.replace(at, from.size(), to));
   }
-
-  fs::path root_ = fs::temp_directory_path() / ("dodgesim_gate_" + std::to_string(::getpid()));
 };
 
 TEST_F(GateCommandTest, PassesWhatItHasMade) {

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <vector>
 
-#include "tests/cli/program.h"
+#include "tests/cli/command_test.h"
 
 namespace {
 
@@ -20,27 +20,14 @@ using dodgesim::testing::Outcome;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class ScenarioCommandTest : public testing::Test {
+class ScenarioCommandTest : public dodgesim::testing::CommandTest {
  protected:
   ScenarioCommandTest() {
-    fs::create_directories(root_);
     write("s.yaml",
           "seed: 3\nrepeats: 2\npilot: none\nfly_oracle: false\nafter_s: 0.1\n"
           "throw: {speed_mps: !uniform [5, 8], launch_s: 0.1}\n");
   }
-  ~ScenarioCommandTest() override { fs::remove_all(root_); }
 
-  std::string path(const std::string& name) const { return (root_ / name).string(); }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(root_ / name) << text;
-  }
-  std::string contents(const std::string& name) const {
-    std::ifstream file(root_ / name);
-    EXPECT_TRUE(file) << name;
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
   // The cells of one column of a CSV file without quoted cells.
   std::vector<std::string> column(const std::string& file, const std::string& name) const {
     std::istringstream lines(contents(file));
@@ -59,8 +46,6 @@ class ScenarioCommandTest : public testing::Test {
     }
     return cells;
   }
-
-  fs::path root_ = fs::temp_directory_path() / ("dodgesim_scenario_" + std::to_string(::getpid()));
 };
 
 TEST_F(ScenarioCommandTest, SettingsChangeTheFileAndAreResolved) {

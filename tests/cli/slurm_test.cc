@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/cli/program.h"
+#include "tests/cli/command_test.h"
 
 namespace {
 
@@ -18,9 +18,9 @@ using dodgesim::testing::Outcome;
 using dodgesim::testing::shell;
 using testing::HasSubstr;
 
-class SlurmTest : public testing::Test {
+class SlurmTest : public dodgesim::testing::CommandTest {
  protected:
-  SlurmTest() {
+  SlurmTest() : CommandTest("with a blank") {
     fs::create_directories(root_ / "bin");
     // Prints a job's number; the queue is what the test says.
     write("bin/sbatch", "#!/bin/sh\necho \"$@\" >>'" + path("sbatch.log") + "'\nwc -l <'" +
@@ -32,19 +32,8 @@ class SlurmTest : public testing::Test {
     write("queue", "");
     write("s.yaml", "seed: 3\npilot: none\nfly_oracle: false\nafter_s: 0.1\n");
   }
-  ~SlurmTest() override { fs::remove_all(root_); }
 
-  std::string path(const std::string& name) const { return (root_ / name).string(); }
   std::string quoted(const std::string& name) const { return "'" + path(name) + "' "; }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(root_ / name) << text;
-  }
-  std::string contents(const std::string& name) const {
-    std::ifstream file(root_ / name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
   Outcome script(const std::string& name, const std::string& arguments) const {
     return shell("PATH='" + path("bin") + "':$PATH DODGESIM=" + kProgram + " " + kScripts + name +
                  " " + arguments);
@@ -60,7 +49,6 @@ class SlurmTest : public testing::Test {
 
   const std::string kScripts = std::string(DODGESIM_SOURCE_DIR) + "/tools/slurm/";
   const std::string kProgram = std::string(DODGESIM_BINARY_DIR) + "/dodgesim";
-  fs::path root_ = fs::temp_directory_path() / ("dodgesim slurm " + std::to_string(::getpid()));
 };
 
 TEST_F(SlurmTest, SubmitsAnArrayAndAMergeThatWaitsForIt) {

@@ -57,15 +57,16 @@ CampaignTables blank_tables(const Scenario& scenario) {
 void expect_same_throws(const Scenario& scenario, const Baseline& baseline, const fs::path& where) {
   const auto drawn = outcomes(blank_tables(scenario));
   const auto before = outcomes(baseline.tables);
+  const std::string now = to_yaml(scenario);
+  const bool same_scenario = now == baseline.scenario;
   const auto refuse = [&](const std::string& what) {
-    const std::string now = to_yaml(scenario);
-    const std::string why = now == baseline.scenario
+    const std::string why = same_scenario
                                 ? "the scenario is the same, but this version throws otherwise"
                                 : scenario_difference(now, baseline.scenario);
     throw ScenarioError(what + " (" + why +
                         "); to make a new baseline of this scenario, add --update.");
   };
-  if (drawn.size() != before.size() && to_yaml(scenario) == baseline.scenario) {
+  if (drawn.size() != before.size() && same_scenario) {
     throw IoError((where / "throws.csv").string() + " has " + std::to_string(before.size()) +
                   " of the " + std::to_string(drawn.size()) + " throws of its scenario; --update " +
                   "replaces it.");

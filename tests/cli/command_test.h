@@ -1,0 +1,32 @@
+// A directory of its own for each test of a command, and what lies in it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/cli/program.h"
+#include "tests/sim/files/temporary_directory.h"
+
+namespace dodgesim::testing {
+
+class CommandTest : public ::testing::Test {
+ protected:
+  // `folder` is the directory's own name.
+  explicit CommandTest(const std::string& folder = "test") : root_(parent_ / folder) {
+    std::filesystem::create_directories(root_);
+  }
+
+  std::string path(const std::string& name) const { return (root_ / name).string(); }
+  void write(const std::string& name, const std::string& text) const { put(root_ / name, text); }
+  std::string contents(const std::string& name) const {
+    EXPECT_TRUE(std::filesystem::exists(root_ / name)) << name;
+    return testing::contents(root_ / name);
+  }
+
+  const TemporaryDirectory parent_;
+  const std::filesystem::path root_;
+};
+
+}  // namespace dodgesim::testing
