@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dodge/avoid/attractive_field.h"
+#include "dodge/avoid/escape.h"
 #include "dodge/avoid/repulsive_field.h"
 #include "dodge/avoid/velocity_command.h"
 #include "dodge/camera_model.h"
@@ -34,6 +35,7 @@ struct Config {
   KalmanConfig kalman;
   RepulsiveConfig repulsive;
   AttractiveConfig attractive;
+  EscapeConfig escape;
   VelocityLimitConfig velocity_limit;
 
   template <class Visitor>
@@ -48,6 +50,7 @@ struct Config {
     v("kalman", kalman, "Filter of an obstacle's position and velocity, eqs. (13) to (25).");
     v("repulsive", repulsive, "Force away from obstacles, eqs. (26) to (33).");
     v("attractive", attractive, "Force towards the goal, eqs. (35), (36).");
+    v("escape", escape, "Escape by predicted closest approach, in place of the repulsive force.");
     v("velocity_limit", velocity_limit, "Limit of the commanded velocity, eq. (39).");
   }
 };

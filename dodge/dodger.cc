@@ -38,7 +38,7 @@ Dodger::Dodger(const Config& config)
     : config_(validated(config)),
       depth_(config.position, config.cameras, config.window.window_us),
       tracker_(config.association, config.kalman, decay_lifetime_s(config.repulsive)),
-      avoider_(config.repulsive, config.attractive, config.velocity_limit) {
+      avoider_(config.repulsive, config.attractive, config.velocity_limit, config.escape) {
   const std::size_t used = config.position.depth == "stereo" ? 2 : 1;
   for (std::size_t i = 0; i < used; ++i) eyes_.emplace_back(config_, config_.cameras[i]);
   for (const Eye& eye : eyes_) views_.push_back({&eye.clusters, &eye.time_image.averaged()});

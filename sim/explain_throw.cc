@@ -59,7 +59,7 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
                               const FlightRecord& flown) {
   CollisionEvidence evidence;
   evidence.hit = flown.verdict.nearest.hit;
-  evidence.perceives = plan.pilot != "oracle";
+  evidence.perceives = perceives(plan.pilot);
   if (!evidence.hit) return evidence;
   const auto hitter = static_cast<std::size_t>(flown.verdict.nearest_object);
   const Testimony& testimony = flown.testimony;
@@ -95,9 +95,8 @@ void explain_throw(const FlightPlan& plan, const FlightRecord* none, const Fligh
   if (contact_us && result.first_detection_us) {
     result.time_to_contact_us = *contact_us - *result.first_detection_us;
   }
-  const bool sees = plan.pilot != "oracle" && plan.pilot != "none";
   result.false_alarm =
-      result.first_command_us && (plan.launches.empty() || sees) &&
+      result.first_command_us && (plan.launches.empty() || perceives(plan.pilot)) &&
       (!result.first_detection_us || *result.first_command_us < *result.first_detection_us);
   if (plan.pilot == "none" || !(result.flown.hit || result.flown.crashed)) return;
   const CollisionVerdict verdict = judge_collision(flown.agility, evidence_of(plan, none, flown));

@@ -85,7 +85,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
 std::uint64_t Flight::index() const { return static_cast<std::uint64_t>(plan_.throw_index); }
 
 std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
-  if (plan_.pilot == "falanga2020") return make_dodger();
+  if (perceives(plan_.pilot)) return make_dodger();
   const dodge::Config& core = scenario_.dodger;
   TruthPilot::Setup setup;
   setup.oracle = scenario_.oracle;
@@ -96,7 +96,8 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
   setup.X_BC = world_.vehicle().X_BC.front();
   setup.intrinsics = intrinsics(scenario_.sensors.camera);
   auto pilot = std::make_unique<TruthPilot>(
-      std::move(setup), dodge::Avoider(core.repulsive, core.attractive, core.velocity_limit));
+      std::move(setup),
+      dodge::Avoider(core.repulsive, core.attractive, core.velocity_limit, core.escape));
   truth_pilot_ = pilot.get();
   return pilot;
 }

@@ -31,7 +31,7 @@ namespace dodgesim {
 // Which throw is flown, how, and until when.
 struct FlightPlan {
   int throw_index = 0;
-  std::string pilot = "falanga2020";  // or oracle, none
+  std::string pilot = kPaperPilot;  // of those in sim/config/pilot.h
   struct Launch {
     Throw toss;
     BodyState state;  // at toss.launch_us

@@ -23,19 +23,37 @@ Eigen::Vector3d heading(const Eigen::Quaterniond& q_WB) {
 }  // namespace
 
 Avoider::Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attractive,
-                 const VelocityLimitConfig& limit)
-    : repulsive_(repulsive), attractive_(attractive), limit_(limit) {
+                 const VelocityLimitConfig& limit, const EscapeConfig& escape)
+    : repulsive_(repulsive),
+      attractive_(attractive),
+      limit_(limit),
+      escape_(escape, limit.max_speed_mps),
+      predicts_(escape.law == "closest_approach") {
   validate(attractive);
   validate(limit);
 }
 
 VelocityCommand Avoider::command(TimeUs now, const StateEstimate& state, const Goal& goal,
-                                 std::span<const TrackedObstacle> obstacles) const {
+                                 std::span<const TrackedObstacle> obstacles) {
   VehicleMotion vehicle;
   vehicle.v_W = state.v_WB;
   vehicle.p_W = state.p_WB + seconds(state.t_us, now) * state.v_WB;
   vehicle.heading_W = heading(state.q_WB);
 
+  const Eigen::Vector3d attractive_W =
+      attractive_force(attractive_, goal.speed_mps, goal.p_WG - vehicle.p_W);
+  if (!predicts_) {
+    return velocity_command(limit_, now, repulsion(now, vehicle, obstacles), attractive_W);
+  }
+  const Want want{attractive_W, goal.p_WG};
+  if (const auto escape_W = escape_.escape(now, vehicle, want, obstacles)) {
+    return velocity_command(limit_, now, *escape_W, Eigen::Vector3d::Zero());
+  }
+  return velocity_command(limit_, now, Eigen::Vector3d::Zero(), attractive_W);
+}
+
+Eigen::Vector3d Avoider::repulsion(TimeUs now, const VehicleMotion& vehicle,
+                                   std::span<const TrackedObstacle> obstacles) const {
   Eigen::Vector3d repulsive_W = Eigen::Vector3d::Zero();
   for (const TrackedObstacle& tracked : obstacles) {
     if (!tracked.confirmed) continue;
@@ -45,8 +63,7 @@ VelocityCommand Avoider::command(TimeUs now, const StateEstimate& state, const G
     repulsive_W += repulsive_.force(vehicle, ellipsoid, obstacle.v_WO,  // (34)
                                     seconds(obstacle.last_detection_us, now));
   }
-  return velocity_command(limit_, now, repulsive_W,
-                          attractive_force(attractive_, goal.speed_mps, goal.p_WG - vehicle.p_W));
+  return repulsive_W;
 }
 
 }  // namespace dodge

@@ -1,9 +1,11 @@
-// Where to go, given the obstacles and the goal: the sum of the potential fields as a velocity.
+// Where to go, given the obstacles and the goal: the sum of the potential fields as a velocity, or
+// an escape by predicted closest approach in place of the repulsive field.
 #pragma once
 
 #include <span>
 
 #include "dodge/avoid/attractive_field.h"
+#include "dodge/avoid/escape.h"
 #include "dodge/avoid/repulsive_field.h"
 #include "dodge/avoid/velocity_command.h"
 #include "dodge/detect/tracker.h"
@@ -15,18 +17,23 @@ class Avoider {
  public:
   // Throws std::invalid_argument on values out of range.
   Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attractive,
-          const VelocityLimitConfig& limit);
+          const VelocityLimitConfig& limit, const EscapeConfig& escape);
 
   // The velocity command at `now`. Vehicle and obstacles are moved on at constant velocity from the
   // instants their states speak of to `now`. Obstacles that are not confirmed, or not finite, do
-  // not act.
+  // not act. Call once a cycle.
   VelocityCommand command(TimeUs now, const StateEstimate& state, const Goal& goal,
-                          std::span<const TrackedObstacle> obstacles) const;
+                          std::span<const TrackedObstacle> obstacles);
 
  private:
+  Eigen::Vector3d repulsion(TimeUs now, const VehicleMotion& vehicle,
+                            std::span<const TrackedObstacle> obstacles) const;
+
   RepulsiveField repulsive_;
   AttractiveConfig attractive_;
   VelocityLimitConfig limit_;
+  EscapePlanner escape_;
+  bool predicts_;
 };
 
 }  // namespace dodge

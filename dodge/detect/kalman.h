@@ -16,6 +16,7 @@ struct KalmanConfig {
   double lateral_sigma_m = 0.02;
   double min_depth_sigma_m = 0.02;
   bool gravity = false;
+  std::int64_t correlation_us = 0;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -34,6 +35,10 @@ struct KalmanConfig {
     v("gravity", gravity,
       "Whether the prediction includes free fall. An extension: the paper's model is constant "
       "velocity, thrown objects fall.");
+    v("correlation_us", correlation_us, 0, 1000000,
+      "Detections nearer in time than this come from windows that share events, and are no "
+      "independent measurements: the variance of one grows by this over the time since the one "
+      "before. 0: taken as independent, as in the paper.");
   }
 };
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdio>
 
+#include "sim/config/pilot.h"
+
 namespace dodgesim {
 
 namespace {
@@ -26,8 +28,6 @@ void add_flight(const FlightResult& flight, const ThrowResult& result, PilotStat
 }
 
 // Who is told the truth, or wants to know nothing, detects nothing.
-bool perceives(const std::string& pilot) { return pilot != "oracle" && pilot != "none"; }
-
 void add_perception(const ThrowResult& result, ThrowStatistics& sum) {
   sum.false_alarms.add(result.false_alarm);
   if (!result.cause.empty()) ++sum.causes[result.cause];

@@ -9,11 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "dodge/config.h"
+#include "dodge/presets.h"
 #include "sim/bridge/delay_spec.h"
 #include "sim/bridge/oracle_spec.h"
 #include "sim/config/distribution.h"
 #include "sim/config/parameter_docs.h"
+#include "sim/config/pilot.h"
 #include "sim/config/scenario_tree.h"
 #include "sim/config/varied_key.h"
 #include "sim/control/flight_controller.h"
@@ -155,7 +156,7 @@ struct Scenario {
   std::optional<StopSpec> stop;  // absent: all throws are flown
   VariedKeys grid;
   VariedKeys sweep;
-  std::string pilot = "falanga2020";
+  std::string pilot = kPaperPilot;
   bool fly_oracle = true;
   std::string room = "room";
   std::string vehicle = "qav_rxl";
@@ -201,9 +202,14 @@ struct Scenario {
     v("stop", stop,
       "Sequential stopping, with an interval that stays valid; without this key all throws are "
       "flown.");
-    v("pilot", pilot, {"falanga2020", "oracle", "none"},
-      "Who flies: the paper's dodger, one that is told the true obstacle, or one that never "
+    const std::string before = dodger_preset(pilot);
+    v("pilot", pilot, {kPaperPilot, kOwnPilot, "oracle", "none"},
+      "Who flies: the paper's dodger, the same with what improves it (as a value of grid or sweep "
+      "it "
+      "takes the place of all keys of dodger), one that is told the true obstacle, or one that "
+      "never "
       "dodges.");
+    if (dodger_preset(pilot) != before) dodger = dodge::preset(dodger_preset(pilot));
     v("fly_oracle", fly_oracle,
       "Fly every throw with the pilot oracle too, which bounds what perception can cost.");
     v.model("room", room, "rooms", "The world around the vehicle.");
@@ -219,7 +225,9 @@ struct Scenario {
       "Length of a flight when nobody throws (with a throw, after_s ends it).");
     v("sensors", sensors, "What the vehicle senses, and how badly.");
     v("delays", delays, "The latency chain, in simulated time.");
-    v("dodger", dodger, "The paper's pilot (falanga2020): detection and avoidance.");
+    v("dodger", dodger,
+      "Detection and avoidance. The defaults are those of falanga2020; dodge/presets.cc has what "
+      "dodgesim does otherwise.");
     v("oracle", oracle, "What the pilot oracle may see.");
     v("controller", controller, "From the velocity command to body rates and thrust.");
     v("flight_controller", flight_controller, "The body-rate loop and the mixer.");

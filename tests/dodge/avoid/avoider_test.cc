@@ -33,7 +33,7 @@ VelocityCommand command_for(const RepulsiveConfig& config, const StateEstimate& 
   const std::array obstacles = {known_obstacle(0, state.t_us, p, v, 0.2)};
   Goal goal;
   goal.p_WG = state.p_WB;
-  return Avoider(config, {}, {}).command(state.t_us, state, goal, obstacles);
+  return Avoider(config, {}, {}, {}).command(state.t_us, state, goal, obstacles);
 }
 
 struct Flight {
@@ -47,7 +47,7 @@ Flight fly(const RepulsiveConfig& config, const Vector3d& offset, const Vector3d
            double range_m) {
   constexpr TimeUs kStepUs = 1000;
   constexpr double kStepS = 1e-3, kLagS = 0.1;
-  const Avoider avoider(config, {}, {});
+  Avoider avoider(config, {}, {}, {});
   Vector3d ball = offset - from_m * v.normalized();
   StateEstimate state = hovering();
   std::vector<TrackedObstacle> obstacles;
@@ -134,7 +134,7 @@ TEST_P(EveryEscape, StaysFiniteAndWithinTheLimitForAnyInput) {
     Goal goal;
     goal.p_WG = vector();
     const VelocityCommand command =
-        Avoider(config, {}, {})
+        Avoider(config, {}, {}, {})
             .command(static_cast<TimeUs>(random.bits() % 1000000), state, goal, obstacles);
     ASSERT_TRUE(command.v_W.allFinite()) << k;
     ASSERT_LE(command.v_W.norm(), 5 + 1e-9);
@@ -165,7 +165,7 @@ TEST(Avoider, AsInThePaperEscapesToTheSameSideFromAMirroredThrow) {
 TEST(Avoider, FliesToTheGoalWithoutObstacles) {
   Goal goal;
   goal.p_WG = Vector3d(3, 0, 4);
-  const VelocityCommand command = Avoider({}, {}, {}).command(7, hovering(), goal, {});
+  const VelocityCommand command = Avoider({}, {}, {}, {}).command(7, hovering(), goal, {});
   EXPECT_TRUE(command.v_W.isApprox(Vector3d(0.9, 0, 1.2), 1e-9));
   EXPECT_FALSE(command.evading);
   EXPECT_EQ(command.t_us, 7);
@@ -173,14 +173,14 @@ TEST(Avoider, FliesToTheGoalWithoutObstacles) {
 
 TEST(Avoider, IgnoresObstaclesThatAreNotConfirmed) {
   std::array obstacles = {known_obstacle(0, 0, {1.5, 0, 0}, {-5, 0, 0}, 0.2)};
-  const Avoider avoider({}, {}, {});
+  Avoider avoider({}, {}, {}, {});
   EXPECT_TRUE(avoider.command(0, hovering(), Goal{}, obstacles).evading);
   obstacles[0].confirmed = false;
   EXPECT_FALSE(avoider.command(0, hovering(), Goal{}, obstacles).evading);
 }
 
 TEST(Avoider, MovesObstacleAndVehicleOnToTheInstantOfTheCommand) {
-  const Avoider avoider({}, {}, {});
+  Avoider avoider({}, {}, {}, {});
   StateEstimate state = hovering();
   state.v_WB = Vector3d(0, 1, 0);
   // 4.5 m away, out of the field, but 0.2 s later 3.5 m nearer.
@@ -201,7 +201,7 @@ TEST(Avoider, AddsTheForcesOfAllObstaclesWithTheirVerticalPartsUpward) {
   config.k_r0 = 0.01;  // below the speed limit
   const auto one = known_obstacle(0, 0, {1, 0.3, 0.1}, {-5, 0, 0}, 0.2);
   const auto other = known_obstacle(1, 0, {1, -0.2, -0.3}, {-4, 1, 0}, 0.3);
-  const Avoider avoider(config, {}, {});
+  Avoider avoider(config, {}, {}, {});
   const StateEstimate state = hovering();
   const auto v = [&](std::span<const TrackedObstacle> obstacles) {
     return avoider.command(0, state, Goal{}, obstacles).v_W;
@@ -213,7 +213,7 @@ TEST(Avoider, AddsTheForcesOfAllObstaclesWithTheirVerticalPartsUpward) {
 }
 
 TEST(Avoider, StopsEvadingAfterTheObstacleHasPassed) {
-  const Avoider avoider({}, {}, {});
+  Avoider avoider({}, {}, {}, {});
   const std::array obstacles = {known_obstacle(0, 0, {0.5, 0.3, 0}, {-5, 0, 0}, 0.2)};
   EXPECT_TRUE(avoider.command(200000, hovering(), Goal{}, obstacles).evading);   // 0.5 m behind
   EXPECT_FALSE(avoider.command(800000, hovering(), Goal{}, obstacles).evading);  // 3.5 m behind

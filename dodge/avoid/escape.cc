@@ -1,0 +1,223 @@
+#include "dodge/avoid/escape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace dodge {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kGravityMps2 = 9.81;
+constexpr double kStepS = 0.01;  // between predicted positions; the approach is refined within one
+constexpr int kDirections = 24;  // of escape, across the obstacle's line of flight
+constexpr double kNoSpeedMps = 1e-9;
+
+// Where a vehicle will be whose velocity changes from v to another at constant acceleration, after
+// a dead time, and that stops where it is wanted.
+class Course {
+ public:
+  Course(const EscapeConfig& config, const VehicleMotion& vehicle, const Want& want)
+      : p_W_(vehicle.p_W), v_W_(vehicle.v_W) {
+    if (want.p_WG) {
+      way_W_ = *want.p_WG - p_W_;
+      stops_ = true;
+    }
+    const Vector3d change_W = want.v_W - vehicle.v_W;
+    const double size = change_W.norm();
+    if (size <= kNoSpeedMps) return;
+    const double level = change_W.head<2>().norm() / size;
+    start_s_ = config.dead_time_s + level * config.tilt_time_s;
+    length_s_ = size / config.acceleration_mps2;
+    a_W_ = change_W / length_s_;
+  }
+
+  Vector3d position(double t_s) const {
+    const double pushed_s = std::clamp(t_s - start_s_, 0.0, length_s_);
+    const double coasted_s = std::max(0.0, t_s - start_s_ - length_s_);
+    const Vector3d moved_W = t_s * v_W_ + (0.5 * pushed_s * pushed_s + pushed_s * coasted_s) * a_W_;
+    return p_W_ + (has_arrived(moved_W) ? way_W_ : moved_W);
+  }
+  Vector3d velocity(double t_s) const {
+    if (has_arrived(position(t_s) - p_W_)) return Vector3d::Zero();
+    return v_W_ + std::clamp(t_s - start_s_, 0.0, length_s_) * a_W_;
+  }
+
+ private:
+  bool has_arrived(const Vector3d& moved_W) const {
+    return stops_ && moved_W.dot(way_W_) >= way_W_.squaredNorm();
+  }
+
+  Vector3d p_W_, v_W_;
+  Vector3d way_W_ = Vector3d::Zero();  // to where it stops, if it does
+  bool stops_ = false;
+  Vector3d a_W_ = Vector3d::Zero();
+  double start_s_ = 0, length_s_ = 0;  // of the acceleration
+};
+
+// Where an obstacle in free fall will be, and how well that is known.
+class Fall {
+ public:
+  Fall(const TrackedObstacle& tracked, TimeUs now)
+      : tracked_(tracked), age_s_(1e-6 * static_cast<double>(now - tracked.obstacle.t_us)) {}
+
+  Vector3d position(double t_s) const {
+    const double s = age_s_ + t_s;
+    return tracked_.obstacle.p_WO + s * tracked_.obstacle.v_WO -
+           0.5 * kGravityMps2 * s * s * Vector3d::UnitZ();
+  }
+  Vector3d velocity(double t_s) const {
+    return tracked_.obstacle.v_WO - kGravityMps2 * (age_s_ + t_s) * Vector3d::UnitZ();
+  }
+  Eigen::Matrix3d covariance(double t_s) const {  // of the position
+    const double s = age_s_ + t_s;
+    const Matrix6d& P = tracked_.covariance;
+    const Eigen::Matrix3d cross = P.topRightCorner<3, 3>() + P.bottomLeftCorner<3, 3>();
+    return P.topLeftCorner<3, 3>() + s * cross + s * s * P.bottomRightCorner<3, 3>();
+  }
+
+ private:
+  const TrackedObstacle& tracked_;
+  double age_s_;
+};
+
+// The direction across `along` that climbs most, or any if `along` is vertical.
+Vector3d upward_across(const Vector3d& along) {
+  const Vector3d up = Vector3d::UnitZ() - along.z() * along;
+  return up.norm() > kNoSpeedMps ? up.normalized() : along.unitOrthogonal();
+}
+
+}  // namespace
+
+void validate(const EscapeConfig& config) {
+  if (config.law != "potential_field" && config.law != "closest_approach") {
+    throw std::invalid_argument("The law of escape has an unknown name.");
+  }
+  if (!(config.hull_radius_m >= 0) || !(config.control_sigma_m > 0) ||
+      !(config.min_probability >= 0 && config.min_probability <= 1) ||
+      !(config.min_speed_mps >= 0) || !(config.horizon_s > 0) || !(config.acceleration_mps2 > 0) ||
+      !(config.dead_time_s >= 0) || !(config.tilt_time_s >= 0) ||
+      !(config.steepest_descent_deg >= 0 && config.steepest_descent_deg <= 90)) {
+    throw std::invalid_argument("A parameter of the escape is out of range.");
+  }
+}
+
+double hit_probability(const Meeting& meeting) {
+  const Vector3d a = meeting.along_W.unitOrthogonal(), b = meeting.along_W.cross(a);
+  Eigen::Matrix<double, 3, 2> across;
+  across << a, b;
+  const double r2 = meeting.radius_m * meeting.radius_m;
+  const Eigen::Matrix2d spread =
+      across.transpose() * meeting.covariance * across + 0.25 * r2 * Eigen::Matrix2d::Identity();
+  const double determinant = spread.determinant();
+  if (!(determinant > 0)) return 0;
+  const Eigen::Vector2d miss = across.transpose() * meeting.miss_W;
+  const double density = std::exp(-0.5 * miss.dot(spread.inverse() * miss));
+  return std::min(1.0, 0.5 * r2 / std::sqrt(determinant) * density);
+}
+
+EscapePlanner::EscapePlanner(const EscapeConfig& config, double speed_mps)
+    : config_(config),
+      speed_mps_(speed_mps),
+      lowest_z_(-std::sin(config.steepest_descent_deg * std::numbers::pi / 180)) {
+  validate(config);
+}
+
+bool EscapePlanner::is_thrown(const TrackedObstacle& tracked) const {
+  return tracked.confirmed && tracked.obstacle.v_WO.norm() >= config_.min_speed_mps;
+}
+
+std::optional<Meeting> EscapePlanner::meeting(TimeUs now, const VehicleMotion& vehicle,
+                                              const Want& want,
+                                              const TrackedObstacle& obstacle) const {
+  const Course course(config_, vehicle, want);
+  const Fall fall(obstacle, now);
+  int nearest = 0;
+  double nearest_m2 = std::numeric_limits<double>::infinity();
+  const int steps = static_cast<int>(config_.horizon_s / kStepS);
+  for (int i = 0; i <= steps; ++i) {
+    const double t_s = i * kStepS;
+    const double m2 = (fall.position(t_s) - course.position(t_s)).squaredNorm();
+    if (m2 >= nearest_m2) continue;
+    nearest_m2 = m2;
+    nearest = i;
+  }
+  if (nearest == 0) return std::nullopt;
+
+  Meeting meeting;
+  meeting.time_s = nearest * kStepS;
+  const Vector3d v_W = fall.velocity(meeting.time_s) - course.velocity(meeting.time_s);
+  meeting.miss_W = fall.position(meeting.time_s) - course.position(meeting.time_s);
+  if (v_W.norm() <= kNoSpeedMps) return std::nullopt;
+  meeting.along_W = v_W.normalized();
+  // To the nearest point between two steps.
+  const double late_s = std::clamp(meeting.miss_W.dot(v_W) / v_W.squaredNorm(), -kStepS, kStepS);
+  meeting.time_s -= late_s;
+  meeting.miss_W -= late_s * v_W;
+  meeting.covariance = fall.covariance(meeting.time_s) + config_.control_sigma_m *
+                                                             config_.control_sigma_m *
+                                                             Eigen::Matrix3d::Identity();
+  meeting.radius_m = config_.hull_radius_m + 0.5 * obstacle.obstacle.size_m;
+  return meeting;
+}
+
+// The least over all obstacles of the distance by which they miss, in its standard deviations.
+double EscapePlanner::clearance_in_sigmas(TimeUs now, const VehicleMotion& vehicle,
+                                          const Want& want,
+                                          std::span<const TrackedObstacle> obstacles) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const TrackedObstacle& tracked : obstacles) {
+    if (!is_thrown(tracked)) continue;
+    const std::optional<Meeting> near = meeting(now, vehicle, want, tracked);
+    if (!near) continue;
+    const double miss_m = near->miss_W.norm();
+    const Vector3d towards = miss_m > 0 ? (near->miss_W / miss_m).eval() : Vector3d::UnitZ();
+    const double sigma_m = std::sqrt(towards.dot(near->covariance * towards));
+    least = std::min(least, (miss_m - near->radius_m) / sigma_m);
+  }
+  return least;
+}
+
+std::optional<Vector3d> EscapePlanner::escape(TimeUs now, const VehicleMotion& vehicle,
+                                              const Want& want,
+                                              std::span<const TrackedObstacle> obstacles) {
+  double worst = 0;
+  Vector3d along_W = Vector3d::Zero();
+  for (const TrackedObstacle& tracked : obstacles) {
+    if (!is_thrown(tracked)) continue;
+    const std::optional<Meeting> near = meeting(now, vehicle, want, tracked);
+    if (!near) continue;
+    const double probability = hit_probability(*near);
+    if (probability <= worst) continue;
+    worst = probability;
+    along_W = near->along_W;
+  }
+  evading_ = worst > 0 && worst >= (evading_ ? config_.keep_probability : config_.min_probability);
+  if (!evading_) return std::nullopt;
+  return speed_mps_ * best_direction(now, vehicle, along_W, obstacles);
+}
+
+// Of the directions across the line of flight of the obstacle that is the greatest danger.
+Vector3d EscapePlanner::best_direction(TimeUs now, const VehicleMotion& vehicle,
+                                       const Vector3d& along_W,
+                                       std::span<const TrackedObstacle> obstacles) const {
+  const Vector3d up = upward_across(along_W), left = up.cross(along_W);
+  Vector3d best_W = up;
+  double best = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kDirections;
+    const Vector3d direction_W = std::cos(angle) * up + std::sin(angle) * left;
+    if (direction_W.z() < lowest_z_) continue;
+    const Want escape{speed_mps_ * direction_W, std::nullopt};
+    const double clearance = clearance_in_sigmas(now, vehicle, escape, obstacles);
+    if (clearance <= best) continue;
+    best = clearance;
+    best_W = direction_W;
+  }
+  return best_W;
+}
+
+}  // namespace dodge

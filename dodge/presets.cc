@@ -1,0 +1,29 @@
+#include "dodge/presets.h"
+
+#include <stdexcept>
+
+namespace dodge {
+
+namespace {
+
+Config dodgesim() {
+  Config config;
+  config.window.window_us = 20000;
+  config.position.max_range_m = 5;
+  config.association.min_detections = 3;
+  config.kalman.gravity = true;
+  config.kalman.acceleration_noise = 1;
+  config.kalman.correlation_us = 20000;
+  config.escape.law = "closest_approach";
+  return config;
+}
+
+}  // namespace
+
+Config preset(const std::string& pilot) {
+  if (pilot == "falanga2020") return {};
+  if (pilot == "dodgesim") return dodgesim();
+  throw std::invalid_argument("There is no pilot " + pilot + ".");
+}
+
+}  // namespace dodge

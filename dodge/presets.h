@@ -1,0 +1,15 @@
+// The pilots that are configurations of Dodger.
+#pragma once
+
+#include <string>
+
+#include "dodge/config.h"
+
+namespace dodge {
+
+// "falanga2020": the paper's, which are the defaults of Config. "dodgesim": believes an obstacle as
+// far as its covariance allows, predicts its free fall, and escapes by the predicted closest
+// approach. Throws std::invalid_argument for another name.
+Config preset(const std::string& pilot);
+
+}  // namespace dodge

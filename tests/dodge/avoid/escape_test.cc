@@ -1,0 +1,251 @@
+#include "dodge/avoid/escape.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "dodge/avoid/avoider.h"
+
+namespace dodge {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kGravityMps2 = 9.81;
+constexpr double kSpeedMps = 5;
+
+EscapeConfig closest_approach() {
+  EscapeConfig config;
+  config.law = "closest_approach";
+  return config;
+}
+
+VehicleMotion at(const Vector3d& p_W, const Vector3d& v_W = Vector3d::Zero()) {
+  VehicleMotion vehicle;
+  vehicle.p_W = p_W;
+  vehicle.v_W = v_W;
+  return vehicle;
+}
+
+// A ball, now at p_W, that is at `target_W` after time_s of free fall.
+TrackedObstacle ball(const Vector3d& p_W, const Vector3d& target_W, double time_s,
+                     double velocity_sigma_mps = 0.1) {
+  const Vector3d v_W = (target_W - p_W) / time_s + 0.5 * kGravityMps2 * time_s * Vector3d::UnitZ();
+  TrackedObstacle ball = known_obstacle(0, 0, p_W, v_W, 0.2);
+  ball.covariance.topLeftCorner<3, 3>() = 4e-4 * Eigen::Matrix3d::Identity();
+  ball.covariance.bottomRightCorner<3, 3>() =
+      velocity_sigma_mps * velocity_sigma_mps * Eigen::Matrix3d::Identity();
+  return ball;
+}
+
+std::optional<Vector3d> escape_from(const std::vector<TrackedObstacle>& obstacles,
+                                    const VehicleMotion& vehicle = at({0, 0, 2}),
+                                    const Want& want = {}) {
+  return EscapePlanner(closest_approach(), kSpeedMps).escape(0, vehicle, want, obstacles);
+}
+
+// The share of the normal distribution with standard deviation `sigma` around `miss` on a disc of
+// unit radius, by a sum over rings and sectors.
+double share_on_unit_disc(double miss, double sigma) {
+  constexpr int kRings = 200, kSectors = 200;
+  double sum = 0;
+  for (int i = 0; i < kRings; ++i) {
+    const double r = (i + 0.5) / kRings;
+    for (int j = 0; j < kSectors; ++j) {
+      const double angle = 2 * std::numbers::pi * (j + 0.5) / kSectors;
+      const double x = r * std::cos(angle) - miss, y = r * std::sin(angle);
+      sum += r * std::exp(-0.5 * (x * x + y * y) / (sigma * sigma));
+    }
+  }
+  return sum / (kRings * kSectors * sigma * sigma);
+}
+
+TEST(HitProbability, AgreesWithTheIntegralOfTheNormalDistribution) {
+  for (const double radius : {0.2, 1.0}) {
+    for (const double sigma : {0.5, 0.7, 1.0, 2.0, 5.0}) {
+      for (const double miss : {0.0, 0.5, 1.0, 2.0, 4.0}) {
+        Meeting meeting;
+        meeting.radius_m = radius;
+        meeting.along_W = Vector3d(1, 2, -1).normalized();
+        meeting.miss_W = miss * radius * meeting.along_W.unitOrthogonal();
+        meeting.covariance = sigma * sigma * radius * radius * Eigen::Matrix3d::Identity();
+        EXPECT_NEAR(hit_probability(meeting), share_on_unit_disc(miss, sigma), 0.14)
+            << "sigma " << sigma << ", miss " << miss << ", in radii";
+      }
+    }
+  }
+}
+
+TEST(HitProbability, DoesNotCareForWhenTheObstacleComes) {
+  Meeting meeting;
+  meeting.radius_m = 0.3;
+  meeting.along_W = Vector3d::UnitX();
+  meeting.miss_W = {0, 0.2, 0.1};
+  meeting.covariance = Vector3d(0.04, 0.04, 0.04).asDiagonal();
+  const double before = hit_probability(meeting);
+  meeting.covariance(0, 0) = 100;  // along its line of flight
+  EXPECT_NEAR(hit_probability(meeting), before, 1e-12);
+}
+
+TEST(EscapePlanner, FindsTheNearestPointOfAParabola) {
+  const EscapePlanner planner(closest_approach(), kSpeedMps);
+  const Vector3d vehicle_W(0, 0, 2);
+  for (const double z : {-0.4, -0.1, 0.0, 0.3}) {
+    for (const double time_s : {0.2, 0.45, 0.7}) {
+      const TrackedObstacle thrown = ball({3, 1, 1.5}, {0, 0, 2 + z}, time_s);
+      double nearest_m = 1e9;  // in steps of a millisecond
+      for (int ms = 0; ms < 1000; ++ms) {
+        const double t = 1e-3 * ms;
+        const Vector3d p_W = thrown.obstacle.p_WO + t * thrown.obstacle.v_WO -
+                             0.5 * kGravityMps2 * t * t * Vector3d::UnitZ();
+        nearest_m = std::min(nearest_m, (p_W - vehicle_W).norm());
+      }
+      const auto meeting = planner.meeting(0, at(vehicle_W), {}, thrown);
+      ASSERT_TRUE(meeting);
+      EXPECT_NEAR(meeting->miss_W.norm(), nearest_m, 2e-3);
+      EXPECT_NEAR(meeting->miss_W.dot(meeting->along_W), 0, 0.01);
+    }
+  }
+}
+
+TEST(EscapePlanner, PredictsAnObstacleFromTheInstantOfItsState) {
+  const EscapePlanner planner(closest_approach(), kSpeedMps);
+  const TrackedObstacle thrown = ball({3, 0, 2}, {0, 0, 2}, 0.5);
+  const auto meeting = planner.meeting(200000, at({0, 0, 2}), {}, thrown);
+  ASSERT_TRUE(meeting);
+  EXPECT_NEAR(meeting->time_s, 0.3, 0.01);
+}
+
+TEST(EscapePlanner, EscapesFromWhatWillHitAndFromNothingElse) {
+  EXPECT_TRUE(escape_from({ball({3, 0, 1.5}, {0, 0, 2}, 0.5)}));
+  EXPECT_TRUE(escape_from({ball({3, 0, 1.5}, {0, 0.2, 2.1}, 0.5)}));
+  EXPECT_FALSE(escape_from({ball({3, 0, 1.5}, {0, 1, 2}, 0.5)})) << "passes a metre to the left";
+  EXPECT_FALSE(escape_from({ball({3, 0, 1.5}, {6, 0, 2}, 0.5)})) << "flies away";
+  EXPECT_FALSE(escape_from({ball({3, 0, 1.5}, {0, 0, 2}, 4)})) << "comes beyond the horizon";
+  EXPECT_FALSE(escape_from({}));
+  TrackedObstacle tentative = ball({3, 0, 1.5}, {0, 0, 2}, 0.5);
+  tentative.confirmed = false;
+  EXPECT_FALSE(escape_from({tentative}));
+}
+
+TEST(EscapePlanner, LeavesSlowThingsToTheGoal) {
+  TrackedObstacle still = known_obstacle(0, 0, {1, 0, 2}, {0, 0, 0}, 0.2);
+  EXPECT_FALSE(escape_from({still}, at({0, 0, 2}, {1.5, 0, 0}), {{1.5, 0, 0}, std::nullopt}));
+}
+
+TEST(EscapePlanner, WaitsUntilTheEstimateIsGoodEnough) {
+  EXPECT_FALSE(escape_from({ball({3, 0, 1.5}, {0, 0, 2}, 0.5, 3)}));
+  EXPECT_TRUE(escape_from({ball({3, 0, 1.5}, {0, 0, 2}, 0.5, 0.3)}));
+}
+
+TEST(EscapePlanner, DoesNotReturnIntoTheWayOfWhatItHasLostFromSight) {
+  EscapePlanner planner(closest_approach(), kSpeedMps);
+  const Want hover{Vector3d::Zero(), Vector3d(0, 0, 2)};
+  const std::vector sharp = {ball({3, 0, 1.5}, {0, 0, 2}, 0.5, 0.3)};
+  const std::vector vague = {ball({3, 0, 1.5}, {0, 0, 2}, 0.5, 1.2)};
+  EXPECT_FALSE(planner.escape(0, at({0, 0, 2}), hover, vague));
+  EXPECT_TRUE(planner.escape(0, at({0, 0, 2}), hover, sharp));
+  EXPECT_TRUE(planner.escape(0, at({0, 0, 2}), hover, vague));
+  EXPECT_FALSE(planner.escape(600000, at({0, 0, 2}), hover, vague)) << "it has passed";
+  EXPECT_FALSE(planner.escape(0, at({0, 0, 2}), hover, vague));
+}
+
+TEST(EscapePlanner, ReturnsHomeOnlyWhereNothingWillPass) {
+  const VehicleMotion away = at({0, 0, 3.5});
+  const std::vector thrown = {ball({3, 0, 1.5}, {0, 0, 2}, 0.9, 0.1)};
+  const Want home{{0, 0, -1.5}, Vector3d(0, 0, 2)};
+  EXPECT_TRUE(escape_from(thrown, away, home)) << "it would be there in a second, and wait";
+  EXPECT_FALSE(escape_from(thrown, away, {}));
+}
+
+TEST(EscapePlanner, EscapesAcrossTheLineOfFlightAndAwayFromTheMiss) {
+  for (const double angle : {-1.5, -0.5, 0.4, 1.5, 2.6}) {
+    const Vector3d miss(0, 0.15 * std::sin(angle), -0.15 * std::cos(angle));
+    const std::vector thrown = {ball({3, 0, 2}, Vector3d(0, 0, 2) + miss, 0.4)};
+    const auto escape_W = escape_from(thrown);
+    ASSERT_TRUE(escape_W);
+    EXPECT_NEAR(escape_W->norm(), kSpeedMps, 1e-9);
+    const Vector3d v_W = thrown[0].obstacle.v_WO - 0.4 * kGravityMps2 * Vector3d::UnitZ();
+    EXPECT_NEAR(escape_W->normalized().dot(v_W.normalized()), 0, 0.05);
+    EXPECT_GE(escape_W->normalized().z(), -std::sin(15.1 * std::numbers::pi / 180));
+    if (std::abs(angle) < 1.6) {
+      EXPECT_GT(escape_W->dot(-miss), 0);
+    }
+  }
+}
+
+TEST(EscapePlanner, EscapesToTheOtherSideFromTheMirroredThrow) {
+  const auto left = escape_from({ball({3, 0.5, 1.5}, {0, 0.2, 1.95}, 0.5)});
+  const auto right = escape_from({ball({3, -0.5, 1.5}, {0, -0.2, 1.95}, 0.5)});
+  ASSERT_TRUE(left && right);
+  EXPECT_NEAR(left->x(), right->x(), 1e-6);
+  EXPECT_NEAR(left->y(), -right->y(), 1e-6);
+  EXPECT_NEAR(left->z(), right->z(), 1e-6);
+}
+
+TEST(EscapePlanner, EscapesFromTheSecondBallAsWell) {
+  // Alone, the first is escaped from upward; the second passes there.
+  const TrackedObstacle first = ball({3, 0, 2}, {0, 0, 1.9}, 0.4);
+  const TrackedObstacle second = ball({3, 0, 2.8}, {0, 0, 2.7}, 0.45);
+  const auto alone = escape_from({first});
+  const auto both = escape_from({first, second});
+  ASSERT_TRUE(alone && both);
+  EXPECT_GT(alone->normalized().z(), 0.9);
+  EXPECT_LT(both->normalized().z(), 0.75);
+}
+
+TEST(EscapePlanner, GainsClearanceOnEveryThrowThatWouldHit) {
+  constexpr TimeUs kStepUs = 4000;
+  constexpr double kStepS = 4e-3, kLagS = 0.1;
+  for (const double speed_mps : {4.0, 6.0, 8.0}) {
+    for (const double bearing : {-0.5, 0.0, 0.5}) {
+      for (const double offset : {-0.2, 0.0, 0.2}) {
+        const Vector3d start(3 * std::cos(bearing), 3 * std::sin(bearing), 1.5);
+        TrackedObstacle thrown = ball(start, {0, offset, 2 + offset}, 3 / speed_mps);
+        EscapePlanner planner(closest_approach(), kSpeedMps);
+        VehicleMotion vehicle = at({0, 0, 2});
+        double nearest_m = 1e9;
+        for (TimeUs now = 0; now < 900000; now += kStepUs) {
+          const double t = 1e-6 * static_cast<double>(now);
+          const Vector3d p_W = thrown.obstacle.p_WO + t * thrown.obstacle.v_WO -
+                               0.5 * kGravityMps2 * t * t * Vector3d::UnitZ();
+          nearest_m = std::min(nearest_m, (p_W - vehicle.p_W).norm());
+          const Want home{Vector3d(0, 0, 2) - vehicle.p_W, Vector3d(0, 0, 2)};
+          const auto escape_W = planner.escape(now, vehicle, home, std::array{thrown});
+          vehicle.v_W += (escape_W.value_or(home.v_W) - vehicle.v_W) * (kStepS / kLagS);
+          vehicle.p_W += kStepS * vehicle.v_W;
+        }
+        EXPECT_GT(nearest_m, 0.35) << speed_mps << " m/s, bearing " << bearing << ", " << offset;
+      }
+    }
+  }
+}
+
+TEST(Avoider, EscapesByClosestApproachInPlaceOfTheField) {
+  Avoider avoider({}, {}, {}, closest_approach());
+  StateEstimate state;
+  state.p_WB = {0, 0, 2};
+  const Goal goal{.p_WG = state.p_WB};
+  const std::array passing = {ball({1.5, 0, 2}, {0, 1, 2}, 0.3)};
+  const std::array hitting = {ball({1.5, 0, 2}, {0, 0, 2}, 0.3)};
+  EXPECT_TRUE(Avoider({}, {}, {}, {}).command(0, state, goal, passing).evading);
+  EXPECT_FALSE(avoider.command(0, state, goal, passing).evading);
+  const VelocityCommand escape = avoider.command(0, state, goal, hitting);
+  EXPECT_TRUE(escape.evading);
+  EXPECT_NEAR(escape.v_W.norm(), VelocityLimitConfig{}.max_speed_mps, 1e-9);
+}
+
+TEST(EscapeConfig, RefusesValuesThatMakeNoSense) {
+  EscapeConfig config;
+  config.law = "panic";
+  EXPECT_THROW(EscapePlanner(config, kSpeedMps), std::invalid_argument);
+  config = {};
+  config.acceleration_mps2 = 0;
+  EXPECT_THROW(EscapePlanner(config, kSpeedMps), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace dodge
