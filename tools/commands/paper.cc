@@ -19,32 +19,44 @@ struct Arguments {
   CampaignOptions options;
   std::optional<int> throws;
   std::optional<std::uint64_t> seed;
+  std::vector<std::string> set;
 };
 
-Scenario scenario_of(const PaperFlight& flight, const Arguments& arguments) {
-  std::vector<Setting> settings = flight.settings;
-  if (arguments.throws) {
-    settings.push_back(paper_setting("repeats", std::to_string(*arguments.throws)));
+// The experiments as the command line wants them.
+std::vector<PaperExperiment> chosen_experiments(const Arguments& arguments) {
+  std::vector<Setting> settings = parse_settings("--set", arguments.set);
+  const auto add = [&](const std::string& option, const char* key, const auto& number) {
+    if (number) settings.push_back({key, std::to_string(*number), option});
+  };
+  add("--throws", "repeats", arguments.throws);
+  add("--seed", "seed", arguments.seed);
+  std::vector<PaperExperiment> experiments = experiments_named(arguments.experiments);
+  for (PaperExperiment& experiment : experiments) {
+    for (PaperFlight& flight : experiment.flights) {
+      flight.settings.insert(flight.settings.end(), settings.begin(), settings.end());
+    }
   }
-  if (arguments.seed) settings.push_back(paper_setting("seed", std::to_string(*arguments.seed)));
-  return load_scenario(DODGESIM_SCENARIOS_DIR "/paper/" + flight.scenario, arguments.models_dir,
-                       settings);
+  return experiments;
 }
 
 // What decides the tables, without where they go and how fast.
 std::string table_command(const Arguments& arguments) {
   std::string line = "dodgesim paper";
   for (const std::string& name : arguments.experiments) line += " " + name;
+  for (const std::string& set : arguments.set) line += " --set " + shell_quoted(set);
   if (arguments.throws) line += " --throws " + std::to_string(*arguments.throws);
   if (arguments.seed) line += " --seed " + std::to_string(*arguments.seed);
   return line;
 }
 
 int paper(const Arguments& arguments) {
-  const std::vector<PaperExperiment> experiments = experiments_named(arguments.experiments);
+  const std::vector<PaperExperiment> experiments = chosen_experiments(arguments);
   const std::vector<PaperFlight> flights = flights_of(experiments);
   std::vector<Scenario> scenarios;
-  for (const PaperFlight& flight : flights) scenarios.push_back(scenario_of(flight, arguments));
+  for (const PaperFlight& flight : flights) {
+    scenarios.push_back(load_scenario(DODGESIM_SCENARIOS_DIR "/paper/" + flight.scenario,
+                                      arguments.models_dir, flight.settings));
+  }
 
   int errors = 0;
   for (std::size_t i = 0; i < flights.size(); ++i) {
@@ -72,7 +84,7 @@ void add_paper_command(CLI::App& program, const std::string& command_line, int& 
       "paper",
       "Fly the experiments of Falanga et al. 2020, and put the results beside the paper's");
   command->add_option("experiments", arguments->experiments, "Which ones; all of them without any")
-      ->type_name("EXPERIMENT...");
+      ->type_name("EXPERIMENT");
   add_campaign_options(*command, arguments->options);
   command
       ->add_option("--throws", arguments->throws,
@@ -81,6 +93,7 @@ void add_paper_command(CLI::App& program, const std::string& command_line, int& 
   command->add_option("--seed", arguments->seed,
                       "Seed of every scenario: for trying something out, as no parameter may be\n"
                       "tuned on the throws that are reported");
+  add_set_option(*command, arguments->set);
   add_models_option(*command, arguments->models_dir);
   std::string list = "Experiments:\n";
   for (const PaperExperiment& experiment : paper_experiments()) {
@@ -93,7 +106,8 @@ void add_paper_command(CLI::App& program, const std::string& command_line, int& 
                   "Examples:\n"
                   "  dodgesim paper --out out/paper -j 2\n"
                   "  dodgesim paper table2 --out out/table2\n"
-                  "  dodgesim paper table2 --out out/try --seed 7 --throws 20");
+                  "  dodgesim paper table2 --out out/dusk --seed 7 --throws 20 --set "
+                  "sensors.events.preset=low_light");
   command->callback([arguments, &exit_code] { exit_code = paper(*arguments); });
 }
 

@@ -120,5 +120,11 @@ TEST(PaperExperiments, ShareTheirFlights) {
             "dodger.position.known_size_m=0.15");
 }
 
+TEST(PaperExperiments, AreWrittenSoThatAShellReadsThem) {
+  const PaperFlight flight{"x", "x.yaml", {paper_setting("throw.speed_mps", "!uniform [4, 6]")}};
+  EXPECT_EQ(flight.arguments(), "scenarios/paper/x.yaml --set 'throw.speed_mps=!uniform [4, 6]'");
+  EXPECT_EQ(shell_quoted("it's"), "'it'\\''s'");
+}
+
 }  // namespace
 }  // namespace dodgesim
