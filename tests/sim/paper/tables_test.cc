@@ -120,6 +120,15 @@ TEST(PaperExperiments, ShareTheirFlights) {
             "dodger.position.known_size_m=0.15");
 }
 
+TEST(PaperExperiments, FlyScenariosThatAreRight) {
+  const std::string root = DODGESIM_SOURCE_DIR;
+  for (const PaperFlight& flight : flights_of(paper_experiments())) {
+    EXPECT_NO_THROW(load_scenario(root + "/scenarios/paper/" + flight.scenario, root + "/models",
+                                  flight.settings))
+        << flight.name;
+  }
+}
+
 TEST(PaperExperiments, AreWrittenSoThatAShellReadsThem) {
   const PaperFlight flight{"x", "x.yaml", {paper_setting("throw.speed_mps", "!uniform [4, 6]")}};
   EXPECT_EQ(flight.arguments(), "scenarios/paper/x.yaml --set 'throw.speed_mps=!uniform [4, 6]'");
