@@ -45,6 +45,23 @@ Intrinsics intrinsics(const CameraSpec& camera) {
   return {camera.width, camera.height, focal_length_px(camera.width, camera.horizontal_fov_deg)};
 }
 
+std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
+                                              const VehicleParameters& vehicle) {
+  const Intrinsics camera = intrinsics(scenario.sensors.camera);
+  std::vector<dodge::CameraModel> models;
+  for (const Eigen::Isometry3d& X_BC : vehicle.X_BC) {
+    dodge::CameraModel model;
+    model.width = camera.width;
+    model.height = camera.height;
+    model.fx = model.fy = camera.f;
+    model.cx = camera.cx();
+    model.cy = camera.cy();
+    model.X_BC = X_BC;
+    models.push_back(model);
+  }
+  return models;
+}
+
 Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer)
     : scenario_(scenario),
       plan_(plan),
@@ -104,18 +121,7 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
 
 std::unique_ptr<dodge::Pilot> Flight::make_dodger() const {
   dodge::Config config = scenario_.dodger;
-  const Intrinsics camera = intrinsics(scenario_.sensors.camera);
-  config.cameras.clear();
-  for (const Eigen::Isometry3d& X_BC : world_.vehicle().X_BC) {
-    dodge::CameraModel model;
-    model.width = camera.width;
-    model.height = camera.height;
-    model.fx = model.fy = camera.f;
-    model.cx = camera.cx();
-    model.cy = camera.cy();
-    model.X_BC = X_BC;
-    config.cameras.push_back(model);
-  }
+  config.cameras = camera_models(scenario_, world_.vehicle());
   return std::make_unique<dodge::Dodger>(config);
 }
 

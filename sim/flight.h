@@ -64,6 +64,10 @@ WorldSpec world_spec(const Scenario& scenario, const std::vector<FlightPlan::Lau
 // The event cameras' geometry.
 Intrinsics intrinsics(const CameraSpec& camera);
 
+// The same cameras as the pilot is told of them.
+std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
+                                              const VehicleParameters& vehicle);
+
 // The first detection of an object.
 struct Sighting {
   std::optional<TimeUs> first_us;    // its output

@@ -60,6 +60,7 @@ int run_program(int argc, char** argv) {
   add_emulate_command(program, exit_code);
   add_bench_command(program, joined(argc, argv), exit_code);
   add_check_sensor_command(program, joined(argc, argv), exit_code);
+  add_paper_command(program, joined(argc, argv), exit_code);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

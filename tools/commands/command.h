@@ -33,6 +33,7 @@ void add_explain_command(CLI::App& program, int& exit_code);
 void add_emulate_command(CLI::App& program, int& exit_code);
 void add_bench_command(CLI::App& program, const std::string& command_line, int& exit_code);
 void add_check_sensor_command(CLI::App& program, const std::string& command_line, int& exit_code);
+void add_paper_command(CLI::App& program, const std::string& command_line, int& exit_code);
 
 // Adds --models: where rooms, vehicles and objects are.
 void add_models_option(CLI::App& command, std::string& models_dir);

@@ -1,0 +1,153 @@
+#include "sim/paper/miss.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dodgesim {
+
+namespace {
+
+constexpr TimeUs kHistoryUs = 100000;
+
+dodge::DepthConfig without_limits(dodge::DepthConfig config) {
+  config.min_range_m = config.min_size_m = 0;
+  config.max_range_m = config.max_size_m = 1e6;
+  return config;
+}
+
+bool of_object(Cause cause) { return cause >= kCauseFirstObject && cause <= kCauseLastObject; }
+
+// Whether a pixel of one camera lies on the object's outline.
+bool on_outline(const Sight& sight, const Intrinsics& intrinsics, double x, double y) {
+  const Eigen::Vector3d ray_C((x - intrinsics.cx()) / intrinsics.f,
+                              (y - intrinsics.cy()) / intrinsics.f, 1);
+  return dodgesim::on_outline(sight, sight.X_WC * ray_C);
+}
+
+Miss miss_of(const CycleSight& cycle, const dodge::DepthConfig& limits, int min_events) {
+  const bool stereo = limits.depth == "stereo";
+  if (cycle.location) {
+    const CycleSight::Location& found = *cycle.location;
+    if (found.range_m < limits.min_range_m || found.range_m > limits.max_range_m)
+      return Miss::kRange;
+    if (found.size_m < limits.min_size_m || found.size_m > limits.max_size_m) return Miss::kSize;
+    return Miss::kElsewhere;
+  }
+  const int seen_by = (cycle.clusters[0] > 0 ? 1 : 0) + (cycle.clusters[1] > 0 ? 1 : 0);
+  if (stereo && seen_by == 2) return Miss::kNoMatch;
+  if (stereo && seen_by == 1) return Miss::kOneCamera;
+  const int events = stereo ? std::min(cycle.events[0], cycle.events[1]) : cycle.events[0];
+  return events < min_events ? Miss::kFewEvents : Miss::kNoCluster;
+}
+
+}  // namespace
+
+std::string miss_text(Miss miss) {
+  switch (miss) {
+    case Miss::kFewEvents:
+      return "too few events";
+    case Miss::kNoCluster:
+      return "no cluster";
+    case Miss::kOneCamera:
+      return "cluster in one camera only";
+    case Miss::kNoMatch:
+      return "no stereo match";
+    case Miss::kRange:
+      return "located beyond the limits of distance";
+    case Miss::kSize:
+      return "located with a size beyond the limits";
+    case Miss::kElsewhere:
+      return "located, but at another instant or place";
+  }
+  return "";
+}
+
+Miss miss_of(std::span<const CycleSight> cycles, const dodge::DepthConfig& limits, int min_events) {
+  Miss best = Miss::kFewEvents;
+  for (const CycleSight& cycle : cycles) best = std::max(best, miss_of(cycle, limits, min_events));
+  return best;
+}
+
+MissObserver::MissObserver(const Scenario& scenario)
+    : scenario_(scenario), rig_(camera_rig(scenario)) {}
+
+void MissObserver::on_tick(const World& world) {
+  truth_.on_tick(world);
+  if (!unlimited_) {
+    const std::vector<dodge::CameraModel> cameras = camera_models(scenario_, world.vehicle());
+    unlimited_.emplace(without_limits(scenario_.dodger.position), cameras,
+                       scenario_.dodger.window.window_us);
+    radius_m_ = world.object(0).bounding_radius_m;
+  }
+  history_.push_back(world.snapshot());
+  while (history_.front().t_us < world.snapshot().t_us - kHistoryUs) history_.pop_front();
+}
+
+const Snapshot* MissObserver::state_at(TimeUs t_us) const {
+  const auto at = std::lower_bound(history_.begin(), history_.end(), t_us,
+                                   [](const Snapshot& s, TimeUs t) { return s.t_us < t; });
+  return at == history_.end() || !at->launched.front() ? nullptr : &*at;
+}
+
+Sight MissObserver::sight(const Snapshot& state, std::size_t camera) const {
+  const CameraRig one{rig_.intrinsics, {rig_.X_BC[camera]}};
+  return sight_of(one, state.vehicle.pose(), state.objects.front().p_W, radius_m_);
+}
+
+// The pilot's window ends with the newest packet that has come through the cable.
+void MissObserver::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
+  truth_.on_cycle(now_us, pilot);
+  const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);
+  const Snapshot* state = state_at(now_us - scenario_.delays.transport_us);
+  if (dodger == nullptr || state == nullptr) return;
+  CycleSight cycle;
+  const Sight both = sight_of(rig_, state->vehicle.pose(), state->objects.front().p_W, radius_m_);
+  cycle.range_m = both.range_m();
+  cycle.centre_in_view = both.centre_in_view;
+  cycle.whole_in_view = both.whole_in_view;
+  for (std::size_t i = 0; i < rig_.X_BC.size(); ++i) {
+    const int camera = static_cast<int>(i);
+    const auto& window = truth_.window(camera);
+    cycle.events[i] = static_cast<int>(std::count_if(
+        window.begin(), window.end(), [](const WindowEvent& e) { return of_object(e.cause); }));
+    const Sight one = sight(*state, i);
+    for (const dodge::Cluster& cluster : dodger->clusters(camera)) {
+      const cv::Point2f middle = cluster.rectangle.center;
+      if (on_outline(one, rig_.intrinsics, middle.x, middle.y)) ++cycle.clusters[i];
+    }
+  }
+  cycle.location = locate(*state, *dodger);
+  cycles_.push_back(cycle);
+}
+
+std::optional<CycleSight::Location> MissObserver::locate(const Snapshot& state,
+                                                         const dodge::Dodger& pilot) {
+  std::vector<dodge::View> views;
+  for (std::size_t i = 0; i < rig_.X_BC.size(); ++i) {
+    const int camera = static_cast<int>(i);
+    views.push_back({&pilot.clusters(camera), &pilot.stage_images(camera).averaged});
+  }
+  dodge::StateEstimate truth;
+  truth.t_us = state.t_us;
+  truth.p_WB = state.vehicle.p_W;
+  truth.q_WB = state.vehicle.q_W;
+  truth.v_WB = state.vehicle.v_W;
+  std::vector<dodge::Detection> located;
+  unlimited_->locate(views, truth, located);
+
+  std::optional<CycleSight::Location> best;
+  double best_error_m = 0;
+  for (const dodge::Detection& detection : located) {
+    const Snapshot* then = state_at(detection.t_us);
+    if (then == nullptr) continue;
+    const Sight seen = sight(*then, 0);
+    if (!dodgesim::on_outline(seen, detection.centre_W)) continue;
+    const double error_m = (detection.centre_W - then->objects.front().p_W).norm();
+    if (best && error_m >= best_error_m) continue;
+    best_error_m = error_m;
+    best = {(detection.centre_W - seen.X_WC.translation()).norm(), detection.size_m};
+  }
+  return best;
+}
+
+}  // namespace dodgesim

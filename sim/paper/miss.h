@@ -1,0 +1,71 @@
+// Why an object that was in view was not detected: the flight again, with a look into the pilot.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dodge/detect/depth.h"
+#include "sim/event_truth.h"
+#include "sim/flight.h"
+#include "sim/paper/passage.h"
+
+namespace dodgesim {
+
+// One cycle of the pilot and the first object, at the end of the window of events.
+struct CycleSight {
+  double range_m = 0;
+  bool centre_in_view = false;
+  bool whole_in_view = false;
+  // By camera (mono: the first).
+  std::array<int, 2> events{};    // of the window that the object made
+  std::array<int, 2> clusters{};  // on its outline
+  // What was located on its outline, whatever distance and size: the nearest to the truth.
+  struct Location {
+    double range_m = 0, size_m = 0;
+  };
+  std::optional<Location> location;
+};
+
+// How far the pilot got at best, from nothing to everything.
+enum class Miss { kFewEvents, kNoCluster, kOneCamera, kNoMatch, kRange, kSize, kElsewhere };
+
+// "no cluster in either camera".
+std::string miss_text(Miss miss);
+
+// Of cycles while the object was in view; kFewEvents without any. `min_events` is what the pilot
+// asks of a cluster.
+Miss miss_of(std::span<const CycleSight> cycles, const dodge::DepthConfig& limits, int min_events);
+
+// Watches a flight of the paper's pilot.
+class MissObserver : public FlightObserver {
+ public:
+  explicit MissObserver(const Scenario& scenario);
+
+  bool wants_causes() const override { return true; }
+  void on_start(dodge::Pilot& pilot) override { truth_.on_start(pilot); }
+  void on_tick(const World& world) override;
+  void on_events(int camera, const Packet& packet) override { truth_.on_events(camera, packet); }
+  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
+
+  // Of the cycles with the object in flight.
+  const std::vector<CycleSight>& cycles() const { return cycles_; }
+
+ private:
+  const Snapshot* state_at(TimeUs t_us) const;
+  Sight sight(const Snapshot& state, std::size_t camera) const;
+  std::optional<CycleSight::Location> locate(const Snapshot& state, const dodge::Dodger& pilot);
+
+  Scenario scenario_;
+  CameraRig rig_;
+  EventTruth truth_;
+  std::optional<dodge::DepthEstimator> unlimited_;  // takes any distance and size
+  double radius_m_ = 0;
+  std::deque<Snapshot> history_;
+  std::vector<CycleSight> cycles_;
+};
+
+}  // namespace dodgesim

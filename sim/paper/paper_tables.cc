@@ -1,0 +1,112 @@
+#include "sim/paper/paper_tables.h"
+
+#include <algorithm>
+
+#include "sim/base/error.h"
+#include "sim/campaign/build_info.h"
+#include "sim/campaign/journal.h"
+#include "sim/campaign/result_files.h"
+#include "sim/files/output_file.h"
+
+namespace dodgesim {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+LoadedCampaign load_with_rows(const fs::path& directory, const std::string& models_dir) {
+  const fs::path journal = directory / kJournalFile;
+  const JournalIndex index = read_journal(journal);
+  std::vector<ThrowResult> results;
+  for_each_result(journal, index,
+                  [&](ThrowResult result) { results.push_back(std::move(result)); });
+  return campaign_of(parse_scenario(index.identity.scenario, kScenarioFile, models_dir),
+                     index.identity.program, std::move(results));
+}
+
+std::string names_of(const std::vector<PaperExperiment>& experiments) {
+  std::string names;
+  for (const PaperExperiment& experiment : experiments) {
+    names += (names.empty() ? "" : ", ") + experiment.name;
+  }
+  return names;
+}
+
+std::string flown_markdown(const PaperExperiment& experiment,
+                           const std::vector<LoadedCampaign>& campaigns) {
+  std::string text = "Flown:\n\n";
+  for (std::size_t i = 0; i < campaigns.size(); ++i) {
+    const auto& results = campaigns[i].results;
+    const auto failed = std::count_if(results.begin(), results.end(),
+                                      [](const ThrowResult& r) { return !r.flown.ok(); });
+    text += "- " + std::to_string(results.size()) + " throws, seed " +
+            std::to_string(campaigns[i].scenario.seed) + ": `dodgesim run " +
+            experiment.flights[i].arguments() + "`";
+    if (failed > 0) text += "; **" + std::to_string(failed) + " could not be flown**";
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<PaperExperiment> experiments_named(const std::vector<std::string>& names) {
+  const std::vector<PaperExperiment>& all = paper_experiments();
+  const auto named = [](const std::string& name) {
+    return [&name](const PaperExperiment& experiment) { return experiment.name == name; };
+  };
+  for (const std::string& name : names) {
+    if (std::any_of(all.begin(), all.end(), named(name))) continue;
+    throw ScenarioError("There is no experiment \"" + name + "\"; there are " + names_of(all) +
+                        ".");
+  }
+  std::vector<PaperExperiment> chosen;
+  for (const PaperExperiment& experiment : all) {
+    const bool wanted = std::find(names.begin(), names.end(), experiment.name) != names.end();
+    if (names.empty() || wanted) chosen.push_back(experiment);
+  }
+  return chosen;
+}
+
+std::vector<PaperFlight> flights_of(const std::vector<PaperExperiment>& experiments) {
+  std::vector<PaperFlight> flights;
+  for (const PaperExperiment& experiment : experiments) {
+    for (const PaperFlight& flight : experiment.flights) {
+      const bool known = std::any_of(flights.begin(), flights.end(),
+                                     [&](const PaperFlight& f) { return f.name == flight.name; });
+      if (!known) flights.push_back(flight);
+    }
+  }
+  return flights;
+}
+
+fs::path flight_directory(const fs::path& out, const PaperFlight& flight) {
+  return out / "flights" / flight.name;
+}
+
+std::string write_paper_tables(const fs::path& out, const std::vector<PaperExperiment>& experiments,
+                               const std::string& models_dir, const std::string& command) {
+  const std::string program = build_info().name();
+  std::string shown;
+  std::string readme = "# Falanga et al. 2020, reproduced\n\nMade by `" + command + "`, dodgesim " +
+                       program + ".\n\n| experiment | tables |\n|---|---|\n";
+  for (const PaperExperiment& experiment : experiments) {
+    std::vector<LoadedCampaign> campaigns;
+    for (const PaperFlight& flight : experiment.flights) {
+      campaigns.push_back(load_with_rows(flight_directory(out, flight), models_dir));
+    }
+    const PaperTables tables = experiment.analyse(campaigns);
+    const std::string text = "# " + experiment.title + "\n\nMade by `" + command + "`, dodgesim " +
+                             program + ".\n\n" + tables.markdown + "\n" +
+                             flown_markdown(experiment, campaigns);
+    write_file(out / (experiment.name + ".md"), text);
+    write_file(out / (experiment.name + ".csv"), tables.csv);
+    readme += "| " + experiment.title + " | [" + experiment.name + ".md](" + experiment.name +
+              ".md), [" + experiment.name + ".csv](" + experiment.name + ".csv) |\n";
+    shown += text + "\n";
+  }
+  write_file(out / "README.md", readme);
+  return shown;
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,45 @@
+#include "sim/paper/success.h"
+
+#include <algorithm>
+
+#include "sim/paper/passing_flights.h"
+
+namespace dodgesim {
+
+bool in_view(const Sight& sight, Visibility visibility) {
+  return visibility == Visibility::kWhole ? sight.whole_in_view : sight.centre_in_view;
+}
+
+Exposure exposure(const Passage& passage, const std::vector<DetectionRow>& detections,
+                  const RangeBin& bin, Visibility visibility) {
+  constexpr TimeUs kStepUs = 1000;
+  std::vector<TimeUs> detected_us;
+  for (const DetectionRow& row : detections) {
+    const std::optional<Sight> sight = passage.at(row.t_us);
+    if (sight && bin.contains(sight->range_m()) && on_outline(*sight, position_of(row))) {
+      detected_us.push_back(row.t_us);
+    }
+  }
+  Exposure exposure;
+  exposure.detections = static_cast<int>(detected_us.size());
+  TimeUs piece_us = 0;  // of the piece that grows
+  for (TimeUs t_us = passage.start_us(); t_us <= passage.end_us(); t_us += kStepUs) {
+    const std::optional<Sight> sight = passage.at(t_us);
+    if (!sight || !bin.contains(sight->range_m()) || !in_view(*sight, visibility)) {
+      piece_us = 0;
+      continue;
+    }
+    exposure.visible_us += kStepUs;
+    piece_us += kStepUs;
+    if (piece_us < kLeastVisibleUs) continue;
+    const TimeUs end_us = t_us + kStepUs, begin_us = end_us - piece_us;
+    const bool detected = std::any_of(detected_us.begin(), detected_us.end(),
+                                      [&](TimeUs at) { return at >= begin_us && at < end_us; });
+    ++exposure.pieces;
+    exposure.detected_pieces += detected ? 1 : 0;
+    piece_us = 0;
+  }
+  return exposure;
+}
+
+}  // namespace dodgesim

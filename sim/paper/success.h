@@ -1,0 +1,44 @@
+// Whether a passing object was in view within a range of distances, and detected there: the
+// paper's Table 2.
+#pragma once
+
+#include <vector>
+
+#include "sim/campaign/result.h"
+#include "sim/paper/passage.h"
+
+namespace dodgesim {
+
+// Of distances from the reference camera to the object's centre: (from, to].
+struct RangeBin {
+  double from_m = 0, to_m = 0;
+
+  bool contains(double range_m) const { return range_m > from_m && range_m <= to_m; }
+};
+
+enum class Visibility {
+  kCentre,  // its centre is in the image of every camera
+  kWhole,   // its outline lies wholly in the image of every camera
+};
+
+bool in_view(const Sight& sight, Visibility visibility);
+
+// In view for less than one window of events it cannot be detected, and does not count.
+inline constexpr TimeUs kLeastVisibleUs = 10000;
+
+// One object, while its distance lies in a bin.
+struct Exposure {
+  TimeUs visible_us = 0;  // counted in milliseconds
+  int detections = 0;     // of it (on_outline()), at an instant at which it was in the bin
+  // Pieces of kLeastVisibleUs in view without a gap, one after the other, and how many of them hold
+  // a detection of it.
+  int pieces = 0, detected_pieces = 0;
+
+  bool counts() const { return visible_us >= kLeastVisibleUs; }
+  bool detected() const { return detections > 0; }
+};
+
+Exposure exposure(const Passage& passage, const std::vector<DetectionRow>& detections,
+                  const RangeBin& bin, Visibility visibility);
+
+}  // namespace dodgesim

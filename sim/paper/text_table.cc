@@ -1,0 +1,55 @@
+#include "sim/paper/text_table.h"
+
+#include <array>
+#include <cstdio>
+
+#include "sim/campaign/csv.h"
+
+namespace dodgesim {
+
+namespace {
+
+std::string markdown_row(const std::vector<std::string>& cells) {
+  std::string row = "|";
+  for (const std::string& cell : cells) row += " " + cell + " |";
+  return row + "\n";
+}
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  const char* separator = "";
+  for (const std::string& cell : cells) {
+    line += separator + csv_cell(cell);
+    separator = ",";
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+std::string TextTable::to_markdown() const {
+  std::string text = markdown_row(head) + "|";
+  for (std::size_t i = 0; i < head.size(); ++i) text += "---|";
+  text += "\n";
+  for (const auto& row : rows) text += markdown_row(row);
+  return text;
+}
+
+std::string TextTable::to_csv() const {
+  std::string text = csv_line(head);
+  for (const auto& row : rows) text += csv_line(row);
+  return text;
+}
+
+std::string fixed_text(double value, int digits) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data();
+}
+
+std::string with_interval(double value, const Interval& interval, int digits) {
+  return fixed_text(value, digits) + " (" + fixed_text(interval.lo, digits) + " to " +
+         fixed_text(interval.hi, digits) + ")";
+}
+
+}  // namespace dodgesim

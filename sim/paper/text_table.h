@@ -1,0 +1,25 @@
+// A table of texts, as Markdown and as CSV.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/campaign/statistics.h"
+
+namespace dodgesim {
+
+struct TextTable {
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;  // each as long as the head
+
+  std::string to_markdown() const;
+  std::string to_csv() const;
+};
+
+// Digits behind the point: fixed_text(0.0731, 3) is "0.073".
+std::string fixed_text(double value, int digits);
+
+// "0.073 (0.065 to 0.081)".
+std::string with_interval(double value, const Interval& interval, int digits);
+
+}  // namespace dodgesim

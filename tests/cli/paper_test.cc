@@ -1,0 +1,38 @@
+// The experiments of the paper, as their users fly them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/command_test.h"
+
+namespace {
+
+using dodgesim::testing::dodgesim;
+using dodgesim::testing::Outcome;
+using testing::HasSubstr;
+
+class PaperCommandTest : public dodgesim::testing::CommandTest {};
+
+TEST_F(PaperCommandTest, NamesTheExperimentsThereAre) {
+  const Outcome outcome = dodgesim("paper table9 --out " + path("out"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("There is no experiment \"table9\"; there are table1, "));
+  EXPECT_THAT(dodgesim("paper --help").output, HasSubstr("table2    Table 2: success rate"));
+}
+
+TEST_F(PaperCommandTest, MakesTheSameTablesAgain) {
+  const auto fly = [&](const std::string& out, const std::string& options) {
+    return dodgesim("paper table2 --throws 1 --seed 3 --out " + path(out) + " " + options);
+  };
+  const Outcome made = fly("a", "-j 2");
+  EXPECT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_THAT(made.output, HasSubstr("| size | <= 0.5 m | paper |"));
+  EXPECT_EQ(fly("b", "-j 1").exit_code, 0);
+  EXPECT_EQ(fly("b", "--resume").exit_code, 0);
+  for (const char* file : {"table2.md", "table2.csv", "README.md"}) {
+    EXPECT_EQ(contents(std::string("a/") + file), contents(std::string("b/") + file)) << file;
+  }
+  EXPECT_THAT(contents("a/table2.md"), HasSubstr("`dodgesim paper table2 --throws 1 --seed 3`"));
+  EXPECT_EQ(fly("b", "").exit_code, 2) << "without --force or --resume";
+}
+
+}  // namespace

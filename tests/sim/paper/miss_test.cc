@@ -1,0 +1,83 @@
+#include "sim/paper/miss.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/loop.h"
+#include "tests/sim/paper/synthetic_passage.h"
+
+namespace dodgesim {
+namespace {
+
+CycleSight cycle(std::array<int, 2> events, std::array<int, 2> clusters,
+                 std::optional<CycleSight::Location> location = std::nullopt) {
+  CycleSight cycle;
+  cycle.events = events;
+  cycle.clusters = clusters;
+  cycle.location = location;
+  return cycle;
+}
+
+Miss miss(const std::vector<CycleSight>& cycles, const std::string& depth = "stereo") {
+  dodge::DepthConfig limits;  // 0.2 to 1.5 m, 3 to 80 cm
+  limits.depth = depth;
+  return miss_of(cycles, limits, 30);
+}
+
+TEST(Miss, IsHowFarThePilotGot) {
+  EXPECT_EQ(miss({}), Miss::kFewEvents);
+  EXPECT_EQ(miss({cycle({100, 29}, {0, 0})}), Miss::kFewEvents);
+  EXPECT_EQ(miss({cycle({100, 30}, {0, 0})}), Miss::kNoCluster);
+  EXPECT_EQ(miss({cycle({100, 100}, {0, 2})}), Miss::kOneCamera);
+  EXPECT_EQ(miss({cycle({100, 100}, {1, 1})}), Miss::kNoMatch);
+  EXPECT_EQ(miss({cycle({100, 100}, {1, 1}, CycleSight::Location{1.51, 0.2})}), Miss::kRange);
+  EXPECT_EQ(miss({cycle({100, 100}, {1, 1}, CycleSight::Location{1.0, 0.9})}), Miss::kSize);
+  EXPECT_EQ(miss({cycle({100, 100}, {1, 1}, CycleSight::Location{1.0, 0.2})}), Miss::kElsewhere);
+}
+
+TEST(Miss, IsTheBestOfAllCycles) {
+  EXPECT_EQ(miss({cycle({0, 0}, {0, 0}), cycle({100, 100}, {1, 1}), cycle({100, 100}, {0, 1})}),
+            Miss::kNoMatch);
+}
+
+TEST(Miss, OfOneCameraAsksForOneCamera) {
+  EXPECT_EQ(miss({cycle({30, 0}, {0, 0})}, "mono"), Miss::kNoCluster);
+  EXPECT_EQ(miss({cycle({100, 0}, {0, 0}, CycleSight::Location{2, 0.2})}, "mono"), Miss::kRange);
+}
+
+// Of a ball that passes within a metre, seen by a pilot with these parameters.
+std::vector<CycleSight> near_cycles(const std::string& dodger) {
+  const Scenario scenario = paper_scenario(
+      "fly_oracle: false\nafter_s: 0.1\n"
+      "throw: {size_m: 0.2, speed_mps: 8, distance_m: 1.2, bearing_deg: 45, launch_s: 0.1,\n"
+      "        aim_offset_m: [-0.6, 0], launch_height_m: 2}\n"
+      "dodger: {repulsive: {k_r0: 0}, " +
+      dodger + "}\n");
+  MissObserver observer(scenario);
+  EXPECT_TRUE(fly_throw(scenario, 0, &observer).flown.ok());
+  std::vector<CycleSight> cycles;
+  for (const CycleSight& sight : observer.cycles()) {
+    if (sight.centre_in_view && sight.range_m < 1) cycles.push_back(sight);
+  }
+  EXPECT_GT(cycles.size(), 10u);
+  return cycles;
+}
+
+TEST(MissObserver, FindsWhatAFlyingPilotLacks) {
+  EXPECT_EQ(miss(near_cycles("cluster: {min_pixels: 100000}")), Miss::kNoCluster);
+  EXPECT_EQ(miss(near_cycles("position: {stereo: {min_correlation: 1}}")), Miss::kNoMatch);
+
+  const std::vector<CycleSight> good = near_cycles("cluster: {}");
+  EXPECT_EQ(miss(good), Miss::kElsewhere);
+  dodge::DepthConfig limits;
+  limits.min_size_m = 0.5;
+  EXPECT_EQ(miss_of(good, limits, 30), Miss::kSize);
+  limits.max_range_m = 0.3;
+  EXPECT_EQ(miss_of(good, limits, 30), Miss::kRange);
+  for (const CycleSight& sight : good) {
+    const double located_m = sight.location ? sight.location->range_m : sight.range_m;
+    EXPECT_NEAR(located_m, sight.range_m, 0.3);
+  }
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,97 @@
+#include "sim/paper/success.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/sim/paper/synthetic_passage.h"
+
+namespace dodgesim {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSpeedMps = 2;
+constexpr RangeBin kNear{0, 0.5}, kMiddle{0.5, 1}, kFar{1, 1.5};
+
+// At the height of the middle between the cameras.
+Exposure crossing(double depth_m, double size_m, const RangeBin& bin, Visibility visibility,
+                  const std::vector<DetectionRow>& detections = {}) {
+  const Trajectory trajectory = straight_flight({depth_m, 1, 0}, {0, -kSpeedMps, 0}, size_m);
+  return exposure(Passage(trajectory, stereo_rig()), detections, bin, visibility);
+}
+
+// Half of the chord in which the distance to the upper camera is at most range_m.
+double half_chord(double depth_m, double range_m) {
+  return std::sqrt(std::max(0.0, range_m * range_m - depth_m * depth_m - 0.075 * 0.075));
+}
+
+TEST(Exposure, LastsAsLongAsTheCentreCrossesTheView) {
+  const double tangent = 160 / Intrinsics().f;
+  for (const double depth_m : {0.3, 0.45, 0.6, 0.9}) {
+    const double in_view = depth_m * tangent;
+    const double near = std::min(in_view, half_chord(depth_m, 0.5));
+    const double middle = std::min(in_view, half_chord(depth_m, 1)) - near;
+    const double us_per_m = 2e6 / kSpeedMps;
+    EXPECT_NEAR(static_cast<double>(crossing(depth_m, 0.1, kNear, Visibility::kCentre).visible_us),
+                us_per_m * near, 2000)
+        << depth_m;
+    EXPECT_NEAR(
+        static_cast<double>(crossing(depth_m, 0.1, kMiddle, Visibility::kCentre).visible_us),
+        us_per_m * middle, 3000)
+        << depth_m;
+  }
+}
+
+TEST(Exposure, OfTheWholeBallIsShorterByItsOutline) {
+  const double tangent = 160 / Intrinsics().f, depth_m = 0.7, radius_m = 0.1;
+  const RangeBin all{0, 10};
+  const auto visible =
+      static_cast<double>(crossing(depth_m, 2 * radius_m, all, Visibility::kWhole).visible_us);
+  const double half_way_m = depth_m * tangent - radius_m * std::hypot(1, tangent);
+  EXPECT_NEAR(visible, 2e6 / kSpeedMps * half_way_m, 2000);
+  // At 0.3 m a ball of 30 cm does not fit between the cameras' views.
+  EXPECT_EQ(crossing(0.3, 0.3, all, Visibility::kWhole).visible_us, 0);
+}
+
+TEST(Exposure, CountsOnlyFromOneWindowOfEventsOn) {
+  Exposure exposure;
+  exposure.visible_us = 9000;
+  EXPECT_FALSE(exposure.counts());
+  exposure.visible_us = 10000;
+  EXPECT_TRUE(exposure.counts());
+}
+
+// The ball passes straight ahead, at 0.6 m, at 1.0 s.
+TEST(Exposure, TakesDetectionsOfTheBallInTheBin) {
+  const Vector3d ball(0.6, 0, 0);
+  const auto of = [&](const DetectionRow& row, const RangeBin& bin) {
+    return crossing(0.6, 0.1, bin, Visibility::kCentre, {row}).detections;
+  };
+  EXPECT_EQ(of(detection(1000000, ball, ball, 0.6), kMiddle), 1);
+  EXPECT_EQ(of(detection(1000000, ball, ball, 0.6), kFar), 0);
+  // 20 cm too far is an error of the ball's distance; 20 cm aside is something else.
+  EXPECT_EQ(of(detection(1000000, {0.8, 0, 0}, ball, 0.6), kMiddle), 1);
+  EXPECT_EQ(of(detection(1000000, {0.6, 0.2, 0}, ball, 0.6), kMiddle), 0);
+  // 0.4 s earlier the ball was at y = 0.8 m, one metre away.
+  const Vector3d before(0.6, 0.8, 0);
+  EXPECT_EQ(of(detection(600000, before, before, 0.6), kMiddle), 0);
+  EXPECT_EQ(of(detection(600000, before, before, 0.6), kFar), 1);
+}
+
+TEST(Exposure, IsCutIntoPiecesOfOneWindow) {
+  const Vector3d ball(0.6, 0, 0);
+  const Exposure none = crossing(0.6, 0.1, kMiddle, Visibility::kCentre);
+  EXPECT_EQ(none.pieces, none.visible_us / 10000);
+  EXPECT_EQ(none.detected_pieces, 0);
+  // Three detections in two pieces.
+  const Exposure some =
+      crossing(0.6, 0.1, kMiddle, Visibility::kCentre,
+               {detection(1000000, ball, ball, 0.6), detection(1000001, ball, ball, 0.6),
+                detection(1015000, {0.6, -0.03, 0}, ball, 0.6)});
+  EXPECT_EQ(some.detections, 3);
+  EXPECT_EQ(some.detected_pieces, 2);
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,139 @@
+// The tables of campaigns that nobody has flown, with errors and gaps that are known.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "sim/base/error.h"
+#include "sim/paper/experiment.h"
+#include "sim/paper/paper_tables.h"
+#include "tests/sim/paper/synthetic_passage.h"
+
+namespace dodgesim {
+namespace {
+
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+// A ball that hangs still ahead of the upper camera, 12 cm ahead of the vehicle's centre.
+constexpr TimeUs kSomeTimeUs = 1000000;
+
+Vector3d ahead(double depth_m) { return {0.12 + depth_m, 0, 0.075}; }
+
+ThrowResult hanging_ball(int index, int cell, double depth_m, double size_m) {
+  ThrowResult result;
+  result.index = index;
+  result.cell = cell;
+  result.size_m = size_m;
+  result.flown.status = "ok";
+  result.trajectory = to_bytes(straight_flight(ahead(depth_m), {0, 0, 0}, size_m));
+  return result;
+}
+
+void detect(ThrowResult& result, double depth_m, double error_m) {
+  result.detection_rows.push_back(
+      detection(kSomeTimeUs, ahead(depth_m + error_m), ahead(depth_m), depth_m));
+}
+
+LoadedCampaign campaign(const std::string& depth, std::vector<ThrowResult> results) {
+  LoadedCampaign campaign;
+  campaign.scenario = paper_scenario("throw: {}\ndodger: {position: {depth: " + depth + "}}\n");
+  campaign.results = std::move(results);
+  return campaign;
+}
+
+std::string line_with(const std::string& text, const std::string& begin) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(begin)) return line;
+  }
+  return "";
+}
+
+TEST(Table1, PutsErrorsIntoBinsOfTheTrueDistance) {
+  ThrowResult near = hanging_ball(0, 0, 0.4, 0.1), far = hanging_ball(1, 0, 1.2, 0.1);
+  for (const double error_m : {0.01, 0.02, 0.06}) detect(near, 0.4, error_m);
+  for (const double error_m : {-0.2, 0.1}) detect(far, 1.2, error_m);
+  // A false detection, half a metre aside.
+  near.detection_rows.push_back(
+      detection(kSomeTimeUs, ahead(0.4) + Vector3d(0, 0.5, 0), ahead(0.4), 0.4));
+  const LoadedCampaign mono = campaign("mono", {near, far}), empty = campaign("mono", {});
+  const LoadedCampaign stereo = campaign("stereo", {far});
+
+  const PaperTables tables = table1_experiment().analyse({mono, empty, empty, stereo, stereo});
+  // setup, bin, throws, detections, mean with interval, paper, median with interval, paper, ...
+  EXPECT_EQ(line_with(tables.csv, "\"monocular, all detections\",0.2,0.5"),
+            "\"monocular, all detections\",0.2,0.5,1,3,0.0300,0.0300,0.0300,0.0800,0.0200,0.0200,"
+            "0.0200,0.0500,0.0265,0.1800,0.0200,0.0900,0.0300");
+  EXPECT_EQ(line_with(tables.csv, "\"monocular, all detections\",0.5"), "");
+  EXPECT_THAT(line_with(tables.csv, "\"monocular, all detections\",1.0,1.5"),
+              HasSubstr(",1,2,0.1500,"));
+  EXPECT_THAT(line_with(tables.csv, "\"stereo by centres, all detections\",1.0,1.5"),
+              HasSubstr(",1,2,0.1500,0.1500,0.1500,0.1300,"));
+  EXPECT_THAT(tables.markdown,
+              HasSubstr("5 detections of the ball in 2 throws; false detections: 1."));
+}
+
+TEST(Table1, DiscardsWhatIsPartlyOutsideOfTheImageOnRequest) {
+  // 0.3 m ahead the view is 0.5 m wide: a ball of 30 cm that is 15 cm aside is cut off.
+  ThrowResult cut = hanging_ball(0, 0, 0.3, 0.3);
+  cut.trajectory = to_bytes(straight_flight(ahead(0.3) + Vector3d(0, 0.15, 0), {0, 0, 0}, 0.3));
+  detect(cut, 0.3, 0.05);
+  const LoadedCampaign mono = campaign("mono", {cut}), empty = campaign("mono", {});
+  const PaperTables tables = table1_experiment().analyse({mono, empty, empty, empty, empty});
+  EXPECT_NE(line_with(tables.csv, "\"monocular, all detections\",0.2"), "");
+  EXPECT_EQ(line_with(tables.csv, "\"monocular, ball wholly in view\",0.2"), "");
+}
+
+TEST(Table2, CountsThePassagesOfEachCell) {
+  std::vector<ThrowResult> results;
+  for (int i = 0; i < 10; ++i) {
+    results.push_back(hanging_ball(i, 1, 0.7, 0.15));
+    detect(results.back(), 0.7, 0.02);
+  }
+  // Nobody could see it: it does not count.
+  results.push_back(hanging_ball(10, 1, 1.8, 0.15));
+  const PaperTables tables = table2_experiment().analyse({campaign("stereo", results)});
+  const std::string reading = "\"bins of distance, centre in view\",";
+  EXPECT_EQ(line_with(tables.csv, reading + "<= 0.2 m,<= 1 m"),
+            reading + "<= 0.2 m,<= 1 m,10,10,1.0000,0.7225,1.0000,0.92,0");
+  EXPECT_EQ(line_with(tables.csv, reading + "<= 0.2 m,<= 0.5 m"),
+            reading + "<= 0.2 m,<= 0.5 m,0,0,,0.0000,1.0000,0.87,0");
+  // Ten times a second's hundred pieces, one of them with the detection.
+  EXPECT_THAT(tables.csv, HasSubstr("each 10 ms by itself\",<= 0.2 m,<= 1 m,10,1000,0.0100,"));
+  EXPECT_THAT(tables.markdown, HasSubstr("### Misses of the first table\n\nNone.\n"));
+}
+
+TEST(PaperExperiments, AreFoundByName) {
+  EXPECT_EQ(experiments_named({}).size(), paper_experiments().size());
+  const auto two = experiments_named({"table2", "table1", "table2"});
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[0].name, "table1");
+  EXPECT_THROW(experiments_named({"table9"}), ScenarioError);
+}
+
+TEST(PaperExperiments, ShareTheirFlights) {
+  const auto all = flights_of(experiments_named({"table1", "table2"}));
+  EXPECT_EQ(all.size(), table1_experiment().flights.size());
+  EXPECT_EQ(all[1].arguments(),
+            "scenarios/paper/passing_mono.yaml --set throw.size_m=0.15 --set "
+            "dodger.position.known_size_m=0.15");
+}
+
+TEST(PaperExperiments, FlyScenariosThatAreRight) {
+  const std::string root = DODGESIM_SOURCE_DIR;
+  for (const PaperFlight& flight : flights_of(paper_experiments())) {
+    EXPECT_NO_THROW(load_scenario(root + "/scenarios/paper/" + flight.scenario, root + "/models",
+                                  flight.settings))
+        << flight.name;
+  }
+}
+
+TEST(PaperExperiments, AreWrittenSoThatAShellReadsThem) {
+  const PaperFlight flight{"x", "x.yaml", {paper_setting("throw.speed_mps", "!uniform [4, 6]")}};
+  EXPECT_EQ(flight.arguments(), "scenarios/paper/x.yaml --set 'throw.speed_mps=!uniform [4, 6]'");
+  EXPECT_EQ(shell_quoted("it's"), "'it'\\''s'");
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,114 @@
+// dodgesim paper: the experiments of Falanga et al. 2020.
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "sim/base/error.h"
+#include "sim/paper/paper_tables.h"
+#include "tools/commands/campaign_options.h"
+#include "tools/commands/command.h"
+
+namespace dodgesim {
+
+namespace {
+
+struct Arguments {
+  std::vector<std::string> experiments;
+  std::string models_dir;
+  CampaignOptions options;
+  std::optional<int> throws;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> set;
+};
+
+// The experiments as the command line wants them.
+std::vector<PaperExperiment> chosen_experiments(const Arguments& arguments) {
+  std::vector<Setting> settings = parse_settings("--set", arguments.set);
+  const auto add = [&](const std::string& option, const char* key, const auto& number) {
+    if (number) settings.push_back({key, std::to_string(*number), option});
+  };
+  add("--throws", "repeats", arguments.throws);
+  add("--seed", "seed", arguments.seed);
+  std::vector<PaperExperiment> experiments = experiments_named(arguments.experiments);
+  for (PaperExperiment& experiment : experiments) {
+    for (PaperFlight& flight : experiment.flights) {
+      flight.settings.insert(flight.settings.end(), settings.begin(), settings.end());
+    }
+  }
+  return experiments;
+}
+
+// What decides the tables, without where they go and how fast.
+std::string table_command(const Arguments& arguments) {
+  std::string line = "dodgesim paper";
+  for (const std::string& name : arguments.experiments) line += " " + name;
+  for (const std::string& set : arguments.set) line += " --set " + shell_quoted(set);
+  if (arguments.throws) line += " --throws " + std::to_string(*arguments.throws);
+  if (arguments.seed) line += " --seed " + std::to_string(*arguments.seed);
+  return line;
+}
+
+int paper(const Arguments& arguments) {
+  const std::vector<PaperExperiment> experiments = chosen_experiments(arguments);
+  const std::vector<PaperFlight> flights = flights_of(experiments);
+  std::vector<Scenario> scenarios;
+  for (const PaperFlight& flight : flights) {
+    scenarios.push_back(load_scenario(DODGESIM_SCENARIOS_DIR "/paper/" + flight.scenario,
+                                      arguments.models_dir, flight.settings));
+  }
+
+  int errors = 0;
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    CampaignOptions options = arguments.options;
+    options.out = flight_directory(arguments.options.out, flights[i]);
+    std::cerr << "Flying " << flights[i].name << " (" << i + 1 << " of " << flights.size() << ")\n";
+    const CampaignSummary summary = fly_campaign(scenarios[i], options);
+    if (!summary.complete()) return report_stop(summary);
+    errors += summary.errors;
+  }
+  std::cout << write_paper_tables(arguments.options.out, experiments, arguments.models_dir,
+                                  table_command(arguments));
+  if (errors == 0) return kOk;
+  std::cerr << count_of_throws(errors) << " could not be flown; see the tables in "
+            << (arguments.options.out / "flights") << ".\n";
+  return kIncomplete;
+}
+
+}  // namespace
+
+void add_paper_command(CLI::App& program, const std::string& command_line, int& exit_code) {
+  auto arguments = std::make_shared<Arguments>();
+  arguments->options.command_line = command_line;
+  CLI::App* command = program.add_subcommand(
+      "paper",
+      "Fly the experiments of Falanga et al. 2020, and put the results beside the paper's");
+  command->add_option("experiments", arguments->experiments, "Which ones; all of them without any")
+      ->type_name("EXPERIMENT");
+  add_campaign_options(*command, arguments->options);
+  command
+      ->add_option("--throws", arguments->throws,
+                   "Repeats of every scenario, in place of its own: for a quick look")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--seed", arguments->seed,
+                      "Seed of every scenario: for trying something out, as no parameter may be\n"
+                      "tuned on the throws that are reported");
+  add_set_option(*command, arguments->set);
+  add_models_option(*command, arguments->models_dir);
+  std::string list = "Experiments:\n";
+  for (const PaperExperiment& experiment : paper_experiments()) {
+    list += "  " + experiment.name + "    " + experiment.title + "\n";
+  }
+  command->footer(list +
+                  "\nWrites to DIR: EXPERIMENT.md and EXPERIMENT.csv with the paper's figures "
+                  "beside ours,\nREADME.md, and the campaigns in flights/, which replay, table and "
+                  "report can read.\n\n"
+                  "Examples:\n"
+                  "  dodgesim paper --out out/paper -j 2\n"
+                  "  dodgesim paper table2 --out out/table2\n"
+                  "  dodgesim paper table2 --out out/dusk --seed 7 --throws 20 --set "
+                  "sensors.events.preset=low_light");
+  command->callback([arguments, &exit_code] { exit_code = paper(*arguments); });
+}
+
+}  // namespace dodgesim
