@@ -28,7 +28,9 @@ Setting paper_setting(const std::string& key, const std::string& value) {
 }
 
 const std::vector<PaperExperiment>& paper_experiments() {
-  static const std::vector<PaperExperiment> all = {table1_experiment(), table2_experiment()};
+  static const std::vector<PaperExperiment> all = {table1_experiment(), table2_experiment(),
+                                                   indoor_experiment(), outdoor_experiment(),
+                                                   shapes_experiment()};
   return all;
 }
 

@@ -44,5 +44,8 @@ const std::vector<PaperExperiment>& paper_experiments();
 
 PaperExperiment table1_experiment();
 PaperExperiment table2_experiment();
+PaperExperiment indoor_experiment();
+PaperExperiment outdoor_experiment();
+PaperExperiment shapes_experiment();
 
 }  // namespace dodgesim

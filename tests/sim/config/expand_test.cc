@@ -51,6 +51,17 @@ TEST(Expand, AThrowHasTheValuesOfItsCellAndSweep) {
             (std::vector<AxisValue>{{"delays.compute_us", "3500"}, {"pilot", "oracle"}}));
 }
 
+TEST(Expand, APilotAmongTheValuesBringsItsConfiguration) {
+  const Scenario campaign = parse(
+      "throw: {}\nsweep: {pilot: [falanga2020, dodgesim, oracle]}\n"
+      "dodger: {position: {max_range_m: 2}}\n");
+  EXPECT_EQ(case_of(campaign, 0).scenario.dodger.position.max_range_m, 2);
+  EXPECT_EQ(case_of(campaign, 1).scenario.dodger.escape.law, "closest_approach");
+  EXPECT_EQ(case_of(campaign, 1).scenario.dodger.position.max_range_m,
+            dodge::preset("dodgesim").position.max_range_m);
+  EXPECT_EQ(case_of(campaign, 2).scenario.dodger.position.max_range_m, 2);
+}
+
 double speed(const Scenario& campaign, int t) {
   const ThrowCase thrown = case_of(campaign, t);
   return resolve_throws(thrown.scenario, thrown.stream).front().speed_mps;

@@ -118,6 +118,20 @@ TEST(Scenario, EveryKeyIsWrittenOnceAndDocumented) {
       << "extends, grid, sweep, stop and its two keys, throws, waypoints_m are not there";
 }
 
+TEST(Scenario, APilotBringsItsConfigurationAndTheFileChangesIt) {
+  const auto read = [](const std::string& text) { return parse_scenario(text, "test.yaml", ""); };
+  EXPECT_EQ(read("pilot: dodgesim\n").dodger.escape.law, "closest_approach");
+  EXPECT_EQ(read("pilot: dodgesim\n").dodger.window.window_us,
+            dodge::preset("dodgesim").window.window_us);
+  const Scenario changed = read("dodger: {window: {window_us: 15000}}\npilot: dodgesim\n");
+  EXPECT_EQ(changed.dodger.window.window_us, 15000) << "whatever the order of the keys";
+  EXPECT_EQ(changed.dodger.escape.law, "closest_approach");
+  EXPECT_EQ(to_yaml(read(to_yaml(changed))), to_yaml(changed));
+  for (const char* pilot : {"falanga2020", "oracle", "none"}) {
+    EXPECT_EQ(read(std::string("pilot: ") + pilot + "\n").dodger.escape.law, "potential_field");
+  }
+}
+
 TEST(Scenario, EveryScenarioOfTheProjectIsValid) {
   const std::filesystem::path root = DODGESIM_SOURCE_DIR;
   int count = 0;
@@ -135,7 +149,7 @@ TEST(Explain, FindsAKeyByItsPathOrItsLastPart) {
   EXPECT_THAT(explain(docs, "compute_us"), testing::StartsWith("delays.compute_us\n"));
   EXPECT_THAT(explain(docs, "throw"), testing::HasSubstr("throw.launch_s\n"));
   EXPECT_THAT(explain(docs, "pilot"),
-              testing::HasSubstr("falanga2020, oracle or none; default falanga2020"));
+              testing::HasSubstr("falanga2020, dodgesim, oracle or none; default falanga2020"));
 }
 
 TEST(Explain, SuggestsTheKeyThatWasMeant) {

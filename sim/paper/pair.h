@@ -1,0 +1,28 @@
+// The same throws flown by two pilots.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/campaign/load_campaign.h"
+#include "sim/campaign/paired.h"
+#include "sim/campaign/throw_statistics.h"
+
+namespace dodgesim {
+
+// Counts over the throws that would have hit (and, `unharmed`, over all).
+struct PilotPair {
+  Tally first, second, oracle;           // the oracle with the first pilot's avoidance
+  Rate first_unharmed, second_unharmed;  // neither hit nor crashed, of all throws
+  PairedCounts paired;                   // dodged by the first and by the second
+  std::map<std::string, int> first_causes, second_causes;  // of hits and crashes
+};
+
+// Counts the throws that belong. The campaigns hold the same throws; throws std::invalid_argument
+// if they do not.
+PilotPair compare_pilots(const LoadedCampaign& first, const LoadedCampaign& second,
+                         const std::function<bool(const ThrowResult&)>& belongs);
+
+}  // namespace dodgesim

@@ -1,0 +1,39 @@
+#include "dodge/presets.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "dodge/dodger.h"
+
+namespace dodge {
+namespace {
+
+Config with_cameras(Config config) {
+  config.cameras.resize(2);
+  for (CameraModel& camera : config.cameras) {
+    camera.X_BC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  }
+  config.cameras[0].X_BC.translation().z() = 0.15;
+  return config;
+}
+
+TEST(Presets, FlyAsTheyAre) {
+  for (const char* pilot : {"falanga2020", "dodgesim"}) {
+    EXPECT_NO_THROW(Dodger(with_cameras(preset(pilot)))) << pilot;
+  }
+}
+
+TEST(Presets, LeaveThePaperAsItIs) {
+  const Config paper = preset("falanga2020");
+  EXPECT_EQ(paper.position.max_range_m, 1.5);
+  EXPECT_EQ(paper.window.window_us, 10000);
+  EXPECT_EQ(paper.escape.law, "potential_field");
+  EXPECT_FALSE(paper.kalman.gravity);
+  EXPECT_EQ(paper.kalman.correlation_us, 0);
+}
+
+TEST(Presets, ThereAreNoOthers) { EXPECT_THROW(preset("oracle"), std::invalid_argument); }
+
+}  // namespace
+}  // namespace dodge

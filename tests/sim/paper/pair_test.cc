@@ -1,0 +1,71 @@
+#include "sim/paper/pair.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "tests/sim/paper/synthetic_passage.h"
+
+namespace dodgesim {
+namespace {
+
+ThrowResult thrown(int index, bool would_hit, bool hit, const std::string& cause = "") {
+  ThrowResult result;
+  result.index = index;
+  result.object = "ball";
+  result.speed_mps = index % 2 == 0 ? 4 : 8;
+  result.flown.status = result.none.status = result.oracle.status = "ok";
+  result.none.hit = would_hit;
+  result.flown.hit = hit;
+  result.cause = cause;
+  return result;
+}
+
+LoadedCampaign campaign(std::vector<ThrowResult> results) {
+  LoadedCampaign campaign;
+  campaign.scenario = paper_scenario("throw: {}\n");
+  campaign.results = std::move(results);
+  return campaign;
+}
+
+bool all(const ThrowResult&) { return true; }
+
+TEST(PilotPair, CountsTheThrowsThatWouldHaveHitPairwise) {
+  const LoadedCampaign first =
+      campaign({thrown(0, true, true, "seen late"), thrown(1, true, true, "seen late"),
+                thrown(2, true, false), thrown(3, false, false)});
+  const LoadedCampaign second =
+      campaign({thrown(0, true, false), thrown(1, true, true, "wrong position"),
+                thrown(2, true, false), thrown(3, false, true, "wrong direction")});
+  const PilotPair pair = compare_pilots(first, second, all);
+  EXPECT_EQ(pair.paired.only_second, 1);
+  EXPECT_EQ(pair.paired.only_first, 0);
+  EXPECT_EQ(pair.paired.both, 1);
+  EXPECT_EQ(pair.paired.neither, 1);
+  EXPECT_EQ(pair.first.success().count, 1);
+  EXPECT_EQ(pair.first.success().of, 3);
+  EXPECT_EQ(pair.second.success().count, 2);
+  EXPECT_EQ(pair.second_unharmed.count, 2);
+  EXPECT_EQ(pair.second_unharmed.of, 4);
+  EXPECT_EQ(pair.first_causes.at("seen late"), 2);
+  EXPECT_EQ(pair.second_causes.at("wrong direction"), 1);
+}
+
+TEST(PilotPair, CountsOnlyWhatBelongs) {
+  const LoadedCampaign flown = campaign({thrown(0, true, true), thrown(1, true, false)});
+  const PilotPair fast =
+      compare_pilots(flown, flown, [](const ThrowResult& r) { return r.speed_mps > 5; });
+  EXPECT_EQ(fast.first.success().of, 1);
+  EXPECT_EQ(fast.first.success().count, 1);
+}
+
+TEST(PilotPair, RefusesPilotsThatFlewOtherThrows) {
+  const LoadedCampaign flown = campaign({thrown(0, true, true)});
+  LoadedCampaign other = flown;
+  other.results[0].speed_mps = 5;
+  EXPECT_THROW(compare_pilots(flown, other, all), std::invalid_argument);
+  EXPECT_THROW(compare_pilots(flown, campaign({}), all), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace dodgesim
