@@ -46,7 +46,7 @@ double Measurement::median() const {
 
 std::vector<BenchCase> all_bench_cases() {
   std::vector<BenchCase> all;
-  for (const auto& cases : {emulator_cases(), renderer_cases(), loop_cases()}) {
+  for (const auto& cases : {emulator_cases(), renderer_cases(), pilot_cases(), loop_cases()}) {
     all.insert(all.end(), cases.begin(), cases.end());
   }
   return all;

@@ -37,6 +37,7 @@ struct BenchCase {
 std::vector<BenchCase> all_bench_cases();
 std::vector<BenchCase> emulator_cases();  // the event camera alone, beside cv::log
 std::vector<BenchCase> renderer_cases();
-std::vector<BenchCase> loop_cases();  // whole flights
+std::vector<BenchCase> pilot_cases();  // the flight core alone
+std::vector<BenchCase> loop_cases();   // whole flights
 
 }  // namespace dodgesim

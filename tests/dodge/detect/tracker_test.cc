@@ -123,6 +123,7 @@ TEST(Tracker, ConfirmsAnObstacleOnlyOnceItsVelocityIsKnownWellEnough) {
 double velocity_sigma(TimeUs period_us, TimeUs correlation_us) {
   KalmanConfig kalman;
   kalman.correlation_us = correlation_us;
+  kalman.acceleration_noise = 0.1;  // so that the measurements decide
   Tracker tracker({}, kalman, kLifetimeS);
   for (TimeUs t_us = 0; t_us <= 100000; t_us += period_us) {
     update(tracker, t_us, {seen(t_us, {3 - 6e-6 * static_cast<double>(t_us), 0, 0})});

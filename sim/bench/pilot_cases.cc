@@ -1,0 +1,179 @@
+// The flight core alone, as Table 3 of Falanga et al. 2020 times it: one camera, one thread, on
+// events of flights that were recorded before.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "dodge/dodger.h"
+#include "sim/bench/bench_case.h"
+#include "sim/loop.h"
+
+namespace dodgesim {
+
+namespace {
+
+// What a flight's sensors said between two cycles of the pilot.
+struct Cycle {
+  TimeUs now_us = 0;
+  std::vector<dodge::Event> events;  // of the first camera
+  std::vector<dodge::ImuSample> imu;
+  std::vector<dodge::StateEstimate> states;
+};
+
+using Recording = std::vector<Cycle>;
+
+class Recorder : public FlightObserver {
+ public:
+  void on_imu(const ImuReading& reading) override {
+    next_.imu.push_back({reading.t_us, reading.w_B_radps, reading.f_B_mps2});
+  }
+  void on_state(const StateReading& reading) override {
+    next_.states.push_back({reading.t_us, reading.p_W, reading.q_W, reading.v_W, reading.w_B});
+  }
+  void on_events(int camera, const Packet& packet) override {
+    if (camera != 0) return;
+    for (const Event& event : packet.events) {
+      next_.events.push_back({event.t_us, event.x, event.y, event.polarity});
+    }
+  }
+  void on_cycle(TimeUs now_us, const dodge::Pilot&) override {
+    next_.now_us = now_us;
+    recording_.push_back(std::move(next_));
+    next_ = {};
+  }
+
+  Recording take() { return std::move(recording_); }
+
+ private:
+  Cycle next_;
+  Recording recording_;
+};
+
+// Windows with about so many events, and how long they are to have that many in flight.
+struct Load {
+  const char* name;
+  std::size_t least, most;
+  TimeUs window_us;
+};
+constexpr Load kLoads[] = {
+    {"typical", 2000, 6000, 10000}, {"6000", 5500, 6500, 10000}, {"20000", 18000, 22000, 30000}};
+
+// Where the cameras of the nominal vehicle are does not matter to a single one.
+dodge::Config one_camera(TimeUs window_us) {
+  dodge::Config config;
+  config.position.depth = "mono";
+  config.window.window_us = window_us;
+  config.cameras.resize(1);
+  config.cameras[0].X_BC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return config;
+}
+
+// Plays the recordings to the flight core.
+struct Player {
+  std::vector<Recording> recordings;
+
+  // The stages' times in the windows that count.
+  std::vector<dodge::StageTimes> play(const Load& load) const {
+    std::vector<dodge::StageTimes> times;
+    for (const Recording& recording : recordings) {
+      dodge::Dodger dodger(one_camera(load.window_us));
+      std::vector<TimeUs> stamps;  // of the events that the window may hold
+      for (const Cycle& cycle : recording) {
+        dodger.add_events(0, cycle.events);
+        for (const auto& sample : cycle.imu) dodger.add_imu(sample);
+        for (const auto& state : cycle.states) dodger.add_state(state);
+        dodger.update(cycle.now_us);
+        for (const auto& event : cycle.events) stamps.push_back(event.t_us);
+        if (stamps.empty()) continue;
+        const TimeUs begin_us = stamps.back() - load.window_us;
+        stamps.erase(stamps.begin(), std::upper_bound(stamps.begin(), stamps.end(), begin_us));
+        if (stamps.size() < load.least || stamps.size() > load.most) continue;
+        times.push_back(dodger.stage_times());
+      }
+    }
+    return times;
+  }
+
+  // Means of the four stages, of their sum and of the rest, and the sum's standard deviation.
+  std::vector<double> run(const Load& load) const {
+    const std::vector<dodge::StageTimes> times = play(load);
+    const auto count = static_cast<double>(times.size());
+    dodge::StageTimes sum;
+    double detection = 0, squares = 0;
+    for (const dodge::StageTimes& t : times) {
+      sum.ego_motion_us += t.ego_motion_us;
+      sum.threshold_us += t.threshold_us;
+      sum.morphology_us += t.morphology_us;
+      sum.clustering_us += t.clustering_us;
+      sum.rest_us += t.rest_us;
+      const double all = t.ego_motion_us + t.threshold_us + t.morphology_us + t.clustering_us;
+      detection += all;
+      squares += all * all;
+    }
+    const double mean = detection / count;
+    const double sd = std::sqrt(std::max(0.0, squares / count - mean * mean));
+    return {1e-3 * sum.ego_motion_us / count,
+            1e-3 * sum.threshold_us / count,
+            1e-3 * sum.morphology_us / count,
+            1e-3 * sum.clustering_us / count,
+            1e-3 * mean,
+            1e-3 * sd,
+            1e-3 * sum.rest_us / count,
+            count};
+  }
+};
+
+std::vector<Recording> record_flights(const BenchOptions& options) {
+  struct Source {
+    const char* file;
+    int throws;
+  };
+  constexpr Source kSources[] = {{"demo", 3}, {"goal_flight", 1}};
+  std::vector<Recording> recordings;
+  for (const Source& source : kSources) {
+    const Scenario scenario =
+        load_scenario(options.scenarios_dir + "/" + source.file + ".yaml", options.models_dir);
+    for (int i = 0; i < source.throws; ++i) {
+      Recorder recorder;
+      fly(scenario, plan_throw(scenario, i), &recorder);
+      recordings.push_back(recorder.take());
+    }
+  }
+  return recordings;
+}
+
+void add_quantities(const Load& load, std::vector<Quantity>& quantities) {
+  const std::string name = std::string("pilot.") + load.name;
+  const std::string windows =
+      "windows of " + std::to_string(load.least) + " to " + std::to_string(load.most) + " events";
+  quantities.insert(quantities.end(),
+                    {{name + ".ego_motion", "ms", "compensation and time image, " + windows},
+                     {name + ".threshold", "ms", "normalisation, averaging and cut"},
+                     {name + ".morphology", "ms", "opening and closing"},
+                     {name + ".clustering", "ms", "flow, groups and DBSCAN"},
+                     {name + ".detection", "ms", "these four together, mean"},
+                     {name + ".detection_sd", "ms", "standard deviation of the four together"},
+                     {name + ".rest", "ms", "depth, tracking and avoidance"},
+                     {name + ".windows", "windows", "that this was measured on"}});
+}
+
+}  // namespace
+
+std::vector<BenchCase> pilot_cases() {
+  BenchCase bench;
+  for (const Load& load : kLoads) add_quantities(load, bench.quantities);
+  bench.prepare = [](const BenchOptions& options) -> BenchRun {
+    auto player = std::make_shared<Player>(Player{record_flights(options)});
+    return [player] {
+      std::vector<double> values;
+      for (const Load& load : kLoads) {
+        const std::vector<double> more = player->run(load);
+        values.insert(values.end(), more.begin(), more.end());
+      }
+      return values;
+    };
+  };
+  return {bench};
+}
+
+}  // namespace dodgesim
