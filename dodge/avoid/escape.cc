@@ -15,6 +15,7 @@ constexpr double kGravityMps2 = 9.81;
 constexpr double kStepS = 0.01;  // between predicted positions; the approach is refined within one
 constexpr int kDirections = 24;  // of escape, across the obstacle's line of flight
 constexpr double kNoSpeedMps = 1e-9;
+constexpr double kNoDistanceM = 1e-9;
 
 // Where a vehicle will be whose velocity changes from v to another at constant acceleration, after
 // a dead time, and that stops where it is wanted.
@@ -22,10 +23,7 @@ class Course {
  public:
   Course(const EscapeConfig& config, const VehicleMotion& vehicle, const Want& want)
       : p_W_(vehicle.p_W), v_W_(vehicle.v_W) {
-    if (want.p_WG) {
-      way_W_ = *want.p_WG - p_W_;
-      stops_ = true;
-    }
+    if (want.p_WG) way_W_ = *want.p_WG - p_W_;
     const Vector3d change_W = want.v_W - vehicle.v_W;
     const double size = change_W.norm();
     if (size <= kNoSpeedMps) return;
@@ -48,12 +46,11 @@ class Course {
 
  private:
   bool has_arrived(const Vector3d& moved_W) const {
-    return stops_ && moved_W.dot(way_W_) >= way_W_.squaredNorm();
+    return way_W_.norm() > kNoDistanceM && moved_W.dot(way_W_) >= way_W_.squaredNorm();
   }
 
   Vector3d p_W_, v_W_;
-  Vector3d way_W_ = Vector3d::Zero();  // to where it stops, if it does
-  bool stops_ = false;
+  Vector3d way_W_ = Vector3d::Zero();  // to where it stops; zero if it does not
   Vector3d a_W_ = Vector3d::Zero();
   double start_s_ = 0, length_s_ = 0;  // of the acceleration
 };
