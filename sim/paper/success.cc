@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "sim/paper/passing_flights.h"
-
 namespace dodgesim {
 
 bool in_view(const Sight& sight, Visibility visibility) {
