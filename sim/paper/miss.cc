@@ -102,6 +102,7 @@ void MissObserver::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
   if (dodger == nullptr || state == nullptr) return;
   CycleSight cycle;
   const Sight both = sight_of(rig_, state->vehicle.pose(), state->objects.front().p_W, radius_m_);
+  cycle.t_us = state->t_us;
   cycle.range_m = both.range_m();
   cycle.centre_in_view = both.centre_in_view;
   cycle.whole_in_view = both.whole_in_view;

@@ -17,6 +17,7 @@ namespace dodgesim {
 
 // One cycle of the pilot and the first object, at the end of the window of events.
 struct CycleSight {
+  TimeUs t_us = 0;
   double range_m = 0;
   bool centre_in_view = false;
   bool whole_in_view = false;

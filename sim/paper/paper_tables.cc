@@ -4,6 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/build_info.h"
+#include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/journal.h"
 #include "sim/campaign/result_files.h"
 #include "sim/files/output_file.h"
@@ -86,6 +87,7 @@ fs::path flight_directory(const fs::path& out, const PaperFlight& flight) {
 
 std::string write_paper_tables(const fs::path& out, const std::vector<PaperExperiment>& experiments,
                                const std::string& models_dir, const std::string& command) {
+  make_directory(out);
   const std::string program = build_info().name();
   std::string shown;
   std::string readme = "# Falanga et al. 2020, reproduced\n\nMade by `" + command + "`, dodgesim " +

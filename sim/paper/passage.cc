@@ -43,6 +43,10 @@ Sight sight_of(const CameraRig& rig, const Eigen::Isometry3d& X_WB, const Eigen:
   return sight;
 }
 
+Eigen::Vector3d position_of(const DetectionRow& row) {
+  return {row.p_W[0], row.p_W[1], row.p_W[2]};
+}
+
 bool on_outline(const Sight& sight, const Eigen::Vector3d& p_W) {
   const Eigen::Vector3d detected_C = sight.X_WC.inverse() * p_W;
   const double angle_rad =

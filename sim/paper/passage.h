@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/campaign/result.h"
 #include "sim/campaign/trajectory.h"
 #include "sim/config/scenario.h"
 #include "sim/render/camera.h"
@@ -41,6 +42,9 @@ struct Sight {
 
 Sight sight_of(const CameraRig& rig, const Eigen::Isometry3d& X_WB, const Eigen::Vector3d& p_W,
                double radius_m);
+
+// Where a detection puts the object's centre in the world.
+Eigen::Vector3d position_of(const DetectionRow& row);
 
 // How far beyond an object's outline a detection may lie to be of the object: some 10 px.
 inline constexpr double kOutlineMarginRad = 0.05;

@@ -11,8 +11,4 @@ PaperFlight mono_passing(const std::string& size_m) {
            paper_setting("dodger.position.known_size_m", size_m)}};
 }
 
-Eigen::Vector3d position_of(const DetectionRow& row) {
-  return {row.p_W[0], row.p_W[1], row.p_W[2]};
-}
-
 }  // namespace dodgesim

@@ -1,7 +1,6 @@
 // The throws through the field of view that Tables 1 and 2 share.
 #pragma once
 
-#include <Eigen/Dense>
 #include <string>
 
 #include "sim/paper/experiment.h"
@@ -13,7 +12,5 @@ PaperFlight stereo_passing();
 
 // 100 balls of a size that the pilot knows.
 PaperFlight mono_passing(const std::string& size_m);
-
-Eigen::Vector3d position_of(const DetectionRow& row);
 
 }  // namespace dodgesim

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "sim/paper/passing_flights.h"
-
 namespace dodgesim {
 
 bool in_view(const Sight& sight, Visibility visibility) {
@@ -36,7 +34,7 @@ Exposure exposure(const Passage& passage, const std::vector<DetectionRow>& detec
     const bool detected = std::any_of(detected_us.begin(), detected_us.end(),
                                       [&](TimeUs at) { return at >= begin_us && at < end_us; });
     ++exposure.pieces;
-    exposure.detected_pieces += detected ? 1 : 0;
+    if (!detected) exposure.missed_us.push_back(begin_us);
     piece_us = 0;
   }
   return exposure;

@@ -30,10 +30,12 @@ inline constexpr TimeUs kLeastVisibleUs = 10000;
 struct Exposure {
   TimeUs visible_us = 0;  // counted in milliseconds
   int detections = 0;     // of it (on_outline()), at an instant at which it was in the bin
-  // Pieces of kLeastVisibleUs in view without a gap, one after the other, and how many of them hold
-  // a detection of it.
-  int pieces = 0, detected_pieces = 0;
+  // Pieces of kLeastVisibleUs in view without a gap, one after the other, and where those begin
+  // that hold no detection of it.
+  int pieces = 0;
+  std::vector<TimeUs> missed_us;
 
+  int detected_pieces() const { return pieces - static_cast<int>(missed_us.size()); }
   bool counts() const { return visible_us >= kLeastVisibleUs; }
   bool detected() const { return detections > 0; }
 };

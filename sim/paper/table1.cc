@@ -6,6 +6,7 @@
 #include "sim/paper/experiment.h"
 #include "sim/paper/passage.h"
 #include "sim/paper/passing_flights.h"
+#include "sim/paper/sphere_outline.h"
 #include "sim/paper/text_table.h"
 
 namespace dodgesim {
@@ -47,14 +48,31 @@ constexpr const char* kProtocol = R"(How the protocol is read:
   than the SD, and the printed values are, in every cell; nor can they be the median absolute
   deviation, which for errors that are not negative does not exceed the median. They fit the mean
   absolute deviation from the mean. That is our column; the largest deviation stands beside it.
+- *Depth* is the mean error along the optical axis: negative when the ball is taken to be nearer than
+  it is.
+- *Unstretched*: the paper's eq. (7) takes the longer side of the outline for size times focal length
+  by depth. That is so for a disc that faces the camera; the outline of a ball off the axis is an
+  ellipse that is longer, and puts it too near. Here the same detections are moved to where a ball
+  has an outline of that length: what is left is the detector's own error.
 - *Stereo* is the paper's way, the disparity of the clusters' centres, and the default of our pilot,
   the correlation of the two cameras' time images. The same throws with the same noise.
 - Intervals: 95 %, bootstrap over throws.
 )";
 
+// Which detections count, and how.
+struct Selection {
+  bool whole_only = false;   // those of a ball wholly in view
+  bool unstretched = false;  // moved to where its size puts a sphere, not a disc
+};
+
 struct Sample {
   std::array<std::vector<PositionError>, kBins.size()> errors;
+  std::array<double, kBins.size()> depth_error_sums_m{};  // estimated less true
   int throws = 0, of_object = 0, elsewhere = 0;
+
+  double depth_bias_m(std::size_t bin) const {
+    return depth_error_sums_m[bin] / static_cast<double>(errors[bin].size());
+  }
 };
 
 std::size_t bin_of(double depth_m) {
@@ -63,7 +81,21 @@ std::size_t bin_of(double depth_m) {
   return bin;
 }
 
-void add(const LoadedCampaign& campaign, bool whole_only, Sample& sample) {
+void add(const DetectionRow& row, const Sight& sight, const Selection& selection, int number,
+         Sample& sample) {
+  const std::size_t bin = bin_of(*row.true_depth_m);
+  if (bin == kBins.size()) return;
+  Eigen::Vector3d detected_C = sight.X_WC.inverse() * position_of(row);
+  double error_m = *row.position_error_m;
+  if (selection.unstretched) {
+    detected_C = unstretched(detected_C, row.size_m);
+    error_m = (detected_C - sight.p_C).norm();
+  }
+  sample.errors[bin].push_back({number, error_m});
+  sample.depth_error_sums_m[bin] += detected_C.z() - sight.depth_m();
+}
+
+void add(const LoadedCampaign& campaign, const Selection& selection, Sample& sample) {
   const CameraRig rig = camera_rig(campaign.scenario);
   for (const ThrowResult& result : campaign.results) {
     if (!result.flown.ok()) continue;
@@ -71,14 +103,13 @@ void add(const LoadedCampaign& campaign, bool whole_only, Sample& sample) {
     const Passage passage(trajectory_from_bytes(result.trajectory), rig);
     for (const DetectionRow& row : result.detection_rows) {
       const std::optional<Sight> sight = passage.at(row.t_us);
-      if (!sight || !on_outline(*sight, position_of(row))) {
+      if (!sight || !row.true_depth_m || !on_outline(*sight, position_of(row))) {
         ++sample.elsewhere;
         continue;
       }
-      if (whole_only && !sight->whole_in_view) continue;
+      if (selection.whole_only && !sight->whole_in_view) continue;
       ++sample.of_object;
-      const std::size_t bin = bin_of(*row.true_depth_m);
-      if (bin < kBins.size()) sample.errors[bin].push_back({number, *row.position_error_m});
+      add(row, *sight, selection, number, sample);
     }
   }
 }
@@ -94,10 +125,10 @@ struct Setup {
   }
 };
 
-Setup setup(const std::string& name, bool mono, bool whole_only,
+Setup setup(const std::string& name, bool mono, const Selection& selection,
             const std::vector<const LoadedCampaign*>& campaigns) {
   Setup setup{name, mono, {}, {}};
-  for (const LoadedCampaign* campaign : campaigns) add(*campaign, whole_only, setup.sample);
+  for (const LoadedCampaign* campaign : campaigns) add(*campaign, selection, setup.sample);
   for (std::size_t bin = 0; bin < kBins.size(); ++bin) {
     setup.statistics[bin] = error_statistics(setup.sample.errors[bin], "table1/" + name);
   }
@@ -115,7 +146,7 @@ std::string setup_markdown(const Setup& setup) {
                 "median",       "paper",
                 "SD",           "paper",
                 "M.A.D.",       "paper",
-                "largest"};
+                "largest",      "depth"};
   for (std::size_t bin = 0; bin < kBins.size(); ++bin) {
     const auto& ours = setup.statistics[bin];
     if (!ours) continue;
@@ -126,7 +157,8 @@ std::string setup_markdown(const Setup& setup) {
          with_interval(ours->mean, ours->mean_interval, 3), fixed_text(paper.mean, 2),
          with_interval(ours->median, ours->median_interval, 3), fixed_text(paper.median, 2),
          fixed_text(ours->sd, 3), fixed_text(paper.sd, 2), fixed_text(ours->mean_deviation, 3),
-         fixed_text(paper.deviation, 2), fixed_text(ours->largest_deviation, 2)});
+         fixed_text(paper.deviation, 2), fixed_text(ours->largest_deviation, 2),
+         fixed_text(setup.sample.depth_bias_m(bin), 3)});
   }
   const Sample& sample = setup.sample;
   return "### " + setup.name + "\n\n" + table.to_markdown() + "\n" +
@@ -146,7 +178,8 @@ void add_to_csv(const Setup& setup, TextTable& csv) {
     for (const double value :
          {ours->mean, ours->mean_interval.lo, ours->mean_interval.hi, paper.mean, ours->median,
           ours->median_interval.lo, ours->median_interval.hi, paper.median, ours->sd, paper.sd,
-          ours->mean_deviation, paper.deviation, ours->largest_deviation}) {
+          ours->mean_deviation, paper.deviation, ours->largest_deviation,
+          setup.sample.depth_bias_m(bin)}) {
       row.push_back(fixed_text(value, 4));
     }
     csv.rows.push_back(std::move(row));
@@ -163,29 +196,40 @@ std::string median_verdict(const Setup& setup) {
          " of " + std::to_string(kBins.size()) + " bins.\n";
 }
 
-// Whether stereo is better near and worse far.
-std::string trend(const Setup& mono, const Setup& stereo) {
-  std::string text = "- " + stereo.name + " less " + mono.name + ", mean by bin: ";
-  for (std::size_t bin = 0; bin < kBins.size(); ++bin) {
-    const auto &a = mono.statistics[bin], &b = stereo.statistics[bin];
-    text += bin > 0 ? ", " : "";
-    text += a && b ? fixed_text(b->mean - a->mean, 3) : "none";
-    text += " (paper " + fixed_text(kBins[bin].stereo.mean - kBins[bin].mono.mean, 2) + ")";
+// Stereo's mean less the monocular one: the paper's is better near and worse far.
+std::string trend_markdown(const std::vector<std::pair<const Setup*, const Setup*>>& pairs) {
+  TextTable table;
+  table.head = {"mean error, stereo less monocular"};
+  std::vector<std::string> paper = {"the paper"};
+  for (const Bin& bin : kBins) {
+    table.head.push_back(bin_text(bin));
+    paper.push_back(fixed_text(bin.stereo.mean - bin.mono.mean, 2));
   }
-  return text + ".\n";
+  table.rows.push_back(std::move(paper));
+  for (const auto& [stereo, mono] : pairs) {
+    auto& row = table.rows.emplace_back();
+    row.push_back(stereo->name + "; " + mono->name);
+    for (std::size_t bin = 0; bin < kBins.size(); ++bin) {
+      const auto &a = stereo->statistics[bin], &b = mono->statistics[bin];
+      row.push_back(a && b ? fixed_text(a->mean - b->mean, 3) : "");
+    }
+  }
+  return table.to_markdown() + "\n";
 }
 
 PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
   const std::vector<const LoadedCampaign*> mono = {&campaigns[0], &campaigns[1], &campaigns[2]};
   const std::vector<const LoadedCampaign*> centres = {&campaigns[3]};
   const std::vector<const LoadedCampaign*> correlation = {&campaigns[4]};
-  const std::array<Setup, 6> setups = {
-      setup("monocular, ball wholly in view", true, true, mono),
-      setup("monocular, all detections", true, false, mono),
-      setup("stereo by centres, all detections", false, false, centres),
-      setup("stereo by centres, ball wholly in view", false, true, centres),
-      setup("stereo by correlation, all detections", false, false, correlation),
-      setup("stereo by correlation, ball wholly in view", false, true, correlation)};
+  const Selection all, whole{true, false}, sphere{true, true};
+  const std::array<Setup, 7> setups = {
+      setup("monocular, ball wholly in view", true, whole, mono),
+      setup("monocular, all detections", true, all, mono),
+      setup("monocular, ball wholly in view, unstretched", true, sphere, mono),
+      setup("stereo by centres, all detections", false, all, centres),
+      setup("stereo by centres, ball wholly in view", false, whole, centres),
+      setup("stereo by correlation, all detections", false, all, correlation),
+      setup("stereo by correlation, ball wholly in view", false, whole, correlation)};
   PaperTables tables;
   TextTable csv;
   csv.head = {"setup",          "from_m",      "to_m",
@@ -193,7 +237,8 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
               "mean_lo_m",      "mean_hi_m",   "paper_mean_m",
               "median_m",       "median_lo_m", "median_hi_m",
               "paper_median_m", "sd_m",        "paper_sd_m",
-              "mad_m",          "paper_mad_m", "largest_deviation_m"};
+              "mad_m",          "paper_mad_m", "largest_deviation_m",
+              "depth_bias_m"};
   tables.markdown = "Norm of the position error [m].\n\n";
   for (const Setup& setup : setups) {
     tables.markdown += setup_markdown(setup);
@@ -201,7 +246,12 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
   }
   tables.markdown += "### Against the paper\n\n";
   for (const Setup& setup : setups) tables.markdown += median_verdict(setup);
-  tables.markdown += trend(setups[0], setups[2]) + trend(setups[0], setups[4]) + "\n" + kProtocol;
+  tables.markdown += "\n" +
+                     trend_markdown({{&setups[3], &setups[0]},
+                                     {&setups[4], &setups[0]},
+                                     {&setups[5], &setups[0]},
+                                     {&setups[6], &setups[0]}}) +
+                     kProtocol;
   tables.csv = csv.to_csv();
   return tables;
 }

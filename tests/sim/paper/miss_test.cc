@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/loop.h"
+#include "sim/paper/miss_investigator.h"
 #include "tests/sim/paper/synthetic_passage.h"
 
 namespace dodgesim {
@@ -44,19 +45,25 @@ TEST(Miss, OfOneCameraAsksForOneCamera) {
   EXPECT_EQ(miss({cycle({100, 0}, {0, 0}, CycleSight::Location{2, 0.2})}, "mono"), Miss::kRange);
 }
 
-// Of a ball that passes within a metre, seen by a pilot with these parameters.
-std::vector<CycleSight> near_cycles(const std::string& dodger) {
-  const Scenario scenario = paper_scenario(
+Scenario passing_ball(const std::string& dodger) {
+  return paper_scenario(
       "fly_oracle: false\nafter_s: 0.1\n"
       "throw: {size_m: 0.2, speed_mps: 8, distance_m: 1.2, bearing_deg: 45, launch_s: 0.1,\n"
       "        aim_offset_m: [-0.6, 0], launch_height_m: 2}\n"
       "dodger: {repulsive: {k_r0: 0}, " +
       dodger + "}\n");
+}
+
+constexpr RangeBin kNear{0, 1};
+
+// Of a pilot with these parameters, while the ball is near.
+std::vector<CycleSight> near_cycles(const std::string& dodger) {
+  const Scenario scenario = passing_ball(dodger);
   MissObserver observer(scenario);
   EXPECT_TRUE(fly_throw(scenario, 0, &observer).flown.ok());
   std::vector<CycleSight> cycles;
   for (const CycleSight& sight : observer.cycles()) {
-    if (sight.centre_in_view && sight.range_m < 1) cycles.push_back(sight);
+    if (sight.centre_in_view && kNear.contains(sight.range_m)) cycles.push_back(sight);
   }
   EXPECT_GT(cycles.size(), 10u);
   return cycles;
@@ -64,7 +71,13 @@ std::vector<CycleSight> near_cycles(const std::string& dodger) {
 
 TEST(MissObserver, FindsWhatAFlyingPilotLacks) {
   EXPECT_EQ(miss(near_cycles("cluster: {min_pixels: 100000}")), Miss::kNoCluster);
-  EXPECT_EQ(miss(near_cycles("position: {stereo: {min_correlation: 1}}")), Miss::kNoMatch);
+
+  LoadedCampaign campaign;
+  campaign.scenario = passing_ball("position: {stereo: {min_correlation: 1}}");
+  MissInvestigator investigator(campaign);
+  EXPECT_EQ(investigator.reason(0, kNear, 0, 1000000), Miss::kNoMatch);
+  EXPECT_EQ(investigator.reason(0, kNear, 0, 100000), Miss::kFewEvents) << "before the launch";
+  EXPECT_EQ(investigator.reason(0, {5, 6}, 0, 1000000), Miss::kFewEvents) << "never so far";
 
   const std::vector<CycleSight> good = near_cycles("cluster: {}");
   EXPECT_EQ(miss(good), Miss::kElsewhere);

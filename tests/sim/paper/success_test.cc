@@ -83,14 +83,16 @@ TEST(Exposure, IsCutIntoPiecesOfOneWindow) {
   const Vector3d ball(0.6, 0, 0);
   const Exposure none = crossing(0.6, 0.1, kMiddle, Visibility::kCentre);
   EXPECT_EQ(none.pieces, none.visible_us / 10000);
-  EXPECT_EQ(none.detected_pieces, 0);
+  EXPECT_EQ(none.detected_pieces(), 0);
+  EXPECT_EQ(none.missed_us[1] - none.missed_us[0], 10000);
   // Three detections in two pieces.
   const Exposure some =
       crossing(0.6, 0.1, kMiddle, Visibility::kCentre,
                {detection(1000000, ball, ball, 0.6), detection(1000001, ball, ball, 0.6),
                 detection(1015000, {0.6, -0.03, 0}, ball, 0.6)});
   EXPECT_EQ(some.detections, 3);
-  EXPECT_EQ(some.detected_pieces, 2);
+  EXPECT_EQ(some.detected_pieces(), 2);
+  EXPECT_EQ(some.missed_us.size(), none.missed_us.size() - 2);
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ inline DetectionRow detection(TimeUs t_us, const Eigen::Vector3d& p_W,
   DetectionRow row;
   row.t_us = t_us;
   row.p_W = {p_W.x(), p_W.y(), p_W.z()};
+  row.size_m = 0.1;
   row.object = 0;
   row.true_p_W = {true_p_W.x(), true_p_W.y(), true_p_W.z()};
   row.position_error_m = (p_W - true_p_W).norm();
