@@ -104,6 +104,7 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
 std::unique_ptr<dodge::Pilot> Flight::make_dodger() const {
   dodge::Config config = scenario_.dodger;
   const Intrinsics camera = intrinsics(scenario_.sensors.camera);
+  config.p_BR = world_.vehicle().X_BR.translation();
   config.cameras.clear();
   for (const Eigen::Isometry3d& X_BC : world_.vehicle().X_BC) {
     dodge::CameraModel model;
@@ -150,7 +151,7 @@ Witness::Setup Flight::witness_setup() const {
 
 bool Flight::over() const {
   const Verdict& verdict = referee_.verdict();
-  return now_us() >= plan_.end_us || verdict.nearest.hit || verdict.crashed;
+  return now_us() >= plan_.end_us || verdict.nearest.hit || verdict.crashed || verdict.landed;
 }
 
 void Flight::move() {
@@ -184,6 +185,7 @@ void Flight::sense() {
   if (range_sensor_.due(now.t_us)) {
     if (const auto reading = range_sensor_.sample(now.t_us, true_range_m())) {
       computer_.send_range(*reading);
+      if (observer_ != nullptr) observer_->on_range(*reading);
     }
   }
 }
@@ -222,6 +224,7 @@ void Flight::decide() {
   }
   if (const auto command = computer_.take_command(now_us())) {
     reference_ = {command->v_W, command->evading};
+    if (command->landing && !record_.landing_us) record_.landing_us = now_us();
     if (observer_ != nullptr) observer_->on_velocity(now_us(), *command);
   }
   timing_.pilot_s += seconds_since(start);
@@ -245,7 +248,7 @@ void Flight::control() {
 }
 
 void Flight::judge() {
-  referee_.observe(world_);
+  referee_.observe(world_, record_.landing_us.has_value());
   witness_.observe(world_, reference_);
 }
 

@@ -50,6 +50,7 @@ class FlightObserver {
   virtual void on_tick(const World& /*world*/) {}
   virtual void on_imu(const ImuReading& /*reading*/) {}
   virtual void on_state(const StateReading& /*reading*/) {}
+  virtual void on_range(const RangeReading& /*reading*/) {}
   virtual void on_events(int /*camera*/, const Packet& /*packet*/) {}
   virtual void on_cycle(TimeUs /*now_us*/, const dodge::Pilot& /*pilot*/) {}
   // A command of the pilot arrives at the controller.
@@ -82,6 +83,7 @@ struct FlightRecord {
   std::optional<double> first_detection_distance_m;
   std::vector<Sighting> sightings;         // of each object
   std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
+  std::optional<TimeUs> landing_us;        // first command to land at the controller
   int detections = 0;
   std::vector<DetectionRow> rows;
   std::array<std::int64_t, 2> events{};
@@ -106,7 +108,7 @@ class Flight {
   Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer);
 
   TimeUs now_us() const { return world_.snapshot().t_us; }
-  // The end is reached, or the vehicle was hit or has crashed.
+  // The end is reached, or the vehicle was hit, has crashed or has landed.
   bool over() const;
 
   // The stages of one tick, in this order.

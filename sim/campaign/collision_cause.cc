@@ -39,9 +39,11 @@ std::string to_text(CollisionCause cause) {
     case CollisionCause::kNotEnoughThrust:
       return "not enough thrust";
     case CollisionCause::kFledIntoTheRoom:
+      return "fled into the room";
+    case CollisionCause::kFlewIntoTheRoom:
       break;
   }
-  return "fled into the room";
+  return "flew into the room";
 }
 
 Agility agility_of(const VehicleParameters& vehicle, const MotorSpec& motors) {
@@ -105,7 +107,10 @@ CollisionVerdict judge_collision(const Agility& agility, const CollisionEvidence
     verdict.cause = cause;
     return verdict;
   };
-  if (!evidence.hit) return is(CollisionCause::kFledIntoTheRoom);
+  if (!evidence.hit) {
+    return is(evidence.evaded ? CollisionCause::kFledIntoTheRoom
+                              : CollisionCause::kFlewIntoTheRoom);
+  }
   if (evidence.another_detected_before) return is(CollisionCause::kSecondObject);
   if (evidence.undisturbed) {
     verdict.needed_s = least_time_to_escape_s(agility, *evidence.undisturbed);

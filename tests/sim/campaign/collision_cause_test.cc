@@ -138,6 +138,8 @@ TEST(CollisionCause, TheSecondObjectAndTheRoomAreCausesOfTheirOwn) {
   second.another_detected_before = true;
   EXPECT_EQ(cause(second), CollisionCause::kSecondObject);
   second.hit = false;
+  EXPECT_EQ(cause(second), CollisionCause::kFlewIntoTheRoom);
+  second.evaded = true;
   EXPECT_EQ(cause(second), CollisionCause::kFledIntoTheRoom);
 }
 
