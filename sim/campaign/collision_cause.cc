@@ -38,6 +38,8 @@ std::string to_text(CollisionCause cause) {
       return "wrong direction";
     case CollisionCause::kNotEnoughThrust:
       return "not enough thrust";
+    case CollisionCause::kLanding:
+      return "landing";
     case CollisionCause::kFledIntoTheRoom:
       return "fled into the room";
     case CollisionCause::kFlewIntoTheRoom:
@@ -107,6 +109,7 @@ CollisionVerdict judge_collision(const Agility& agility, const CollisionEvidence
     verdict.cause = cause;
     return verdict;
   };
+  if (evidence.landing) return is(CollisionCause::kLanding);
   if (!evidence.hit) {
     return is(evidence.evaded ? CollisionCause::kFledIntoTheRoom
                               : CollisionCause::kFlewIntoTheRoom);

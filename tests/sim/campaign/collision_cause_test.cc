@@ -143,6 +143,14 @@ TEST(CollisionCause, TheSecondObjectAndTheRoomAreCausesOfTheirOwn) {
   EXPECT_EQ(cause(second), CollisionCause::kFledIntoTheRoom);
 }
 
+TEST(CollisionCause, WhoLandsDodgesNobody) {
+  CollisionEvidence landing = evidence(500000, kUp);
+  landing.landing = true;
+  EXPECT_EQ(cause(landing), CollisionCause::kLanding);
+  landing.hit = false;
+  EXPECT_EQ(cause(landing), CollisionCause::kLanding);
+}
+
 TEST(Agility, ComesFromRotorsAndInertia) {
   VehicleParameters vehicle;
   vehicle.mass_kg = 2;
