@@ -48,7 +48,6 @@ Intrinsics intrinsics(const CameraSpec& camera) {
 Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer)
     : scenario_(scenario),
       plan_(plan),
-      observer_(observer),
       world_(world_spec(scenario, plan.launches)),
       referee_(world_),
       motors_(scenario.motors, world_.vehicle().max_thrust_n),
@@ -61,6 +60,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
       range_sensor_(scenario.sensors.range, scenario.seed, index()),
       computer_(scenario.delays, make_pilot()),
       witness_(world_, witness_setup()),
+      observer_(observer),
       rig_(make_rig()),
       mission_(scenario.mission),
       controller_states_(scenario.delays.state_estimate_us),

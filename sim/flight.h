@@ -143,7 +143,6 @@ class Flight {
 
   Scenario scenario_;
   FlightPlan plan_;
-  FlightObserver* observer_;
   World world_;
   Referee referee_;
   Motors motors_;
@@ -156,6 +155,7 @@ class Flight {
   TruthPilot* truth_pilot_ = nullptr;  // owned by computer_, when the pilot knows the truth
   OnboardComputer computer_;
   Witness witness_;
+  FlightObserver* observer_;       // may be null
   std::unique_ptr<EventRig> rig_;  // none for pilots that need no eyes
 
   Snapshot before_;  // the tick's start
