@@ -105,6 +105,13 @@ void validate(const Config& config) {
     fail("The parameter position.min_size_m must be less than position.max_size_m.");
   }
 
+  if (config.range_sensor.min_range_m >= config.range_sensor.max_range_m) {
+    fail("The parameter range_sensor.min_range_m must be less than range_sensor.max_range_m.");
+  }
+  if (config.landing.touchdown_mps > config.landing.descent_mps) {
+    fail("The parameter landing.touchdown_mps must not exceed landing.descent_mps.");
+  }
+
   const std::size_t needed = config.position.depth == "stereo" ? 2 : 1;
   if (config.cameras.size() < needed) {
     fail("Depth by " + config.position.depth + " needs " + std::to_string(needed) +

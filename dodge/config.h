@@ -16,14 +16,18 @@
 #include "dodge/detect/kalman.h"
 #include "dodge/detect/optical_flow.h"
 #include "dodge/detect/time_image.h"
+#include "dodge/monitor/height_monitor.h"
+#include "dodge/monitor/landing.h"
+#include "dodge/monitor/range_height.h"
 
 namespace dodge {
 
 // The defaults are the faithful pilot of Falanga et al. 2020.
 struct Config {
-  // Set by whatever carries the core; not a parameter of the pilot. Stereo needs two, the upper one
-  // first; mono uses the first.
+  // Set by whatever carries the core; not parameters of the pilot. Stereo needs two cameras, the
+  // upper one first; mono uses the first. The range sensor sits at p_BR and looks along -z of B.
   std::vector<CameraModel> cameras;
+  Eigen::Vector3d p_BR = Eigen::Vector3d::Zero();
 
   WindowConfig window;
   EgoMotionConfig ego_motion;
@@ -37,6 +41,9 @@ struct Config {
   AttractiveConfig attractive;
   EscapeConfig escape;
   VelocityLimitConfig velocity_limit;
+  RangeSensorConfig range_sensor;
+  HeightMonitorConfig height_monitor;
+  LandingConfig landing;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -52,6 +59,10 @@ struct Config {
     v("attractive", attractive, "Force towards the goal, eqs. (35), (36).");
     v("escape", escape, "Escape by predicted closest approach, in place of the repulsive force.");
     v("velocity_limit", velocity_limit, "Limit of the commanded velocity, eq. (39).");
+    v("range_sensor", range_sensor, "Which readings of the range sensor that looks down are used.");
+    v("height_monitor", height_monitor,
+      "Lands the vehicle when the estimated height has drifted away from the measured one.");
+    v("landing", landing, "The emergency landing; on its way down the vehicle dodges nobody.");
   }
 };
 

@@ -38,7 +38,9 @@ Dodger::Dodger(const Config& config)
     : config_(validated(config)),
       depth_(config.position, config.cameras, config.window.window_us),
       tracker_(config.association, config.kalman, decay_lifetime_s(config.repulsive)),
-      avoider_(config.repulsive, config.attractive, config.velocity_limit, config.escape) {
+      avoider_(config.repulsive, config.attractive, config.velocity_limit, config.escape),
+      height_monitor_(config.height_monitor),
+      landing_(config.landing) {
   const std::size_t used = config.position.depth == "stereo" ? 2 : 1;
   for (std::size_t i = 0; i < used; ++i) eyes_.emplace_back(config_, config_.cameras[i]);
   for (const Eye& eye : eyes_) views_.push_back({&eye.clusters, &eye.time_image.averaged()});
@@ -47,6 +49,16 @@ Dodger::Dodger(const Config& config)
 void Dodger::add_events(int camera, std::span<const Event> events) {
   const auto index = static_cast<std::size_t>(camera);
   if (index < eyes_.size()) eyes_[index].events.add(events);
+}
+
+void Dodger::add_range(const RangeReading& reading) {
+  const std::optional<StateEstimate> state = states_.at(reading.t_us);
+  if (!state) return;
+  const std::optional<double> height_m =
+      height_above_ground(config_.range_sensor, config_.p_BR, reading, *state);
+  if (!height_m) return;
+  height_monitor_.add(reading.t_us, state->p_WB.z(), *height_m);
+  landing_.add(reading.t_us, state->p_WB.z(), *height_m);
 }
 
 void Dodger::set_goal(const Goal& goal) {
@@ -63,17 +75,21 @@ VelocityCommand Dodger::update(TimeUs now_us) {
   Stopwatch watch;
   locate_obstacles();
   tracker_.update(now_us, detections_);
-  VelocityCommand command{.t_us = end_us_};
-  if (const std::optional<StateEstimate> state = states_.at(now_us)) {
-    const Goal stay{.p_WG = state->p_WB};
-    command = avoider_.command(now_us, *state, has_goal_ ? goal_ : stay, tracker_.obstacles());
-    command.t_us = end_us_;
-  }
+  VelocityCommand command = decide(now_us);
+  command.t_us = end_us_;
   obstacles_.clear();
   for (const TrackedObstacle& tracked : tracker_.obstacles())
     obstacles_.push_back(tracked.obstacle);
   watch.add_to(stage_times_.rest_us);
   return command;
+}
+
+VelocityCommand Dodger::decide(TimeUs now_us) {
+  if (config_.height_monitor.enabled && height_monitor_.drifted()) return landing_.command(now_us);
+  const std::optional<StateEstimate> state = states_.at(now_us);
+  if (!state) return {};
+  const Goal stay{.p_WG = state->p_WB};
+  return avoider_.command(now_us, *state, has_goal_ ? goal_ : stay, tracker_.obstacles());
 }
 
 // The window ends at the newest event of any camera, so that it is full whatever the cameras'

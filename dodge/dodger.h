@@ -1,5 +1,6 @@
 // The paper's pilot: Falanga, Kleber, Scaramuzza, "Dynamic obstacle avoidance for quadrotors with
-// event cameras", Science Robotics 2020. Events and angular rates in, a velocity command out.
+// event cameras", Science Robotics 2020. Events and angular rates in, a velocity command out; or,
+// once the range sensor says that the height estimate has drifted, an emergency landing.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -16,6 +17,8 @@
 #include "dodge/detect/state_history.h"
 #include "dodge/detect/time_image.h"
 #include "dodge/detect/tracker.h"
+#include "dodge/monitor/height_monitor.h"
+#include "dodge/monitor/landing.h"
 #include "dodge/pilot.h"
 
 namespace dodge {
@@ -56,9 +59,10 @@ class Dodger : public Pilot {
   void add_events(int camera, std::span<const Event> events) override;
   void add_imu(const ImuSample& sample) override { rates_.add(sample); }
   void add_state(const StateEstimate& state) override { states_.add(state); }
+  void add_range(const RangeReading& reading) override;
   void set_goal(const Goal& goal) override;
 
-  // Until the first state estimate the command is zero.
+  // Until the first state estimate the command is zero. A landing, once begun, goes on for ever.
   VelocityCommand update(TimeUs now_us) override;
 
   std::span<const Detection> detections() const override { return detections_; }
@@ -67,6 +71,8 @@ class Dodger : public Pilot {
   // Of the last update. Cameras that the configuration does not use (mono) have no clusters.
   const std::vector<Cluster>& clusters(int camera) const;
   const StageTimes& stage_times() const { return stage_times_; }
+
+  const HeightMonitor& height_monitor() const { return height_monitor_; }
 
   // Whether the stages' images are kept from the next update on. They are valid until the next one.
   void set_capture(bool capture) { capture_ = capture; }
@@ -90,6 +96,7 @@ class Dodger : public Pilot {
   void move_window(TimeUs now_us);
   void find_clusters(Eye& eye);
   void locate_obstacles();
+  VelocityCommand decide(TimeUs now_us);
   void capture_images(Eye& eye) const;
 
   Config config_;
@@ -102,6 +109,8 @@ class Dodger : public Pilot {
   DepthEstimator depth_;
   Tracker tracker_;
   Avoider avoider_;
+  HeightMonitor height_monitor_;
+  Landing landing_;
 
   TimeUs begin_us_ = 0, end_us_ = 0;  // the window is (begin_us_, end_us_]
   double elapsed_windows_ = 0;        // between the last two windows; 0: no new data

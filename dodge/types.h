@@ -48,6 +48,7 @@ struct VelocityCommand {
   TimeUs t_us = 0;                                // the instant of the data it was computed from
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // desired velocity [m/s]
   bool evading = false;                           // an obstacle's repulsive force is part of v_W
+  bool landing = false;  // an emergency landing, to the ground and for good
 };
 
 // One obstacle measured in one update.

@@ -59,6 +59,8 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
                               const FlightRecord& flown) {
   CollisionEvidence evidence;
   evidence.hit = flown.verdict.nearest.hit;
+  evidence.landing = flown.landing_us.has_value();
+  evidence.evaded = flown.first_command_us.has_value();
   evidence.perceives = perceives(plan.pilot);
   if (!evidence.hit) return evidence;
   const auto hitter = static_cast<std::size_t>(flown.verdict.nearest_object);

@@ -65,7 +65,6 @@ std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
 Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer)
     : scenario_(scenario),
       plan_(plan),
-      observer_(observer),
       world_(world_spec(scenario, plan.launches)),
       referee_(world_),
       motors_(scenario.motors, world_.vehicle().max_thrust_n),
@@ -78,6 +77,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
       range_sensor_(scenario.sensors.range, scenario.seed, index()),
       computer_(scenario.delays, make_pilot()),
       witness_(world_, witness_setup()),
+      observer_(observer),
       rig_(make_rig()),
       mission_(scenario.mission),
       controller_states_(scenario.delays.state_estimate_us),
@@ -121,6 +121,7 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
 
 std::unique_ptr<dodge::Pilot> Flight::make_dodger() const {
   dodge::Config config = scenario_.dodger;
+  config.p_BR = world_.vehicle().X_BR.translation();
   config.cameras = camera_models(scenario_, world_.vehicle());
   return std::make_unique<dodge::Dodger>(config);
 }
@@ -157,7 +158,7 @@ Witness::Setup Flight::witness_setup() const {
 
 bool Flight::over() const {
   const Verdict& verdict = referee_.verdict();
-  return now_us() >= plan_.end_us || verdict.nearest.hit || verdict.crashed;
+  return now_us() >= plan_.end_us || verdict.nearest.hit || verdict.crashed || verdict.landed;
 }
 
 void Flight::move() {
@@ -191,6 +192,7 @@ void Flight::sense() {
   if (range_sensor_.due(now.t_us)) {
     if (const auto reading = range_sensor_.sample(now.t_us, true_range_m())) {
       computer_.send_range(*reading);
+      if (observer_ != nullptr) observer_->on_range(*reading);
     }
   }
 }
@@ -229,6 +231,7 @@ void Flight::decide() {
   }
   if (const auto command = computer_.take_command(now_us())) {
     reference_ = {command->v_W, command->evading};
+    if (command->landing && !record_.landing_us) record_.landing_us = now_us();
     if (observer_ != nullptr) observer_->on_velocity(now_us(), *command);
   }
   timing_.pilot_s += seconds_since(start);
@@ -252,7 +255,7 @@ void Flight::control() {
 }
 
 void Flight::judge() {
-  referee_.observe(world_);
+  referee_.observe(world_, record_.landing_us.has_value());
   witness_.observe(world_, reference_);
 }
 

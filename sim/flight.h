@@ -50,6 +50,7 @@ class FlightObserver {
   virtual void on_tick(const World& /*world*/) {}
   virtual void on_imu(const ImuReading& /*reading*/) {}
   virtual void on_state(const StateReading& /*reading*/) {}
+  virtual void on_range(const RangeReading& /*reading*/) {}
   virtual void on_events(int /*camera*/, const Packet& /*packet*/) {}
   virtual void on_cycle(TimeUs /*now_us*/, const dodge::Pilot& /*pilot*/) {}
   // A command of the pilot arrives at the controller.
@@ -86,6 +87,7 @@ struct FlightRecord {
   std::optional<double> first_detection_distance_m;
   std::vector<Sighting> sightings;         // of each object
   std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
+  std::optional<TimeUs> landing_us;        // first command to land at the controller
   int detections = 0;
   std::vector<DetectionRow> rows;
   std::array<std::int64_t, 2> events{};
@@ -110,7 +112,7 @@ class Flight {
   Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer);
 
   TimeUs now_us() const { return world_.snapshot().t_us; }
-  // The end is reached, or the vehicle was hit or has crashed.
+  // The end is reached, or the vehicle was hit, has crashed or has landed.
   bool over() const;
 
   // The stages of one tick, in this order.
@@ -145,7 +147,6 @@ class Flight {
 
   Scenario scenario_;
   FlightPlan plan_;
-  FlightObserver* observer_;
   World world_;
   Referee referee_;
   Motors motors_;
@@ -158,6 +159,7 @@ class Flight {
   TruthPilot* truth_pilot_ = nullptr;  // owned by computer_, when the pilot knows the truth
   OnboardComputer computer_;
   Witness witness_;
+  FlightObserver* observer_;       // may be null
   std::unique_ptr<EventRig> rig_;  // none for pilots that need no eyes
 
   Snapshot before_;  // the tick's start

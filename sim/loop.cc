@@ -116,6 +116,8 @@ void copy_record(const FlightRecord& record, ThrowResult& result) {
   result.first_detection_distance_m = record.first_detection_distance_m;
   result.first_command_us = record.first_command_us;
   result.evaded = record.first_command_us.has_value();
+  result.landing_us = record.landing_us;
+  if (record.verdict.landed) result.landed_us = record.verdict.landed_us;
   result.detections = record.detections;
   result.events = record.events;
   result.events_lost = record.events_lost;

@@ -69,7 +69,8 @@ Json command() {
   return object("dodgesim.Command", {{"timestamp", time()},
                                      {"velocity_mps", vector()},
                                      {"speed_mps", number()},
-                                     {"evading", boolean()}});
+                                     {"evading", boolean()},
+                                     {"landing", boolean()}});
 }
 
 Json approach() {
@@ -284,7 +285,10 @@ void McapRecorder::on_velocity(TimeUs now_us, const dodge::VelocityCommand& comm
         {{"timestamp", foxglove::time(now_us)},
          {"velocity_mps", foxglove::vector(command.v_W)},
          {"speed_mps", speed_mps},
-         {"evading", command.evading}});
+         {"evading", command.evading},
+         {"landing", command.landing}});
+  if (command.landing && !landing_) say(now_us, Level::kWarning, "The vehicle lands.");
+  landing_ = command.landing;
   Json entity = foxglove::entity(now_us, "world", "command");
   if (speed_mps > 0) {
     entity["arrows"].push_back(foxglove::arrow(foxglove::pose(now_.vehicle.p_W, along(command.v_W)),
@@ -311,6 +315,8 @@ void McapRecorder::finish(const ThrowResult& result) {
     say(flown.hit_us.value_or(end_us), Level::kError, "The vehicle is hit.");
   } else if (flown.crashed) {
     say(end_us, Level::kError, "The vehicle crashes.");
+  } else if (result.landed_us) {
+    say(*result.landed_us, Level::kInfo, "The vehicle has landed.");
   } else if (flown.clearance_m) {
     say(flown.closest_us.value_or(end_us), Level::kInfo,
         format("Closest approach: %.3f m between the surfaces.", *flown.clearance_m));

@@ -60,6 +60,7 @@ class McapRecorder : public FlightObserver {
   std::vector<std::deque<Eigen::Vector3d>> paths_;  // of the vehicle, then of the objects
   bool begun_ = false;
   bool evading_ = false;
+  bool landing_ = false;
   int detections_ = 0;
 };
 

@@ -38,10 +38,14 @@ std::string to_text(CollisionCause cause) {
       return "wrong direction";
     case CollisionCause::kNotEnoughThrust:
       return "not enough thrust";
+    case CollisionCause::kLanding:
+      return "landing";
     case CollisionCause::kFledIntoTheRoom:
+      return "fled into the room";
+    case CollisionCause::kFlewIntoTheRoom:
       break;
   }
-  return "fled into the room";
+  return "flew into the room";
 }
 
 Agility agility_of(const VehicleParameters& vehicle, const MotorSpec& motors) {
@@ -105,7 +109,11 @@ CollisionVerdict judge_collision(const Agility& agility, const CollisionEvidence
     verdict.cause = cause;
     return verdict;
   };
-  if (!evidence.hit) return is(CollisionCause::kFledIntoTheRoom);
+  if (evidence.landing) return is(CollisionCause::kLanding);
+  if (!evidence.hit) {
+    return is(evidence.evaded ? CollisionCause::kFledIntoTheRoom
+                              : CollisionCause::kFlewIntoTheRoom);
+  }
   if (evidence.another_detected_before) return is(CollisionCause::kSecondObject);
   if (evidence.undisturbed) {
     verdict.needed_s = least_time_to_escape_s(agility, *evidence.undisturbed);

@@ -12,7 +12,9 @@
 //                       happened without the evasion
 //   not enough thrust   the commanded direction was right and the command early enough: the vehicle
 //                       or its controller did not get out of it what its rotors have
-//   fled into the room  no object touched the vehicle, but it touched the room
+//   landing             the pilot had begun an emergency landing before, on which it dodges nobody
+//   fled into the room  no object touched the vehicle, but it touched the room, having evaded
+//   flew into the room  likewise, without having evaded: its estimate or its mission led it there
 #pragma once
 
 #include <Eigen/Dense>
@@ -35,14 +37,17 @@ enum class CollisionCause {
   kWrongPosition,
   kWrongDirection,
   kNotEnoughThrust,
+  kLanding,
   kFledIntoTheRoom,
+  kFlewIntoTheRoom,
 };
 
 inline constexpr std::array kCollisionCauses = {
     CollisionCause::kNotSeen,         CollisionCause::kNotDetected,
     CollisionCause::kSecondObject,    CollisionCause::kSeenLate,
     CollisionCause::kWrongPosition,   CollisionCause::kWrongDirection,
-    CollisionCause::kNotEnoughThrust, CollisionCause::kFledIntoTheRoom};
+    CollisionCause::kNotEnoughThrust, CollisionCause::kLanding,
+    CollisionCause::kFledIntoTheRoom, CollisionCause::kFlewIntoTheRoom};
 
 std::string to_text(CollisionCause cause);
 
@@ -86,6 +91,8 @@ double least_time_to_escape_s(const Agility& agility, const Encounter& encounter
 // What is known of a flight that came to harm. "The object" is the one that hit.
 struct CollisionEvidence {
   bool hit = false;       // otherwise it crashed into the room
+  bool evaded = false;    // anything, at any time
+  bool landing = false;   // the pilot had begun an emergency landing
   bool perceives = true;  // the pilot sees with its cameras; others are told of objects
   bool in_view = false;   // the object was, before the hit
   bool detected = false;  // the object was, before the hit

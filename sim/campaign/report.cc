@@ -24,12 +24,12 @@ using Json = nlohmann::ordered_json;
 constexpr std::uint8_t kNone = 255;
 
 // What is true of a throw, as bits of the column "flags".
-constexpr const char* kFlags[] = {"thrown",   "failed",      "hit",    "crashed",
-                                  "none_hit", "oracle_flew", "evaded", "false_alarm"};
+constexpr const char* kFlags[] = {"thrown",      "failed", "hit",         "crashed", "none_hit",
+                                  "oracle_flew", "evaded", "false_alarm", "gave_up"};
 
 unsigned flags_of(const ThrowResult& r) {
-  const bool set[] = {r.thrown(), r.flown.failed(), r.flown.hit, r.flown.crashed,
-                      r.none.hit, r.oracle.ok(),    r.evaded,    r.false_alarm};
+  const bool set[] = {r.thrown(),    r.flown.failed(), r.flown.hit,   r.flown.crashed, r.none.hit,
+                      r.oracle.ok(), r.evaded,         r.false_alarm, r.gave_up()};
   unsigned flags = 0;
   for (std::size_t i = 0; i < std::size(set); ++i) flags |= set[i] ? 1U << i : 0U;
   return flags;

@@ -220,8 +220,10 @@ struct ThrowResult {
   std::optional<TimeUs> time_to_contact_us;
   std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
   bool evaded = false;                     // any evasive command
-  bool false_alarm = false;  // an evasive command before any detection of a true object
-  std::string cause;         // of a hit or crash (collision_cause.h)
+  bool false_alarm = false;          // an evasive command before any detection of a true object
+  std::optional<TimeUs> landing_us;  // the pilot gave up: its first command to land
+  std::optional<TimeUs> landed_us;   // it touched down gently; the flight ends there
+  std::string cause;                 // of a hit or crash (collision_cause.h)
   std::optional<double> escape_left_s, escape_needed_s;  // CollisionVerdict
   int detections = 0;
   std::array<std::int64_t, 2> events{};       // of the top and bottom camera
@@ -237,6 +239,9 @@ struct ThrowResult {
 
   bool thrown() const { return !object.empty(); }
   bool lost() const { return flown.lost(); }
+  // The flown pilot gave up before the object came that would have hit: whatever becomes of the
+  // throw, it is not dodged.
+  bool gave_up() const { return landing_us && (!none.hit_us || *landing_us < *none.hit_us); }
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -266,6 +271,8 @@ struct ThrowResult {
     v("first_command_us", first_command_us);
     v("evaded", evaded);
     v("false_alarm", false_alarm);
+    v("landing_us", landing_us);
+    v("landed_us", landed_us);
     v("cause", cause);
     v("escape_left_s", escape_left_s);
     v("escape_needed_s", escape_needed_s);

@@ -196,6 +196,25 @@ std::string errors_of(const Part& part) {
          errors + "\n";
 }
 
+std::string landings_of(const Part& part) {
+  int began = 0, landed = 0, gave_up = 0;
+  for (const ThrowResult* result : part.results) {
+    if (!result->landing_us) continue;
+    ++began;
+    landed += result->landed_us ? 1 : 0;
+    gave_up += result->thrown() && result->none.hit && result->gave_up() ? 1 : 0;
+  }
+  if (began == 0) return "";
+  std::string text = "Emergency landings: " + part.pilot + " began one in " +
+                     count_text(began, "flight") + " and touched down in " +
+                     std::to_string(landed) + ".";
+  if (gave_up > 0) {
+    text += " " + count_text(gave_up, "throw") +
+            " that would have hit came later and count as not dodged.";
+  }
+  return text + "\n\n";
+}
+
 // What a rate over the throws that would have hit does not show.
 std::string asides(const Part& part) {
   int would_miss = 0, miss_evaded = 0, walked_into = 0;
@@ -220,7 +239,7 @@ std::string asides(const Part& part) {
             " evaded " + std::to_string(miss_evaded) + " and was hit by " +
             std::to_string(walked_into) + ".\n\n";
   }
-  return text + errors_of(part);
+  return text + landings_of(part) + errors_of(part);
 }
 
 std::string markdown_of(const Part& part, const Axes& axes, const StatisticsTable& table) {

@@ -23,7 +23,7 @@ std::optional<double> seconds_between(std::optional<TimeUs> from, std::optional<
 
 void add_flight(const FlightResult& flight, const ThrowResult& result, PilotStatistics& sum) {
   if (!result.thrown() || flight.status == "not flown") return;
-  sum.tally.add(flight, result.none);
+  sum.tally.add(flight, result.none, &flight == &result.flown && result.gave_up());
   if (flight.ok()) sum.clearance_m.add(flight.clearance_m);
 }
 
@@ -67,14 +67,14 @@ std::string rate_text(const Rate& rate) {
          fixed(interval.hi) + (rate.sequential ? ", " + rate.interval_name() : "") + ")";
 }
 
-void Tally::add(const FlightResult& flight, const FlightResult& none) {
+void Tally::add(const FlightResult& flight, const FlightResult& none, bool gave_up) {
   if (flight.failed() || none.failed()) ++errors;
   if (flight.ok()) collisions.add(!flight.unharmed());
   if (flight.status == "not flown") return;
   ++throws;
   if (none.ok() && !none.hit) return;
   ++would_have_hit;  // or, where a flight failed, might have
-  if (none.ok() && flight.unharmed()) ++dodged;
+  if (none.ok() && flight.unharmed() && !gave_up) ++dodged;
 }
 
 std::optional<QuantileEstimate> Measured::quantile(double share) const {

@@ -80,6 +80,20 @@ void check_dodger(const Scenario& scenario, ReadContext& context) {
   }
 }
 
+// A monitor that takes every reading for the end of a pause never lands the vehicle.
+void check_height_monitor(const Scenario& scenario, ReadContext& context) {
+  const dodge::HeightMonitorConfig& monitor = scenario.dodger.height_monitor;
+  const int rate_hz = scenario.sensors.range.rate_hz;
+  if (!perceives(scenario.pilot) || !monitor.enabled) return;
+  if (monitor.max_gap_us * rate_hz >= 1000000) return;
+  context.problems.add(position_of(context, "sensors.range.rate_hz"),
+                       "sensors.range.rate_hz is " + std::to_string(rate_hz) +
+                           ", too slow for dodger.height_monitor.max_gap_us, which is " +
+                           std::to_string(monitor.max_gap_us) +
+                           ": the pilot would never land; raise it, or set "
+                           "dodger.height_monitor.enabled: false.");
+}
+
 void check_keys_together(const Scenario& scenario, ReadContext& context) {
   const MissionSpec& mission = scenario.mission;
   check_mission_key(scenario, "goal", "mission.goal_m", mission.goal_m.has_value(), context);
@@ -87,6 +101,7 @@ void check_keys_together(const Scenario& scenario, ReadContext& context) {
                     context);
   check_throws(scenario, context);
   check_dodger(scenario, context);
+  check_height_monitor(scenario, context);
 }
 
 std::int64_t product(const VariedKeys& axes) {

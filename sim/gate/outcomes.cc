@@ -18,6 +18,14 @@ constexpr const char* kDrawnNumbers[] = {"size_m",          "speed_mps",      "d
                                          "spin_radps_0",    "spin_radps_1",   "spin_radps_2",
                                          "launch_height_m", "launch_us"};
 
+// Before the object came that would have hit; see ThrowResult::gave_up. Tables of older versions
+// lack the column.
+bool gave_up(const CsvTable& table, std::size_t row) {
+  if (!table.has("landing_us") || table.at(row, "landing_us").empty()) return false;
+  return table.at(row, "none_hit_us").empty() ||
+         table.number(row, "landing_us") < table.number(row, "none_hit_us");
+}
+
 bool yes(const CsvTable& table, std::size_t row, const std::string& column) {
   return table.at(row, column) == "1";
 }
@@ -79,6 +87,8 @@ void judge(const CsvTable& table, std::size_t row, ThrowOutcome& out) {
     out.what = "hit";
   } else if (yes(table, row, "flown_crashed")) {
     out.what = "crashed";
+  } else if (gave_up(table, row)) {
+    out.what = "landed";
   } else if (!thrown && yes(table, row, "evaded")) {
     out.what = "evaded nothing";
   } else {

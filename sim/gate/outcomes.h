@@ -30,8 +30,9 @@ struct ThrowOutcome {
   std::string label;              // "0.2 m ball, 5.1 m/s from 3.2 m", or "quiet flight"
   std::vector<DrawnObject> draw;  // empty: nobody threw
   bool counts = false;            // it would have hit, or nobody threw
-  bool success = false;           // neither hit nor crashed; without a throw, no dodge either
-  std::string what;               // "dodged", "hit", "crashed", "evaded nothing", "error: ..."
+  // Neither hit nor crashed, nor given up on with a landing; without a throw, no dodge either.
+  bool success = false;
+  std::string what;  // "dodged", "hit", "crashed", "landed", "evaded nothing", "error: ..."
 };
 
 // Whether a column of throws.csv or objects.csv says what was drawn.

@@ -14,7 +14,7 @@ bool same_throw(const ThrowResult& a, const ThrowResult& b) {
 
 void add(const ThrowResult& result, Tally& tally, Rate& unharmed,
          std::map<std::string, int>& causes) {
-  tally.add(result.flown, result.none);
+  tally.add(result.flown, result.none, result.gave_up());
   unharmed.add(result.flown.unharmed());
   if (!result.cause.empty()) ++causes[result.cause];
 }

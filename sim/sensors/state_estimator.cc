@@ -45,6 +45,11 @@ StateReading StateEstimator::sample(const Snapshot& truth) {
   reading.q_W = (tilt_error * yaw_error * truth.vehicle.q_W).normalized();
   reading.v_W = yaw_error * truth.vehicle.v_W + velocity_bias_.step(dt_s) +
                 spec_.velocity_white_mps * normal_vector<3>(velocity_white_);
+  const double drifting_s = seconds(truth.t_us) - spec_.height_drift_start_s;
+  if (drifting_s > 0) {
+    reading.p_W.z() += spec_.height_drift_mps * drifting_s;
+    reading.v_W.z() += spec_.height_drift_mps;
+  }
   reading.w_B = truth.vehicle.q_W.conjugate() * truth.vehicle.w_W +
                 spec_.rate_white_radps * normal_vector<3>(rate_white_);
   return reading;

@@ -24,6 +24,8 @@ struct StateEstimateSpec {
   double tilt_error_correlation_s = 5;
   double attitude_white_rad = 0.001;
   double rate_white_radps = 0.02;
+  double height_drift_mps = 0;
+  double height_drift_start_s = 0;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -52,6 +54,12 @@ struct StateEstimateSpec {
       "White noise of the attitude, per axis and estimate (assumed).");
     v("rate_white_radps", rate_white_radps, 0, 10,
       "White noise of the angular velocity after the filter's smoothing, per axis (assumed).");
+    v("height_drift_mps", height_drift_mps, -10, 10,
+      "Rate at which the estimated height rises above the true one, as odometry that has lost its "
+      "features does; the estimated vertical velocity is wrong by as much. A vehicle that holds "
+      "its estimated height sinks at this rate.");
+    v("height_drift_start_s", height_drift_start_s, 0, 3600,
+      "When that drift begins, after the start of the flight.");
   }
 };
 

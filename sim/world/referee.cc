@@ -1,10 +1,39 @@
 #include "sim/world/referee.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "sim/base/error.h"
 
 namespace dodgesim {
+
+namespace {
+
+// How the vehicle touches the room.
+enum class Touch { kNone, kFromAbove, kOtherwise };
+
+Touch touch_of(const World& world) {
+  constexpr double kUpward = 0.9;  // of the surface's normal: up to 26 deg of slope
+  const mjModel& model = world.model();
+  const mjData& data = world.data();
+  Touch touch = Touch::kNone;
+  for (int k = 0; k < data.ncon; ++k) {
+    const mjContact& contact = data.contact[k];
+    const int body1 = model.geom_bodyid[contact.geom1];
+    const int body2 = model.geom_bodyid[contact.geom2];
+    if (body1 != world.vehicle_body() && body2 != world.vehicle_body()) continue;
+    const bool second = body2 == world.vehicle_body();
+    if (model.body_weldid[second ? body1 : body2] != 0) continue;  // not part of the room
+    // The normal leads from the first geom to the second.
+    const double up = second ? contact.frame[2] : -contact.frame[2];
+    if (up < kUpward) return Touch::kOtherwise;
+    touch = Touch::kFromAbove;
+  }
+  return touch;
+}
+
+}  // namespace
 
 Referee::Referee(const World& world) : hull_(read_body(world, world.vehicle_body())) {
   for (int i = 0; i < world.object_count(); ++i) {
@@ -58,12 +87,12 @@ double Referee::clearance(const World& world, int object) const {
   return gap(now.vehicle, now.objects[i], objects_[i]).distance_m;
 }
 
-void Referee::observe(const World& world) {
+void Referee::observe(const World& world, bool landing) {
   const Snapshot& now = world.snapshot();
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     if (now.launched[i]) observe_object(i, now);
   }
-  if (!verdict_.crashed) observe_crash(world);
+  if (!verdict_.crashed && !verdict_.landed) observe_room(world, landing);
 }
 
 void Referee::observe_object(std::size_t i, const Snapshot& now) {
@@ -87,18 +116,19 @@ void Referee::observe_object(std::size_t i, const Snapshot& now) {
   }
 }
 
-void Referee::observe_crash(const World& world) {
-  const mjModel& model = world.model();
-  const mjData& data = world.data();
-  for (int k = 0; k < data.ncon; ++k) {
-    const int body1 = model.geom_bodyid[data.contact[k].geom1];
-    const int body2 = model.geom_bodyid[data.contact[k].geom2];
-    const int other = body1 == world.vehicle_body() ? body2 : body1;
-    if (body1 != world.vehicle_body() && body2 != world.vehicle_body()) continue;
-    if (model.body_weldid[other] != 0) continue;  // not part of the room
+void Referee::observe_room(const World& world, bool landing) {
+  const Touch touch = touch_of(world);
+  if (touch == Touch::kNone) return;
+  const Snapshot& now = world.snapshot();  // before the contact's force has slowed the vehicle
+  const double up = (now.vehicle.q_W * Eigen::Vector3d::UnitZ()).z();
+  const bool gentle = now.vehicle.v_W.norm() <= kTouchdownMps &&
+                      up >= std::cos(kTouchdownTiltDeg * std::numbers::pi / 180);
+  if (landing && gentle && touch == Touch::kFromAbove) {
+    verdict_.landed = true;
+    verdict_.landed_us = now.t_us;
+  } else {
     verdict_.crashed = true;
-    verdict_.crashed_us = world.snapshot().t_us;
-    return;
+    verdict_.crashed_us = now.t_us;
   }
 }
 

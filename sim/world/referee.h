@@ -22,12 +22,19 @@ struct Approach {
   Eigen::Vector3d closest_p_W = Eigen::Vector3d::Zero();  // where on the vehicle's hull
 };
 
+// A vehicle that means to land has landed, and not crashed, if it touches the room from above at no
+// more than this speed and tilt: a drop from 5 cm.
+inline constexpr double kTouchdownMps = 1.0;
+inline constexpr double kTouchdownTiltDeg = 15;
+
 struct Verdict {
   std::vector<Approach> objects;  // by object index
   Approach nearest;               // of all objects: the first hit, else the smallest clearance
   int nearest_object = -1;        // -1 before the first launch
   bool crashed = false;           // the vehicle touched the room
   TimeUs crashed_us = -1;
+  bool landed = false;  // it touched the floor, or what stands on it, gently and on purpose
+  TimeUs landed_us = -1;
 };
 
 // Observes every tick. The vehicle's hull are the geoms of its body that can collide.
@@ -39,9 +46,10 @@ class Referee {
   // Forgets everything; call after World::reset.
   void reset();
 
-  // Call after reset and after each step. Distances are exact at ticks; between them the clearance
-  // is missed by less than (relative speed x half a tick)^2 / (2 x distance of the centres).
-  void observe(const World& world);
+  // Call after reset and after each step. `landing`: the vehicle has been told to land. Distances
+  // are exact at ticks; between them the clearance is missed by less than
+  // (relative speed x half a tick)^2 / (2 x distance of the centres).
+  void observe(const World& world, bool landing = false);
 
   const Verdict& verdict() const { return verdict_; }
 
@@ -65,7 +73,7 @@ class Referee {
   static Body read_body(const World& world, int body);
   Gap gap(const BodyState& vehicle, const BodyState& object, const Body& body) const;
   void observe_object(std::size_t i, const Snapshot& now);
-  void observe_crash(const World& world);
+  void observe_room(const World& world, bool landing);
 
   Body hull_;
   std::vector<Body> objects_;

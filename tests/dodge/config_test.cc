@@ -51,6 +51,12 @@ TEST(Config, refuses_kernels_without_a_centre_and_empty_ranges) {
   config.flow.window_px = 8;
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("flow.window_px"));
   config = valid();
+  config.range_sensor.min_range_m = 60;
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("range_sensor.max_range_m"));
+  config = valid();
+  config.landing.touchdown_mps = 1;
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("landing.descent_mps"));
+  config = valid();
   config.position.min_range_m = 2;
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("min_range_m"));
   config = valid();

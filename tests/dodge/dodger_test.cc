@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "tests/dodge/synthetic_events.h"
 
 namespace dodge {
@@ -287,6 +289,54 @@ TEST(Dodger, captures_the_panels_of_figure_4_on_request) {
   const StageTimes& times = dodger.stage_times();
   EXPECT_GT(times.ego_motion_us + times.threshold_us + times.morphology_us + times.clustering_us,
             0);
+}
+
+// A vehicle truly 2 m above the ground, its estimate `error_m(t)` more, for three seconds; then the
+// last command. It is on its way to a goal above it.
+VelocityCommand with_height_error(Dodger& dodger, const std::function<double(double)>& error_m) {
+  dodger.set_goal({.p_WG = {0, 0, 3}});
+  VelocityCommand command;
+  for (TimeUs t = kCycleUs; t < 3000000; t += kCycleUs) {
+    StateEstimate state{.t_us = t};
+    state.p_WB.z() = 2 + error_m(1e-6 * static_cast<double>(t));
+    dodger.add_state(state);
+    dodger.add_range({t, 2});
+    command = dodger.update(t);
+  }
+  return command;
+}
+
+TEST(Dodger, lands_when_the_range_sensor_disagrees_with_the_estimated_height) {
+  const auto jumps = [](double t_s) { return t_s < 1 ? 0.0 : -0.5; };
+  Dodger dodger(stereo());
+  const VelocityCommand command = with_height_error(dodger, jumps);
+  EXPECT_TRUE(command.landing);
+  EXPECT_TRUE(command.v_W.isApprox(Eigen::Vector3d(0, 0, -LandingConfig().descent_mps), 1e-9));
+  EXPECT_NEAR(dodger.height_monitor().discrepancy_m().value(), -0.5, 1e-9);
+
+  Config config = stereo();
+  config.height_monitor.enabled = false;
+  Dodger unmonitored(config);
+  const VelocityCommand flies_on = with_height_error(unmonitored, jumps);
+  EXPECT_FALSE(flies_on.landing);
+  EXPECT_GT(flies_on.v_W.z(), 0);
+}
+
+TEST(Dodger, flies_on_when_only_the_start_was_at_another_height) {
+  Dodger dodger(stereo());
+  const VelocityCommand command = with_height_error(dodger, [](double) { return -1.5; });
+  EXPECT_FALSE(command.landing);
+  EXPECT_GT(command.v_W.z(), 0);
+}
+
+TEST(Dodger, range_readings_before_the_first_state_estimate_are_forgotten) {
+  Dodger dodger(stereo());
+  for (TimeUs t = 0; t < 1000000; t += kCycleUs) {
+    dodger.add_range({t, 7});
+    dodger.update(t);
+  }
+  EXPECT_FALSE(dodger.height_monitor().discrepancy_m());
+  EXPECT_FALSE(with_height_error(dodger, [](double) { return 0.0; }).landing);
 }
 
 }  // namespace

@@ -23,6 +23,9 @@ and flies. Each file here runs as it is:
 | `mono.yaml` | one camera and balls of known size |
 | `range_cap_1_5m.yaml`, `range_cap_3m.yaml` | 200 balls that pilot and oracle believe alike |
 | `quiet_hover.yaml`, `quiet_goal_flight.yaml` | nothing: dodges would be false alarms |
+| `paper/drift_up.yaml`, `paper/drift_down.yaml` | a state estimate that drifts in height: lands or crashes |
+| `paper/drift_none.yaml` | their control: nothing drifts, nothing lands |
+| `paper/drift_thrown_at.yaml` | balls at a vehicle whose height estimate drifts |
 
 ```
 dodgesim validate scenarios/demo.yaml                  # is it well-formed?

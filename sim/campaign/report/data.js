@@ -27,6 +27,7 @@ function outcomeOf(i) {
   if (has(i, 'failed')) return 'failed';
   if (has(i, 'hit')) return 'hit';
   if (has(i, 'crashed')) return 'crashed';
+  if (has(i, 'gave_up')) return 'landed';
   if (!has(i, 'thrown')) return has(i, 'evaded') ? 'false alarm' : 'quiet';
   return has(i, 'none_hit') ? 'dodged' : 'would have missed';
 }

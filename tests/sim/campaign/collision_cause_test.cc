@@ -138,7 +138,17 @@ TEST(CollisionCause, TheSecondObjectAndTheRoomAreCausesOfTheirOwn) {
   second.another_detected_before = true;
   EXPECT_EQ(cause(second), CollisionCause::kSecondObject);
   second.hit = false;
+  EXPECT_EQ(cause(second), CollisionCause::kFlewIntoTheRoom);
+  second.evaded = true;
   EXPECT_EQ(cause(second), CollisionCause::kFledIntoTheRoom);
+}
+
+TEST(CollisionCause, WhoLandsDodgesNobody) {
+  CollisionEvidence landing = evidence(500000, kUp);
+  landing.landing = true;
+  EXPECT_EQ(cause(landing), CollisionCause::kLanding);
+  landing.hit = false;
+  EXPECT_EQ(cause(landing), CollisionCause::kLanding);
 }
 
 TEST(Agility, ComesFromRotorsAndInertia) {

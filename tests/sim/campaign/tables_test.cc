@@ -138,6 +138,22 @@ TEST(Tables, ErrorsAreShownWithThrowPilotAndReason) {
                                        "- throw 1, pilot oracle: No context.\n"));
 }
 
+TEST(Tables, LandingsAreNamedWhenThereAreAny) {
+  std::vector<ThrowResult> results;
+  for (int i = 0; i < 4; ++i) {
+    results.push_back(throw_with(i, flown(false), flown(true), FlightResult{}));
+  }
+  EXPECT_THAT(tables(results).markdown, testing::Not(HasSubstr("landing")));
+  results[0].landing_us = results[1].landing_us = 1000000;  // the object would have hit at 1.5 s
+  results[1].landed_us = 1400000;
+  results[2].landing_us = 1600000;
+  const std::string markdown = tables(results).markdown;
+  EXPECT_THAT(markdown, HasSubstr("Emergency landings: falanga2020 began one in 3 flights and "
+                                  "touched down in 1. 2 throws that would have hit came later "
+                                  "and count as not dodged.\n"));
+  EXPECT_THAT(markdown, HasSubstr("Dodged: 2 / 4 "));
+}
+
 TEST(Tables, EvasionsOfQuietFlightsAreFalseAlarms) {
   ThrowResult quiet;
   quiet.flown = flown(false);

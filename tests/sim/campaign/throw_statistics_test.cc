@@ -19,6 +19,16 @@ TEST(Tally, OnlyAnUnharmedFlightThroughADangerousThrowIsADodge) {
   EXPECT_EQ(sum.errors, 0);
 }
 
+TEST(Tally, AThrowThatThePilotGaveUpOnIsNoDodgeButCounts) {
+  Tally sum;
+  sum.add(flown(false), flown(true), true);
+  sum.add(flown(false), flown(false), true);  // would have missed
+  EXPECT_EQ(sum.throws, 2);
+  EXPECT_EQ(sum.would_have_hit, 1);
+  EXPECT_EQ(sum.dodged, 0);
+  EXPECT_EQ(sum.collisions.count, 0);
+}
+
 TEST(Tally, AnErrorNeverCountsAsASuccess) {
   Tally sum;
   sum.add(failed("diverged"), flown(true));
@@ -49,6 +59,22 @@ TEST(Rate, CarriesItsCountAndInterval) {
 
 ThrowStatistics statistics(const std::vector<ThrowResult>& results) {
   return statistics_of(parts_of(results, "falanga2020").front().results, "falanga2020");
+}
+
+TEST(ThrowStatistics, ALandingBeforeTheObjectCameIsNoDodgeOneAfterItIs) {
+  ThrowResult before = ball(0, 0.2, 3, 6), after = ball(1, 0.2, 3, 6);
+  for (ThrowResult* result : {&before, &after}) {
+    result->flown = result->oracle = flown(false);
+    result->none = flown(true);  // at 1.5 s
+  }
+  before.landing_us = 1499750;
+  after.landing_us = 1500000;
+  EXPECT_TRUE(before.gave_up());
+  EXPECT_FALSE(after.gave_up());
+  const ThrowStatistics sum = statistics({before, after});
+  EXPECT_EQ(sum.flown().tally.dodged, 1);
+  EXPECT_EQ(sum.flown().tally.would_have_hit, 2);
+  EXPECT_EQ(sum.pilots[1].tally.dodged, 2) << "it is the flown pilot that landed";
 }
 
 // Seen at 1.0 s, detected at 1.2 s from an image of 1.185 s, evaded at 1.21 s.

@@ -279,6 +279,11 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:1:33: vehicle_overrides.mass_scale is -1, but must be between 0.1 and 10."},
     {"CoreContradiction", "dodger: {position: {min_range_m: 2, max_range_m: 1}}\n",
      "bad.yaml:1:9: dodger does not fit together: "},
+    {"RangeSensorTooSlowForTheMonitor", "sensors: {range: {rate_hz: 10}}\n",
+     "bad.yaml:1:28: sensors.range.rate_hz is 10, too slow for dodger.height_monitor.max_gap_us, "
+     "which is 50000: the pilot would never land; raise it, or set "
+     "dodger.height_monitor.enabled: false."},
+    {"SweptToTooSlowARangeSensor", "sweep: {sensors.range.rate_hz: [200, 10]}\n", "bad.yaml:1:"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, BadScenarioTest, testing::ValuesIn(kBadScenarios),

@@ -135,7 +135,7 @@ TEST(Scenario, APilotBringsItsConfigurationAndTheFileChangesIt) {
 TEST(Scenario, EveryScenarioOfTheProjectIsValid) {
   const std::filesystem::path root = DODGESIM_SOURCE_DIR;
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(root / "scenarios")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "scenarios")) {
     if (entry.path().extension() != ".yaml") continue;
     EXPECT_NO_THROW(load_scenario(entry.path(), root / "models")) << entry.path();
     ++count;

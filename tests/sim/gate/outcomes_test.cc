@@ -59,6 +59,26 @@ TEST(Outcomes, OfQuietFlightsFailByEvading) {
   EXPECT_TRUE(all[1].counts && !all[1].success);
 }
 
+TEST(Outcomes, ALandingBeforeTheObjectCameIsNoSuccess) {
+  ThrowResult before = throw_that(0, 'd'), after = throw_that(1, 'd'), hit = throw_that(2, 'h');
+  for (ThrowResult* result : {&before, &after, &hit}) {
+    result->none.hit_us = 1500000;
+    result->landing_us = 1400000;
+  }
+  after.landing_us = 1600000;
+  ThrowResult quiet = quiet_flight_that(3, false);
+  quiet.landing_us = 1400000;
+  const auto all = outcomes(tables_of({before, after, hit, quiet}));
+  EXPECT_EQ(all[0].what, "landed");
+  EXPECT_EQ(all[1].what, "dodged");
+  EXPECT_EQ(all[2].what, "hit");
+  EXPECT_EQ(all[3].what, "landed");
+  for (const ThrowOutcome& t : all) {
+    EXPECT_TRUE(t.counts);
+    EXPECT_EQ(t.success, t.number == 1) << t.number;
+  }
+}
+
 TEST(Outcomes, RefuseTablesThatAreNotOfACampaign) {
   const auto refusal = [](const CampaignTables& tables) { return [tables] { outcomes(tables); }; };
   CampaignTables tables = tables_of({throw_that(1, 'd'), throw_that(0, 'd')});

@@ -78,6 +78,30 @@ TEST(StateEstimator, PositionAndYawDriftWithoutBoundAsTheirDensitiesSay) {
   EXPECT_NEAR(tilt, 0, 1e-12);
 }
 
+TEST(StateEstimator, TheHeightDriftsFromItsStartOnAndTheVelocityWithIt) {
+  StateEstimateSpec spec = noiseless();
+  spec.height_drift_mps = -0.2;
+  spec.height_drift_start_s = 2;
+  StateEstimator estimator(spec, 1, 0);
+  Snapshot truth;
+  truth.vehicle.p_W = Vector3d(1, 2, 3);
+  truth.vehicle.v_W = Vector3d(0, 1, 0.5);
+  Vector3d last_error = Vector3d::Zero();
+  for (truth.t_us = 0; truth.t_us <= 5000000; truth.t_us += 500000) {
+    const StateReading reading = estimator.sample(truth);
+    const double drifting_s = std::max(0.0, seconds(truth.t_us) - 2);
+    const Vector3d error = reading.p_W - truth.vehicle.p_W;
+    EXPECT_TRUE(error.isApprox(Vector3d(0, 0, -0.2 * drifting_s), 1e-12)) << truth.t_us;
+    // An odometry's position is the sum of its velocities.
+    if (truth.t_us > 2000000) {
+      EXPECT_NEAR(reading.v_W.z() - 0.5, (error - last_error).z() / 0.5, 1e-12);
+    } else {
+      EXPECT_EQ(reading.v_W, truth.vehicle.v_W);
+    }
+    last_error = error;
+  }
+}
+
 TEST(StateEstimator, VelocityAndTiltErrorsAreStationaryAndForgetThemselves) {
   StateEstimateSpec spec = noiseless();
   spec.velocity_bias_mps = 0.05;

@@ -197,6 +197,52 @@ TEST(RefereeTest, FlyingIntoTheGroundIsACrash) {
   EXPECT_FALSE(referee.verdict().crashed);
 }
 
+// What becomes of a vehicle that flies with this velocity in the room until it touches something;
+// the left rotors push more than the right ones by roll_n each.
+Verdict first_touch(const Vector3d& start, const Vector3d& v_W, bool landing, double roll_n = 0) {
+  WorldSpec spec = test_spec({});
+  spec.room = "room";
+  World world(spec);
+  world.reset(start, 0, v_W);
+  Referee referee(world);
+  for (int tick = 0; tick < 8000 && !referee.verdict().crashed && !referee.verdict().landed;
+       ++tick) {
+    auto thrust_n = hover(world);
+    for (std::size_t left : {0U, 3U}) thrust_n[left] += roll_n;
+    for (std::size_t right : {1U, 2U}) thrust_n[right] -= roll_n;
+    world.step(thrust_n);
+    referee.observe(world, landing);
+  }
+  return referee.verdict();
+}
+
+TEST(RefereeTest, AGentleTouchdownIsALandingIfItWasMeant) {
+  const Verdict landed = first_touch({0, 0, 0.3}, {0.1, 0, -0.5}, true);
+  EXPECT_TRUE(landed.landed);
+  EXPECT_FALSE(landed.crashed);
+  EXPECT_NEAR(1e-6 * static_cast<double>(landed.landed_us), (0.3 - 0.0925) / 0.5, 1e-3);
+  const Verdict not_meant = first_touch({0, 0, 0.3}, {0.1, 0, -0.5}, false);
+  EXPECT_TRUE(not_meant.crashed);
+  EXPECT_FALSE(not_meant.landed);
+  EXPECT_EQ(not_meant.crashed_us, landed.landed_us);
+}
+
+TEST(RefereeTest, ATouchdownTooFastOrTiltedIsACrash) {
+  EXPECT_TRUE(first_touch({0, 0, 0.3}, {0, 0, -0.98 * kTouchdownMps}, true).landed);
+  EXPECT_TRUE(first_touch({0, 0, 0.3}, {0, 0, -1.02 * kTouchdownMps}, true).crashed);
+  EXPECT_TRUE(first_touch({0, 0, 0.12}, {1.2 * kTouchdownMps, 0, -0.3}, true).crashed);
+  // Rolls by 1/2 (4 x 0.1 m x roll_n / 0.0033 kg m^2) (0.4 s)^2 on its way down.
+  const auto roll_n = [](double degrees) { return degrees / 57.3 * 0.0033 / (0.08 * 0.4); };
+  EXPECT_TRUE(first_touch({0, 0, 0.2925}, {0, 0, -0.5}, true, roll_n(8)).landed);
+  EXPECT_TRUE(first_touch({0, 0, 0.2925}, {0, 0, -0.5}, true, roll_n(25)).crashed);
+}
+
+TEST(RefereeTest, OneLandsOnTopOfThingsNotAgainstThem) {
+  EXPECT_TRUE(first_touch({1.5, 3.5, 1.0}, {0, 0, -0.5}, true).landed);  // the table
+  EXPECT_TRUE(first_touch({0, 3.5, 2.5}, {0, 0.5, 0}, true).crashed);    // a wall
+  EXPECT_TRUE(first_touch({0, 0, 4.7}, {0, 0, 0.5}, true).crashed);      // the ceiling
+}
+
 TEST(RefereeTest, FlyingIntoAWallOfTheRoomIsACrash) {
   WorldSpec spec = test_spec({});
   spec.room = "room";

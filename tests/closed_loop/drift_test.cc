@@ -1,0 +1,171 @@
+// A state estimate that drifts in height, and one that does not: the monitor of the flight core in
+// the loop.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dodge/detect/state_history.h"
+#include "dodge/dodger.h"
+#include "tests/closed_loop/flights.h"
+
+namespace dodgesim {
+namespace {
+
+// One camera of few pixels costs little.
+Scenario hover(double drift_mps, const std::string& monitor = "") {
+  return scenario(
+      "mission: {start_m: [-2, 0, 2]}\nduration_s: 14\n"
+      "dodger: {position: {depth: mono}, height_monitor: {" +
+      monitor +
+      "}}\n"
+      "sensors: {camera: {width: 48, height: 36}, state_estimate: {height_drift_start_s: 1, "
+      "height_drift_mps: " +
+      std::to_string(drift_mps) + "}}\n");
+}
+
+FlightRecord fly_as(const std::string& pilot, const Scenario& scenario,
+                    FlightObserver* observer = nullptr) {
+  FlightPlan plan = plan_throw(scenario, 0);
+  plan.pilot = pilot;
+  return fly(scenario, plan, observer);
+}
+
+double tilt_rad(const Snapshot& now) {
+  return std::acos((now.vehicle.q_W * Eigen::Vector3d::UnitZ()).z());
+}
+
+class DriftRate : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Rates, DriftRate, testing::Values(-1.0, -0.3, 0.3, 1.0),
+                         [](const auto& info) { return std::to_string(info.index); });
+
+TEST_P(DriftRate, LandsTheVehicleGently) {
+  const Scenario s = hover(GetParam());
+  const FlightRecord record = fly_as("falanga2020", s);
+  EXPECT_TRUE(record.verdict.landed);
+  EXPECT_FALSE(record.verdict.crashed);
+  EXPECT_EQ(record.last.t_us, record.verdict.landed_us);  // the flight ends there
+
+  // The noise of the range sensor may break the discrepancy for as long as the drift takes to leave
+  // four of its standard deviations behind.
+  ASSERT_TRUE(record.landing_us);
+  const dodge::HeightMonitorConfig& monitor = s.dodger.height_monitor;
+  const double rate_mps = std::abs(GetParam());
+  const double apart_s = 1 + monitor.threshold_m / rate_mps;
+  const double noise_s = 4 * s.sensors.range.sigma_m / rate_mps;
+  const double least_s = apart_s - noise_s + 1e-6 * static_cast<double>(monitor.persist_us);
+  EXPECT_GT(seconds(*record.landing_us), least_s);
+  EXPECT_LT(seconds(*record.landing_us), least_s + 2 * noise_s + 0.03);
+
+  const BodyState& vehicle = record.last.vehicle;
+  EXPECT_NEAR(vehicle.v_W.z(), -s.dodger.landing.touchdown_mps, 0.06);
+  EXPECT_LT(vehicle.v_W.head<2>().norm(), 0.1);
+  EXPECT_LT(tilt_rad(record.last), 0.05);
+  EXPECT_LT((vehicle.p_W - s.mission.start_m).head<2>().norm(), 0.3);
+  EXPECT_FALSE(record.first_command_us);
+}
+
+void expect_crash_at(double height_m, const FlightRecord& record) {
+  EXPECT_TRUE(record.verdict.crashed);
+  EXPECT_FALSE(record.verdict.landed || record.landing_us);
+  EXPECT_NEAR(record.last.vehicle.p_W.z(), height_m, 0.05);
+}
+
+constexpr double kTouchingFloorM = 0.0925, kTouchingCeilingM = 5 - 0.0925;  // with the cameras
+
+TEST_P(DriftRate, EndsAtFloorOrCeilingWithoutAMonitor) {
+  const double where_m = GetParam() > 0 ? kTouchingFloorM : kTouchingCeilingM;
+  expect_crash_at(where_m, fly_as("none", hover(GetParam())));
+}
+
+TEST(Drift, TheMonitorCanBeSwitchedOff) {
+  expect_crash_at(kTouchingFloorM, fly_as("falanga2020", hover(0.9, "enabled: false")));
+}
+
+// The flight core's monitor beside any pilot, with what the sensors say.
+class MonitorBeside : public FlightObserver {
+ public:
+  explicit MonitorBeside(const Scenario& scenario)
+      : config_(scenario.dodger), monitor_(config_.height_monitor) {}
+
+  void on_tick(const World& world) override {
+    config_.p_BR = world.vehicle().X_BR.translation();
+    largest_tilt_rad_ = std::max(largest_tilt_rad_, tilt_rad(world.snapshot()));
+  }
+  void on_state(const StateReading& s) override {
+    states_.add({s.t_us, s.p_W, s.q_W, s.v_W, s.w_B});
+  }
+  void on_range(const RangeReading& reading) override {
+    const dodge::RangeReading range{reading.t_us, reading.range_m};
+    const dodge::StateEstimate state = *states_.at(range.t_us);
+    const auto height_m =
+        dodge::height_above_ground(config_.range_sensor, config_.p_BR, range, state);
+    if (!height_m) return;
+    ++readings_;
+    monitor_.add(range.t_us, state.p_WB.z(), *height_m);
+    const double discrepancy_m = std::abs(monitor_.discrepancy_m().value_or(0));
+    largest_m_ = std::max(largest_m_, discrepancy_m);
+  }
+
+  const dodge::HeightMonitor& monitor() const { return monitor_; }
+  double largest_discrepancy_m() const { return largest_m_; }
+  double largest_tilt_rad() const { return largest_tilt_rad_; }
+  int readings() const { return readings_; }
+
+ private:
+  dodge::Config config_;
+  dodge::HeightMonitor monitor_;
+  dodge::StateHistory states_;
+  double largest_m_ = 0, largest_tilt_rad_ = 0;
+  int readings_ = 0;
+};
+
+TEST(NoDrift, AMinuteOfHoverStaysFarBelowTheThreshold) {
+  const Scenario s = scenario("mission: {start_m: [-2, 0, 2]}\nduration_s: 60\n");
+  MonitorBeside beside(s);
+  fly_as("none", s, &beside);
+  EXPECT_FALSE(beside.monitor().drifted());
+  EXPECT_GT(beside.readings(), 60 * 200 - 10);
+  EXPECT_GT(beside.largest_discrepancy_m(), 0.03);
+  EXPECT_LT(beside.largest_discrepancy_m(), 0.15);
+}
+
+// Readings at too much tilt are not used, and those that look at furniture or a wall beside the
+// vehicle do not last.
+TEST(NoDrift, HardDodgesDoNotLandTheVehicle) {
+  const Scenario s = scenario(
+      "mission: {start_m: [0, 0, 2]}\noracle: {range_cap_m: 2}\n"
+      "throw: {count: 6, interval_s: 0.7, launch_s: 0.5, size_m: 0.1, distance_m: 2.5,\n"
+      "  speed_mps: 5, bearing_deg: !uniform [-180, 180], launch_height_m: !uniform [1, 2.5]}\n"
+      "after_s: 0.5\n");
+  MonitorBeside beside(s);
+  const FlightRecord record = fly_as("oracle", s, &beside);
+  EXPECT_FALSE(record.verdict.nearest.hit || record.verdict.crashed);
+  EXPECT_GT(beside.largest_tilt_rad(), 0.9);
+  const double all = 200 * seconds(record.last.t_us);
+  EXPECT_LT(beside.readings(), 0.8 * all);
+  EXPECT_GT(beside.readings(), 0.3 * all);
+  EXPECT_FALSE(beside.monitor().drifted());
+}
+
+// The throw comes while the vehicle lands, or has landed: nobody dodges it any more.
+TEST(Drift, AThrowThatThePilotGaveUpOnIsNotDodged) {
+  const auto fly_with = [](double drift_mps) {
+    return fly_throw(
+        scenario("fly_oracle: false\nmission: {start_m: [-2, 0, 2]}\n"
+                 "throw: {size_m: 0.2, distance_m: 2.5, speed_mps: 5, launch_s: 1}\nafter_s: 0.1\n"
+                 "sensors: {camera: {width: 48, height: 36}, state_estimate: {height_drift_mps: " +
+                 std::to_string(drift_mps) + "}}\n"),
+        0);
+  };
+  const ThrowResult drifts = fly_with(1), holds = fly_with(0);
+  ASSERT_TRUE(drifts.flown.ok() && drifts.none.hit && holds.none.hit);
+  ASSERT_TRUE(drifts.landing_us);
+  EXPECT_LT(*drifts.landing_us, *drifts.none.hit_us);
+  EXPECT_TRUE(drifts.gave_up());
+  EXPECT_FALSE(drifts.evaded);
+  EXPECT_FALSE(holds.landing_us || holds.landed_us || holds.gave_up());
+}
+
+}  // namespace
+}  // namespace dodgesim
