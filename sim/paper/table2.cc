@@ -5,7 +5,9 @@
 #include <numeric>
 #include <tuple>
 
+#include "sim/base/error.h"
 #include "sim/campaign/statistics.h"
+#include "sim/config/expand.h"
 #include "sim/paper/bootstrap.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/miss_investigator.h"
@@ -238,6 +240,9 @@ std::string misses_markdown(const std::vector<PassageCase>& cases) {
 
 PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
   const LoadedCampaign& campaign = campaigns.front();
+  if (cell_count(campaign.scenario) != static_cast<int>(kSizes)) {
+    throw ScenarioError("Table 2 needs a grid of three cells, one for each category of sizes.");
+  }
   PaperTables tables;
   TextTable csv;
   csv.head = {"reading", "size", "distance", "detected", "visible",

@@ -37,7 +37,8 @@ void detect(ThrowResult& result, double depth_m, double error_m) {
 
 LoadedCampaign campaign(const std::string& depth, std::vector<ThrowResult> results) {
   LoadedCampaign campaign;
-  campaign.scenario = paper_scenario("throw: {}\ndodger: {position: {depth: " + depth + "}}\n");
+  campaign.scenario = paper_scenario(
+      "throw: {}\ngrid: {size_m: [0.1, 0.2, 0.3]}\ndodger: {position: {depth: " + depth + "}}\n");
   campaign.results = std::move(results);
   return campaign;
 }
