@@ -16,7 +16,7 @@ const Eigen::Vector3d kBall_v_W(-6, 0.5, 0.3);
 
 dodge::Avoider avoider() {
   const dodge::Config core;
-  return {core.repulsive, core.attractive, core.velocity_limit};
+  return {core.repulsive, core.attractive, core.velocity_limit, core.escape};
 }
 
 // A camera 12 cm in front of the vehicle's centre, looking forward.
