@@ -9,18 +9,13 @@
 
 #include "sim/campaign/csv.h"
 #include "sim/campaign/statistics_table.h"
+#include "sim/campaign/text_table.h"
 
 namespace dodgesim {
 
 namespace {
 
 using Cells = std::vector<std::string>;
-
-// Head and rows of a table for people.
-struct TextTable {
-  Cells head;
-  std::vector<Cells> rows;
-};
 
 std::string rounded(double value) {
   std::array<char, 32> text;
@@ -83,25 +78,6 @@ TextTable samples_of(const StatisticsTable& table) {
     }
     cells.push_back(sample_text(row.statistics.flown().clearance_m));
   }
-  return text;
-}
-
-std::string markdown_row(const Cells& cells) {
-  std::string line = "|";
-  for (std::string cell : cells) {
-    for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) {
-      cell.insert(at, "\\");
-    }
-    line += " " + cell + " |";
-  }
-  return line + "\n";
-}
-
-std::string markdown_of(const TextTable& table) {
-  std::string text = markdown_row(table.head) + "|";
-  for (std::size_t i = 0; i < table.head.size(); ++i) text += "---|";
-  text += "\n";
-  for (const Cells& row : table.rows) text += markdown_row(row);
   return text;
 }
 
@@ -259,11 +235,11 @@ Json json_of(const StatisticsTable& table, const StatisticsTable::Row& row) {
 }  // namespace
 
 std::string rates_to_markdown(const StatisticsTable& table, bool with_dodged) {
-  return markdown_of(rates_of(table, with_dodged));
+  return rates_of(table, with_dodged).to_markdown();
 }
 
 std::string to_markdown(const StatisticsTable& table, bool with_dodged) {
-  return rates_to_markdown(table, with_dodged) + "\n" + markdown_of(samples_of(table));
+  return rates_to_markdown(table, with_dodged) + "\n" + samples_of(table).to_markdown();
 }
 
 std::string to_latex(const StatisticsTable& table) {

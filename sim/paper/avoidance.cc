@@ -4,9 +4,9 @@
 #include <functional>
 #include <set>
 
+#include "sim/campaign/text_table.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/pair.h"
-#include "sim/paper/text_table.h"
 
 namespace dodgesim {
 

@@ -2,12 +2,12 @@
 #include <array>
 #include <cmath>
 
+#include "sim/campaign/text_table.h"
 #include "sim/paper/error_statistics.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/passage.h"
 #include "sim/paper/passing_flights.h"
 #include "sim/paper/sphere_outline.h"
-#include "sim/paper/text_table.h"
 
 namespace dodgesim {
 

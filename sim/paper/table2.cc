@@ -7,13 +7,13 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/statistics.h"
+#include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
 #include "sim/paper/bootstrap.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/miss_investigator.h"
 #include "sim/paper/passing_flights.h"
 #include "sim/paper/success.h"
-#include "sim/paper/text_table.h"
 
 namespace dodgesim {
 

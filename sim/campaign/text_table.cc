@@ -1,4 +1,4 @@
-#include "sim/paper/text_table.h"
+#include "sim/campaign/text_table.h"
 
 #include <array>
 #include <cstdio>
@@ -10,9 +10,14 @@ namespace dodgesim {
 namespace {
 
 std::string markdown_row(const std::vector<std::string>& cells) {
-  std::string row = "|";
-  for (const std::string& cell : cells) row += " " + cell + " |";
-  return row + "\n";
+  std::string line = "|";
+  for (std::string cell : cells) {
+    for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) {
+      cell.insert(at, "\\");
+    }
+    line += " " + cell + " |";
+  }
+  return line + "\n";
 }
 
 std::string csv_line(const std::vector<std::string>& cells) {

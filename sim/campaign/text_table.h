@@ -1,4 +1,4 @@
-// A table of texts, as Markdown and as CSV.
+// A table of texts for people, as Markdown ("|" escaped) and as CSV.
 #pragma once
 
 #include <string>
