@@ -69,8 +69,10 @@ TextTable cause_table(const PilotPair& all) {
   return table;
 }
 
+// set_names: what each set of two campaigns is called above its table of causes.
 PaperTables avoidance_tables(const std::vector<LoadedCampaign>& campaigns,
-                             const std::vector<Group>& groups) {
+                             const std::vector<Group>& groups,
+                             const std::vector<std::string>& set_names) {
   TextTable success;
   success.head = {"throws",
                   "falanga2020: dodged / would have hit",
@@ -87,12 +89,12 @@ PaperTables avoidance_tables(const std::vector<LoadedCampaign>& campaigns,
     if (pair.first_unharmed.of == 0) continue;
     success.rows.push_back(success_row(group.name, pair));
   }
-  for (std::size_t set = 0; 2 * set < campaigns.size(); ++set) {
+  for (std::size_t set = 0; set < set_names.size(); ++set) {
     const PilotPair all = compare_pilots(campaigns[2 * set], campaigns[2 * set + 1],
                                          [](const ThrowResult&) { return true; });
     const TextTable table = cause_table(all);
     if (table.rows.empty()) continue;
-    causes += campaigns[2 * set].scenario.name + ":\n\n" + table.to_markdown() + "\n";
+    causes += set_names[set] + ":\n\n" + table.to_markdown() + "\n";
   }
   return {success.to_markdown() + "\n" + causes + kProtocol, success.to_csv()};
 }
@@ -116,10 +118,12 @@ void add_speeds(const LoadedCampaign& campaign, std::size_t set, std::vector<Gro
 
 PaperTables by_speed(const std::vector<LoadedCampaign>& campaigns) {
   std::vector<Group> groups;
+  std::vector<std::string> set_names;
   for (std::size_t set = 0; 2 * set < campaigns.size(); ++set) {
     add_speeds(campaigns[2 * set], set, groups);
+    set_names.push_back(campaigns[2 * set].scenario.name);
   }
-  return avoidance_tables(campaigns, groups);
+  return avoidance_tables(campaigns, groups, set_names);
 }
 
 // A shape of figure S6 and its longest extension.
@@ -145,11 +149,12 @@ std::vector<PaperFlight> flights_of_shapes() {
 
 PaperTables by_shape(const std::vector<LoadedCampaign>& campaigns) {
   std::vector<Group> groups;
+  std::vector<std::string> set_names;
   for (std::size_t set = 0; set < std::size(kShapes); ++set) {
-    const std::string name = std::string(kShapes[set].object) + ", " + kShapes[set].size_m + " m";
-    groups.push_back({name, set, [](const ThrowResult&) { return true; }});
+    set_names.push_back(std::string(kShapes[set].object) + ", " + kShapes[set].size_m + " m");
+    groups.push_back({set_names.back(), set, [](const ThrowResult&) { return true; }});
   }
-  return avoidance_tables(campaigns, groups);
+  return avoidance_tables(campaigns, groups, set_names);
 }
 
 }  // namespace

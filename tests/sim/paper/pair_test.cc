@@ -4,29 +4,10 @@
 
 #include <stdexcept>
 
-#include "tests/sim/paper/synthetic_passage.h"
+#include "tests/sim/paper/synthetic_campaign.h"
 
 namespace dodgesim {
 namespace {
-
-ThrowResult thrown(int index, bool would_hit, bool hit, const std::string& cause = "") {
-  ThrowResult result;
-  result.index = index;
-  result.object = "ball";
-  result.speed_mps = index % 2 == 0 ? 4 : 8;
-  result.flown.status = result.none.status = result.oracle.status = "ok";
-  result.none.hit = would_hit;
-  result.flown.hit = hit;
-  result.cause = cause;
-  return result;
-}
-
-LoadedCampaign campaign(std::vector<ThrowResult> results) {
-  LoadedCampaign campaign;
-  campaign.scenario = paper_scenario("throw: {}\n");
-  campaign.results = std::move(results);
-  return campaign;
-}
 
 bool all(const ThrowResult&) { return true; }
 
