@@ -23,7 +23,7 @@ std::optional<Encounter> encounter(const FlightRecord& none) {
     const Vector3d direction_B = q_W.conjugate() * direction_W;
     double reach_m = 0;
     for (const Convex& part : hull) {
-      reach_m = std::max(reach_m, part.support(direction_B).dot(direction_B) + part.radius_m());
+      reach_m = std::max(reach_m, part.reach_m(direction_B));
     }
     return reach_m;
   };

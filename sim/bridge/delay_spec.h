@@ -33,7 +33,7 @@ struct DelaySpec {
     v("compute_us", compute_us, 0, 1000000,
       "One cycle of the pilot, from its newest data to its command (3.5 ms in the paper's Table "
       "3).");
-    v("command_us", command_us, 0, 100000,
+    v("command_us", command_us, 0, 1000000,
       "Serial link from the computer to the flight controller (3.0 ms measured by the authors).");
     v("flight_controller_us", flight_controller_us, 0, 100000,
       "From a received command to the rotor commands it causes (one 4 kHz cycle).");

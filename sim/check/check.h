@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/check/plot.h"
+#include "sim/plot/plot.h"
 
 namespace dodgesim {
 

@@ -20,17 +20,28 @@ std::string PaperFlight::arguments() const {
   for (const Setting& setting : settings) {
     text += " --set " + shell_quoted(setting.key + "=" + setting.value);
   }
-  return text;
+  return truth ? text + " --truth" : text;
 }
 
 Setting paper_setting(const std::string& key, const std::string& value) {
   return {key, value, "--set " + key + "=" + value};
 }
 
+std::vector<PaperFlight> flights_of(const std::string& prefix, const std::string& scenario,
+                                    const std::vector<PaperVariant>& variants) {
+  std::vector<PaperFlight> flights;
+  for (const PaperVariant& variant : variants) {
+    flights.push_back({prefix + variant.file, scenario, variant.settings});
+  }
+  return flights;
+}
+
 const std::vector<PaperExperiment>& paper_experiments() {
-  static const std::vector<PaperExperiment> all = {table1_experiment(), table2_experiment(),
-                                                   indoor_experiment(), outdoor_experiment(),
-                                                   shapes_experiment()};
+  static const std::vector<PaperExperiment> all = {
+      table1_experiment(),    table2_experiment(),     indoor_experiment(), outdoor_experiment(),
+      shapes_experiment(),    latency_experiment(),    speed_experiment(),  range_experiment(),
+      physics_experiment(),   field_experiment(),      threshold_experiment(),
+      translation_experiment()};
   return all;
 }
 

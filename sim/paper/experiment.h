@@ -6,6 +6,7 @@
 
 #include "sim/campaign/load_campaign.h"
 #include "sim/config/scenario_tree.h"
+#include "sim/plot/plot.h"
 
 namespace dodgesim {
 
@@ -14,6 +15,7 @@ struct PaperFlight {
   std::string name;               // of its directory
   std::string scenario;           // file in scenarios/paper/
   std::vector<Setting> settings;  // laid over the file
+  bool truth = false;             // the causes of the events are wanted: ThrowResult::truth_rows
 
   // What `dodgesim run` needs to fly the same: "scenarios/paper/x.yaml --set throw.size_m=0.1".
   std::string arguments() const;
@@ -25,9 +27,15 @@ std::string shell_quoted(const std::string& word);
 // The setting "KEY=VALUE".
 Setting paper_setting(const std::string& key, const std::string& value);
 
+struct PaperPlot {
+  std::string name;  // of its file, behind the experiment's: "latency_falanga2020.png"
+  Plot plot;
+};
+
 struct PaperTables {
   std::string markdown;  // ours beside the paper's, and how each word of the protocol was read
   std::string csv;
+  std::vector<PaperPlot> plots = {};  // shown above the tables
 };
 
 struct PaperExperiment {
@@ -39,6 +47,15 @@ struct PaperExperiment {
   PaperTables (*analyse)(const std::vector<LoadedCampaign>& campaigns);
 };
 
+// A change to a scenario whose throws stay the same.
+struct PaperVariant {
+  std::string file;  // of its flight, behind a prefix
+  std::string name;  // for people
+  std::vector<Setting> settings;
+};
+std::vector<PaperFlight> flights_of(const std::string& prefix, const std::string& scenario,
+                                    const std::vector<PaperVariant>& variants);
+
 // All of them, in the paper's order.
 const std::vector<PaperExperiment>& paper_experiments();
 
@@ -47,5 +64,12 @@ PaperExperiment table2_experiment();
 PaperExperiment indoor_experiment();
 PaperExperiment outdoor_experiment();
 PaperExperiment shapes_experiment();
+PaperExperiment latency_experiment();
+PaperExperiment speed_experiment();
+PaperExperiment range_experiment();
+PaperExperiment field_experiment();
+PaperExperiment physics_experiment();
+PaperExperiment threshold_experiment();
+PaperExperiment translation_experiment();
 
 }  // namespace dodgesim

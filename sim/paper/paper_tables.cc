@@ -1,6 +1,7 @@
 #include "sim/paper/paper_tables.h"
 
 #include <algorithm>
+#include <opencv2/imgcodecs.hpp>
 
 #include "sim/base/error.h"
 #include "sim/campaign/build_info.h"
@@ -47,6 +48,20 @@ std::string flown_markdown(const PaperExperiment& experiment,
     text += "\n";
   }
   return text;
+}
+
+// Returns the lines that show them.
+std::string write_plots(const fs::path& out, const std::string& experiment,
+                        const std::vector<PaperPlot>& plots) {
+  std::string text;
+  for (const PaperPlot& plot : plots) {
+    const std::string file = experiment + "_" + plot.name + ".png";
+    if (!cv::imwrite(out / file, draw(plot.plot))) {
+      throw IoError("The picture " + (out / file).string() + " could not be written.");
+    }
+    text += "![" + plot.plot.title + "](" + file + ")\n";
+  }
+  return text.empty() ? text : text + "\n";
 }
 
 }  // namespace
@@ -99,8 +114,8 @@ std::string write_paper_tables(const fs::path& out, const std::vector<PaperExper
     }
     const PaperTables tables = experiment.analyse(campaigns);
     const std::string text = "# " + experiment.title + "\n\nMade by `" + command + "`, dodgesim " +
-                             program + ".\n\n" + tables.markdown + "\n" +
-                             flown_markdown(experiment, campaigns);
+                             program + ".\n\n" + write_plots(out, experiment.name, tables.plots) +
+                             tables.markdown + "\n" + flown_markdown(experiment, campaigns);
     write_file(out / (experiment.name + ".md"), text);
     write_file(out / (experiment.name + ".csv"), tables.csv);
     readme += "| " + experiment.title + " | [" + experiment.name + ".md](" + experiment.name +

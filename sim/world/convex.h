@@ -30,6 +30,10 @@ class Convex {
   Eigen::Vector3d support(const Eigen::Vector3d& d) const;
   double radius_m() const { return radius_m_; }
   const Eigen::Vector3d& centre() const { return centre_; }
+  // How far the body reaches from the frame's origin in the direction of a unit vector.
+  double reach_m(const Eigen::Vector3d& direction) const {
+    return support(direction).dot(direction) + radius_m_;
+  }
   // Of the sphere about centre() that encloses the body, radius included.
   double extent_m() const { return extent_m_; }
 

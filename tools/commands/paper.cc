@@ -62,6 +62,7 @@ int paper(const Arguments& arguments) {
   for (std::size_t i = 0; i < flights.size(); ++i) {
     CampaignOptions options = arguments.options;
     options.out = flight_directory(arguments.options.out, flights[i]);
+    options.truth = flights[i].truth;
     std::cerr << "Flying " << flights[i].name << " (" << i + 1 << " of " << flights.size() << ")\n";
     const CampaignSummary summary = fly_campaign(scenarios[i], options);
     if (!summary.complete()) return report_stop(summary);

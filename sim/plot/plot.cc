@@ -1,4 +1,4 @@
-#include "sim/check/plot.h"
+#include "sim/plot/plot.h"
 
 #include <algorithm>
 #include <array>
@@ -37,7 +37,7 @@ struct Scale {
 };
 
 // The range of an axis: as asked for, or that of the data.
-std::pair<double, double> range(const Axis& axis, const Plot& plot, bool horizontal) {
+std::pair<double, double> range(const PlotAxis& axis, const Plot& plot, bool horizontal) {
   if (axis.from != axis.to) return {axis.from, axis.to};
   double low = INFINITY, high = -INFINITY;
   for (const Series& series : plot.series) {

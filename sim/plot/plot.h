@@ -1,4 +1,4 @@
-// Plots for the report: points, lines and histograms over one pair of axes.
+// Plots for reports: points, lines and histograms over one pair of axes.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -16,7 +16,7 @@ struct Series {
   std::vector<double> spread;  // half-length of a bar about each point; empty: none
 };
 
-struct Axis {
+struct PlotAxis {
   std::string label;
   double from = 0, to = 0;  // from == to: as the data ask for
   bool logarithmic = false;
@@ -24,7 +24,7 @@ struct Axis {
 
 struct Plot {
   std::string title;
-  Axis x, y;
+  PlotAxis x, y;
   std::vector<Series> series;
   bool legend_left = false;
 };

@@ -1,0 +1,35 @@
+#include "sim/paper/avoidance_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/gravity.h"
+#include "sim/campaign/collision_cause.h"
+#include "sim/flight.h"
+#include "sim/world/referee.h"
+
+namespace dodgesim {
+
+double point_avoidance_s(double distance_m, double acceleration_mps2) {
+  return std::sqrt(2 * distance_m / acceleration_mps2);
+}
+
+AvoidanceTimes avoidance_times(const Scenario& scenario, double ball_radius_m) {
+  const World world(world_spec(scenario, {}));
+  const Referee referee(world);
+  const Agility agility = agility_of(world.vehicle(), scenario.motors);
+  Encounter encounter;
+  encounter.velocity_W = -Eigen::Vector3d::UnitX();
+  encounter.object_radius_m = ball_radius_m;
+  encounter.hull_reach_m = [&referee](const Eigen::Vector3d& direction) {
+    double reach_m = 0;
+    for (const Convex& part : referee.hull()) reach_m = std::max(reach_m, part.reach_m(direction));
+    return reach_m;
+  };
+  const double sideways_m = encounter.hull_reach_m(Eigen::Vector3d::UnitY()) + ball_radius_m;
+  const double sideways_mps2 = std::sqrt(std::pow(agility.max_thrust_mps2, 2) -
+                                         std::pow(kGravityMps2, 2));
+  return {point_avoidance_s(sideways_m, sideways_mps2), least_time_to_escape_s(agility, encounter)};
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,153 @@
+// The claim behind event cameras: how late perception may be, by the speed of the object.
+#include <cmath>
+
+#include "sim/paper/avoidance_bound.h"
+#include "sim/paper/experiment.h"
+#include "sim/paper/rate_grid.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr const char* kProtocol = R"(How the claim is read:
+
+- *Latency of perception*: 3.5 ms are the paper's, 60 ms those of a pipeline of frames. More than
+  3.5 ms are added as a delay of every command, so that the pilot sees as often as before and only
+  acts later. (A computer that takes longer for each cycle also sees less often: results/latency.)
+  All other delays stay: packets of events, their transport, the wait for the next cycle, 3 ms to
+  the flight controller, then the motors.
+- *Lost at*: the latency from which on less than half of the throws that would have hit are dodged,
+  between two measured latencies on a straight line.
+- *Bound*: "How fast is too fast" (Falanga et al. 2019), s / v - t_a, less the delays that are not
+  perception's; s the range from which on the object is known, a ball of 20 cm that comes at the
+  vehicle's centre. *point*: t_a = sqrt(2 r / u) of a vehicle that accelerates to the side at once
+  with all its thrust. *rotors*: t_a of its rotors in the best direction, with their lag and the
+  time to tilt.
+- *oracle*: told of the true object within s, avoids it like falanga2020. Intervals: 95 %, Wilson.
+)";
+
+constexpr double kPaperLatencyMs = 3.5, kFrameLatencyMs = 60;
+constexpr double kLinkUs = 3000;  // what of the command's delay is not perception's
+constexpr double kMeanBallRadiusM = 0.1;
+
+// Success of a pilot at each speed (rows) and latency (columns).
+struct LatencyCurves {
+  std::string pilot, file;
+  RateGrid grid;
+  std::vector<double> latency_ms;  // of perception
+};
+
+double perception_ms(const Part& part, const DelaySpec& delays) {
+  return 1e-3 * (static_cast<double>(delays.compute_us) +
+                 sweep_number(part, "delays.command_us") - kLinkUs);
+}
+
+LatencyCurves curves_of(const std::string& pilot, const std::string& file,
+                        const std::vector<Part>& parts, const LoadedCampaign& campaign) {
+  const Axis speeds("speed_mps", campaign.results);
+  LatencyCurves curves{pilot, file, {}, {}};
+  RateGrid by_latency{"", {}, {}, {}};
+  for (const std::string& speed : speeds.values()) by_latency.columns.push_back(speed + " m/s");
+  for (const Part& part : parts) {
+    curves.latency_ms.push_back(perception_ms(part, campaign.scenario.delays));
+    by_latency.add_row(fixed_text(curves.latency_ms.back(), 1) + " ms",
+                       success_by(speeds, part.results));
+  }
+  curves.grid = by_latency.transposed(pilot);
+  return curves;
+}
+
+// The parts in which the oracle knows of objects within this range.
+std::vector<Part> within(const std::string& range_m, const LoadedCampaign& campaign) {
+  std::vector<Part> parts;
+  for (const Part& part : parts_of(campaign)) {
+    if (sweep_value(part, "oracle.range_cap_m") == range_m) parts.push_back(part);
+  }
+  return parts;
+}
+
+PaperPlot plot_of(const LatencyCurves& curves) {
+  Plot plot;
+  plot.title = curves.pilot + ": throws dodged by latency of perception";
+  plot.x = {"latency of perception [ms]", 0, curves.latency_ms.back(), false};
+  plot.y = {"dodged, of those that would have hit", 0, 1.05, false};
+  for (std::size_t i = 0; i < curves.grid.rows.size(); ++i) {
+    add_curve(curves.grid.rows[i], static_cast<int>(i), curves.latency_ms, curves.grid.rates[i],
+              plot);
+  }
+  add_mark("3.5 ms and 60 ms", 5, kPaperLatencyMs, plot);
+  add_mark("", 5, kFrameLatencyMs, plot);
+  return {curves.file, plot};
+}
+
+std::string lost_text(const LatencyCurves& curves, std::size_t speed) {
+  const double lost_ms = half_lost(curves.latency_ms, curves.grid.rates[speed]);
+  if (std::isinf(lost_ms)) return "> " + fixed_text(curves.latency_ms.back(), 0);
+  if (lost_ms == curves.latency_ms.front()) return "< " + fixed_text(lost_ms, 1);
+  return fixed_text(lost_ms, 0);
+}
+
+// By the bound, of perception alone [ms].
+std::string bound_text(const AvoidanceBound& bound, double speed_mps, const DelaySpec& delays) {
+  const double others_s =
+      1e-6 * (0.5 * static_cast<double>(delays.cycle_us) + kLinkUs +
+              static_cast<double>(delays.flight_controller_us));
+  const double latency_s = bound.greatest_latency_s(speed_mps) - others_s;
+  return latency_s > 0 ? fixed_text(1e3 * latency_s, 0) : "none";
+}
+
+TextTable lost_table(const std::vector<LatencyCurves>& all, const LoadedCampaign& campaign) {
+  const Scenario& scenario = campaign.scenario;
+  const AvoidanceTimes times = avoidance_times(scenario, kMeanBallRadiusM);
+  TextTable table;
+  table.head = {"lost at [ms]",        "bound 1.5 m, point", "bound 1.5 m, rotors",
+                "bound 3 m, point", "bound 3 m, rotors"};
+  for (const LatencyCurves& curves : all) table.head.push_back(curves.pilot);
+  const Axis speeds("speed_mps", campaign.results);
+  for (std::size_t i = 0; i < speeds.values().size(); ++i) {
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row.push_back(speeds.values()[i] + " m/s");
+    for (const double range_m : {1.5, 3.0}) {
+      for (const double avoidance_s : {times.point_s, times.rotors_s}) {
+        row.push_back(
+            bound_text({range_m, avoidance_s}, speeds.middles()[i], scenario.delays));
+      }
+    }
+    for (const LatencyCurves& curves : all) row.push_back(lost_text(curves, i));
+  }
+  return table;
+}
+
+PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
+  const LoadedCampaign &oracle = campaigns[0], &faithful = campaigns[1], &own = campaigns[2];
+  const std::vector<LatencyCurves> all = {
+      curves_of("oracle, 1.5 m", "oracle_1_5m", within("1.5", oracle), oracle),
+      curves_of("oracle, 3 m", "oracle_3m", within("3", oracle), oracle),
+      curves_of("falanga2020, 3 m", "falanga2020", parts_of(faithful), faithful),
+      curves_of("dodgesim", "dodgesim", parts_of(own), own)};
+  PaperTables tables;
+  std::vector<RateGrid> grids;
+  tables.markdown = lost_table(all, oracle).to_markdown() + "\n";
+  for (const LatencyCurves& curves : all) {
+    tables.plots.push_back(plot_of(curves));
+    tables.markdown += curves.grid.table().to_markdown() + "\n";
+    grids.push_back(curves.grid);
+  }
+  tables.csv = rates_csv(grids);
+  tables.markdown += kProtocol;
+  return tables;
+}
+
+}  // namespace
+
+PaperExperiment latency_experiment() {
+  const std::string sweep = "claims_latency.yaml";
+  return {"latency",
+          "Success against the latency of perception",
+          {{"latency_oracle", "claims_latency_oracle.yaml", {}},
+           {"latency_falanga2020", sweep, {paper_setting("dodger.position.max_range_m", "3")}},
+           {"latency_dodgesim", sweep, {paper_setting("pilot", "dodgesim")}}},
+          analyse};
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,176 @@
+// What the paper's pilot can dodge, by the speed of the object and by the distance from which on it
+// is believed.
+#include "sim/paper/avoidance_bound.h"
+#include "sim/paper/experiment.h"
+#include "sim/paper/rate_grid.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr double kMeanBallRadiusM = 0.1;
+// From light to command: half a cycle, the pilot's 3.5 ms, the link and the flight controller.
+double latency_s(const DelaySpec& delays) {
+  return 1e-6 * (0.5 * static_cast<double>(delays.cycle_us) +
+                 static_cast<double>(delays.compute_us + delays.command_us +
+                                     delays.flight_controller_us));
+}
+
+constexpr const char* kSpeedProtocol = R"(How the claim is read:
+
+- Balls of 10, 20 and 30 cm; from 4 m/s on they come from 3 m to 3.5 m, slower ones from 1 m to
+  1.5 m, because from 3 m they would be lobs that fall steeply onto the vehicle. Speeds are those
+  over the ground.
+- *falanga2020* believes nothing beyond 1.5 m, as in the paper; *oracle, 1.5 m* is told of the true
+  object from there on and avoids it likewise; *oracle* without a range is told at once.
+- The vertical lines are the bound of "How fast is too fast" (Falanga et al. 2019) for a range of
+  1.5 m and the delays of this chain, s / (tau + t_a), with the t_a of a point (sqrt(2 r / u)) and
+  that of the vehicle's rotors. Below them an ideal vehicle dodges every ball that comes straight.
+- Intervals: 95 %, Wilson.
+)";
+
+constexpr const char* kRangeProtocol = R"(How the claim is read:
+
+- *falanga2020* believes detections up to the range (`dodger.position.max_range_m`), the oracle is
+  told of the true object from there on.
+- *Bound*: the fastest ball by "How fast is too fast" (Falanga et al. 2019), s / (tau + t_a), with the
+  delays of this chain; t_a of a point (sqrt(2 r / u)) and of the vehicle's rotors.
+- Intervals: 95 %, Wilson.
+)";
+
+struct SpeedCurve {
+  std::vector<double> speed_mps;
+  std::vector<std::string> columns;
+  std::vector<Rate> rates;
+
+  void add(const Results& results, const LoadedCampaign& campaign) {
+    const Axis speeds("speed_mps", campaign.results);
+    const std::vector<Rate> success = success_by(speeds, results);
+    for (std::size_t i = 0; i < success.size(); ++i) {
+      speed_mps.push_back(speeds.middles()[i]);
+      columns.push_back(speeds.values()[i] + " m/s");
+      rates.push_back(success[i]);
+    }
+  }
+};
+
+// Of the slow balls, then of the others.
+SpeedCurve curve(std::size_t part, const LoadedCampaign& slow, const LoadedCampaign& fast) {
+  SpeedCurve curve;
+  for (const LoadedCampaign* campaign : {&slow, &fast}) {
+    curve.add(parts_of(*campaign).at(part).results, *campaign);
+  }
+  return curve;
+}
+
+PaperTables analyse_speed(const std::vector<LoadedCampaign>& campaigns) {
+  const SpeedCurve curves[] = {
+      curve(0, campaigns[0], campaigns[1]), curve(0, campaigns[2], campaigns[3]),
+      curve(0, campaigns[4], campaigns[5]), curve(1, campaigns[4], campaigns[5])};
+  const char* names[] = {"falanga2020", "dodgesim", "oracle, 1.5 m", "oracle"};
+  RateGrid grid{"dodged", {}, curves[0].columns, {}};
+  Plot plot;
+  plot.title = "Throws dodged by their speed";
+  plot.x = {"speed [m/s]", 0, curves[0].speed_mps.back() + 0.5, false};
+  plot.y = {"dodged, of those that would have hit", 0, 1.05, false};
+  for (std::size_t i = 0; i < std::size(curves); ++i) {
+    grid.add_row(names[i], curves[i].rates);
+    add_curve(names[i], static_cast<int>(i), curves[i].speed_mps, curves[i].rates, plot);
+  }
+  const Scenario& scenario = campaigns[1].scenario;
+  const AvoidanceTimes times = avoidance_times(scenario, kMeanBallRadiusM);
+  const double tau_s = latency_s(scenario.delays);
+  const double point_mps = AvoidanceBound{1.5, times.point_s}.greatest_speed_mps(tau_s);
+  const double rotors_mps = AvoidanceBound{1.5, times.rotors_s}.greatest_speed_mps(tau_s);
+  add_mark("bound of 1.5 m: rotors, point", 5, rotors_mps, plot);
+  add_mark("", 5, point_mps, plot);
+  return {grid.table().to_markdown() + "\nBound for 1.5 m: " + fixed_text(point_mps, 1) +
+              " m/s (point), " + fixed_text(rotors_mps, 1) + " m/s (rotors).\n\n" + kSpeedProtocol,
+          rates_csv({grid}),
+          {{"curves", plot}}};
+}
+
+struct RangeRows {
+  RateGrid grid;
+  std::vector<double> range_m;
+};
+
+RangeRows rows_of(const std::string& pilot, const std::string& key,
+                  const LoadedCampaign& campaign) {
+  const Axis speeds("speed_mps", campaign.results);
+  RangeRows rows{{pilot, {}, {}, {}}, {}};
+  for (const std::string& speed : speeds.values()) rows.grid.columns.push_back(speed + " m/s");
+  for (const Part& part : parts_of(campaign)) {
+    rows.range_m.push_back(sweep_number(part, key));
+    rows.grid.add_row(sweep_value(part, key) + " m", success_by(speeds, part.results));
+  }
+  return rows;
+}
+
+PaperPlot plot_of(const RangeRows& rows, const std::string& file) {
+  Plot plot;
+  plot.title = rows.grid.name + ": throws dodged by the range from which on they are believed";
+  plot.x = {"range [m]", 0, 3.2, false};
+  plot.y = {"dodged, of those that would have hit", 0, 1.05, false};
+  plot.legend_left = true;
+  const RateGrid by_speed = rows.grid.transposed("");
+  for (std::size_t i = 0; i < by_speed.rows.size(); ++i) {
+    add_curve(by_speed.rows[i], static_cast<int>(i), rows.range_m, by_speed.rates[i], plot);
+  }
+  add_mark("1.5 m", 5, 1.5, plot);
+  return {file, plot};
+}
+
+TextTable bound_table(const std::vector<double>& range_m, const Scenario& scenario) {
+  const AvoidanceTimes times = avoidance_times(scenario, kMeanBallRadiusM);
+  const double tau_s = latency_s(scenario.delays);
+  TextTable table;
+  table.head = {"range", "bound, point [m/s]", "bound, rotors [m/s]"};
+  for (const double s : range_m) {
+    table.rows.push_back(
+        {fixed_text(s, 2) + " m",
+         fixed_text(AvoidanceBound{s, times.point_s}.greatest_speed_mps(tau_s), 1),
+         fixed_text(AvoidanceBound{s, times.rotors_s}.greatest_speed_mps(tau_s), 1)});
+  }
+  return table;
+}
+
+PaperTables analyse_range(const std::vector<LoadedCampaign>& campaigns) {
+  const RangeRows faithful =
+      rows_of("falanga2020", "dodger.position.max_range_m", campaigns[0]);
+  const RangeRows oracle = rows_of("oracle", "oracle.range_cap_m", campaigns[1]);
+  return {faithful.grid.table().to_markdown() + "\n" + oracle.grid.table().to_markdown() + "\n" +
+              bound_table(oracle.range_m, campaigns[1].scenario).to_markdown() + "\n" +
+              kRangeProtocol,
+          rates_csv({faithful.grid, oracle.grid}),
+          {plot_of(faithful, "falanga2020"), plot_of(oracle, "oracle")}};
+}
+
+}  // namespace
+
+PaperExperiment speed_experiment() {
+  const std::string slow = "claims_speed_slow.yaml", fast = "claims_speed.yaml";
+  const std::vector<Setting> own = {paper_setting("pilot", "dodgesim")};
+  const std::vector<Setting> oracle = {paper_setting("pilot", "oracle"),
+                                       paper_setting("sweep", "{oracle.range_cap_m: [1.5, 0]}"),
+                                       paper_setting("repeats", "60")};
+  return {"speed",
+          "Success against the speed of the object",
+          {{"slow_falanga2020", slow, {}},
+           {"speed_falanga2020", fast, {}},
+           {"slow_dodgesim", slow, own},
+           {"speed_dodgesim", fast, own},
+           {"slow_oracle", slow, oracle},
+           {"speed_oracle", fast, oracle}},
+          analyse_speed};
+}
+
+PaperExperiment range_experiment() {
+  return {"range",
+          "Success against the range from which on an object is believed",
+          {{"range_falanga2020", "claims_range.yaml", {}},
+           {"range_oracle", "claims_range_oracle.yaml", {}}},
+          analyse_range};
+}
+
+}  // namespace dodgesim

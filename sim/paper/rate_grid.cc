@@ -1,0 +1,128 @@
+#include "sim/paper/rate_grid.h"
+
+#include <cmath>
+#include <limits>
+
+#include "sim/base/error.h"
+#include "sim/config/numbers.h"
+
+namespace dodgesim {
+
+void RateGrid::add_row(const std::string& row, const std::vector<Rate>& row_rates) {
+  rows.push_back(row);
+  rates.push_back(row_rates);
+}
+
+RateGrid RateGrid::transposed(const std::string& transposed_name) const {
+  RateGrid other{transposed_name, columns, rows, {}};
+  other.rates.resize(columns.size());
+  for (const std::vector<Rate>& row : rates) {
+    for (std::size_t i = 0; i < columns.size(); ++i) other.rates[i].push_back(row[i]);
+  }
+  return other;
+}
+
+TextTable RateGrid::table() const {
+  TextTable table;
+  table.head = {name};
+  table.head.insert(table.head.end(), columns.begin(), columns.end());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row.push_back(rows[i]);
+    for (const Rate& rate : rates[i]) row.push_back(short_rate_text(rate));
+  }
+  return table;
+}
+
+std::string rates_csv(const std::vector<RateGrid>& grids) {
+  TextTable csv;
+  csv.head = {"table", "row", "column", "dodged", "of", "rate", "lo", "hi"};
+  for (const RateGrid& grid : grids) {
+    for (std::size_t i = 0; i < grid.rows.size(); ++i) {
+      for (std::size_t k = 0; k < grid.columns.size(); ++k) {
+        const Rate& rate = grid.rates[i][k];
+        const Interval interval = rate.interval();
+        csv.rows.push_back({grid.name, grid.rows[i], grid.columns[k], std::to_string(rate.count),
+                            std::to_string(rate.of),
+                            rate.of > 0 ? fixed_text(*rate.value(), 4) : "",
+                            fixed_text(interval.lo, 4), fixed_text(interval.hi, 4)});
+      }
+    }
+  }
+  return csv.to_csv();
+}
+
+std::string short_rate_text(const Rate& rate) {
+  if (rate.of == 0) return "-";
+  const Interval interval = rate.interval();
+  return std::to_string(rate.count) + " / " + std::to_string(rate.of) + " (" +
+         fixed_text(interval.lo, 2) + " to " + fixed_text(interval.hi, 2) + ")";
+}
+
+std::string median_text(const Measured& sample, int digits) {
+  const std::optional<QuantileEstimate> median = sample.quantile(0.5);
+  if (!median) return "-";
+  const bool bounded = std::isfinite(median->interval.lo) && std::isfinite(median->interval.hi);
+  return bounded ? with_interval(median->value, median->interval, digits)
+                 : fixed_text(median->value, digits);
+}
+
+std::vector<Rate> success_by(const Axis& axis, const Results& results) {
+  std::vector<Tally> tallies(axis.values().size());
+  for (const ThrowResult* result : results) {
+    const std::optional<std::size_t> i = axis.of(*result);
+    if (i) tallies[*i].add(result->flown, result->none, result->gave_up());
+  }
+  std::vector<Rate> rates;
+  for (const Tally& tally : tallies) rates.push_back(tally.success());
+  return rates;
+}
+
+std::string sweep_value(const Part& part, const std::string& key) {
+  for (const AxisValue& value : part.values) {
+    if (value.key == key) return value.value;
+  }
+  throw ScenarioError("The experiment needs a sweep over " + key + ".");
+}
+
+double sweep_number(const Part& part, const std::string& key) {
+  const std::string value = sweep_value(part, key);
+  const NumberForm form = number_form(value);
+  const bool is_number = form == NumberForm::kDecimal || form == NumberForm::kInteger;
+  const std::optional<double> number = is_number ? parse_double(value) : std::nullopt;
+  if (!number) throw ScenarioError("The experiment needs numbers for " + key + ".");
+  return *number;
+}
+
+void add_curve(const std::string& name, int colour, const std::vector<double>& at,
+               const std::vector<Rate>& rates, Plot& plot) {
+  Series line{name, Series::Kind::kLine, colour, {}, {}, {}};
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const std::optional<double> value = rates[i].value();
+    if (!value) continue;
+    line.x.push_back(at[i]);
+    line.y.push_back(*value);
+  }
+  Series points = line;
+  points.name.clear();
+  points.kind = Series::Kind::kPoints;
+  plot.series.push_back(line);
+  plot.series.push_back(points);
+}
+
+void add_mark(const std::string& name, int colour, double at, Plot& plot) {
+  plot.series.push_back({name, Series::Kind::kLine, colour, {at, at}, {0, 1}, {}});
+}
+
+double half_lost(const std::vector<double>& at, const std::vector<Rate>& rates) {
+  const auto value = [&](std::size_t i) { return rates[i].value().value_or(0); };
+  for (std::size_t i = at.size(); i-- > 0;) {
+    if (value(i) < 0.5) continue;
+    if (i + 1 == at.size()) return std::numeric_limits<double>::infinity();
+    const double share = (value(i) - 0.5) / (value(i) - value(i + 1));
+    return at[i] + share * (at[i + 1] - at[i]);
+  }
+  return at.front();
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,50 @@
+#include "sim/paper/avoidance_bound.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/sim/paper/synthetic_passage.h"
+
+namespace dodgesim {
+namespace {
+
+// A point that starts `latency_s` after the object was seen at `range_m`, in steps of 10 us: has it
+// moved by `distance_m` when the object arrives?
+bool point_escapes(double range_m, double speed_mps, double latency_s, double distance_m,
+                   double acceleration_mps2) {
+  constexpr double kStepS = 1e-5;
+  double moved_m = 0, moving_mps = 0;
+  for (double t_s = latency_s; speed_mps * t_s < range_m; t_s += kStepS) {
+    moving_mps += acceleration_mps2 * kStepS;
+    moved_m += moving_mps * kStepS;
+  }
+  return moved_m >= distance_m;
+}
+
+TEST(AvoidanceBound, DividesWhatAPointEscapesFromWhatItDoesNot) {
+  constexpr double kDistanceM = 0.27, kAccelerationMps2 = 20;
+  const AvoidanceBound bound{1.5, point_avoidance_s(kDistanceM, kAccelerationMps2)};
+  for (const double speed_mps : {2.0, 4.0, 6.0}) {
+    const double latency_s = bound.greatest_latency_s(speed_mps);
+    ASSERT_GT(latency_s, 0);
+    EXPECT_TRUE(point_escapes(1.5, speed_mps, latency_s - 1e-3, kDistanceM, kAccelerationMps2));
+    EXPECT_FALSE(point_escapes(1.5, speed_mps, latency_s + 1e-3, kDistanceM, kAccelerationMps2));
+    EXPECT_NEAR(bound.greatest_speed_mps(latency_s), speed_mps, 1e-12);
+  }
+  EXPECT_LT(bound.greatest_latency_s(15), 0);
+}
+
+TEST(AvoidanceBound, KnowsTheRotorsAndTheHull) {
+  const Scenario scenario = paper_scenario("throw: {}\n");
+  const AvoidanceTimes times = avoidance_times(scenario, 0.1);
+  // 4 rotors of 9.5 N lift 1 kg: 36.7 m/s^2 to the side. The hull is 0.34 m wide.
+  EXPECT_NEAR(times.point_s, std::sqrt(2 * (0.17 + 0.1) / 36.7), 0.003);
+  // Upward, without a tilt, at 28.2 m/s^2 after the lag of the motors, until the lower camera, which
+  // reaches down to 0.0925 m, is above the ball.
+  EXPECT_NEAR(times.rotors_s, 0.04 + std::sqrt(2 * (0.0925 + 0.1) / 28.2), 0.001);
+  EXPECT_GT(avoidance_times(scenario, 0.15).rotors_s, times.rotors_s);
+}
+
+}  // namespace
+}  // namespace dodgesim
