@@ -12,6 +12,7 @@ struct BenchOptions {
   int throws = 0;  // of a scenario, in one run of the closed loop; 0: as many as the case says
   std::string models_dir;
   std::string scenarios_dir;
+  std::string plots_dir;  // for plots of what was measured; empty: none
 };
 
 // One number of a case.
