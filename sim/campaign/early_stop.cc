@@ -12,7 +12,7 @@ EarlyStop::EarlyStop(const Scenario& scenario)
 
 void EarlyStop::add(const ThrowResult& result) {
   if (end_) return;
-  waiting_[result.index].add(result.flown, result.none, result.gave_up());
+  waiting_[result.index].add(result);
   for (auto first = waiting_.begin(); first != waiting_.end() && first->first == next_;
        first = waiting_.erase(first)) {
     sum_.would_have_hit += first->second.would_have_hit;

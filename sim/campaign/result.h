@@ -186,6 +186,9 @@ struct EventTruthSums {
 };
 
 struct ThrowResult {
+  // One of the flights below: &ThrowResult::flown, none or oracle.
+  using FlightOf = FlightResult ThrowResult::*;
+
   int index = 0;
 
   // Where the throw stands in the campaign; see sim/config/expand.h. Results of different sweep
@@ -242,6 +245,12 @@ struct ThrowResult {
   // The flown pilot gave up before the object came that would have hit: whatever becomes of the
   // throw, it is not dodged.
   bool gave_up() const { return landing_us && (!none.hit_us || *landing_us < *none.hit_us); }
+  // By a pilot: the pilot none was hit, and this one was neither hit nor crashed, and had not given
+  // up. A throw that failed with an error, for either, never counts.
+  bool dodged(FlightOf by = &ThrowResult::flown) const {
+    return none.ok() && none.hit && (this->*by).unharmed() &&
+           !(by == &ThrowResult::flown && gave_up());
+  }
 
   template <class Visitor>
   void visit(Visitor& v) {

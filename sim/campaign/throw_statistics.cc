@@ -21,9 +21,10 @@ std::optional<double> seconds_between(std::optional<TimeUs> from, std::optional<
   return seconds(*to - *from);
 }
 
-void add_flight(const FlightResult& flight, const ThrowResult& result, PilotStatistics& sum) {
+void add_flight(const ThrowResult& result, ThrowResult::FlightOf by, PilotStatistics& sum) {
+  const FlightResult& flight = result.*by;
   if (!result.thrown() || flight.status == "not flown") return;
-  sum.tally.add(flight, result.none, &flight == &result.flown && result.gave_up());
+  sum.tally.add(result, by);
   if (flight.ok()) sum.clearance_m.add(flight.clearance_m);
 }
 
@@ -67,14 +68,15 @@ std::string rate_text(const Rate& rate) {
          fixed(interval.hi) + (rate.sequential ? ", " + rate.interval_name() : "") + ")";
 }
 
-void Tally::add(const FlightResult& flight, const FlightResult& none, bool gave_up) {
+void Tally::add(const ThrowResult& result, ThrowResult::FlightOf by) {
+  const FlightResult &flight = result.*by, &none = result.none;
   if (flight.failed() || none.failed()) ++errors;
   if (flight.ok()) collisions.add(!flight.unharmed());
   if (flight.status == "not flown") return;
   ++throws;
   if (none.ok() && !none.hit) return;
   ++would_have_hit;  // or, where a flight failed, might have
-  if (none.ok() && flight.unharmed() && !gave_up) ++dodged;
+  if (result.dodged(by)) ++dodged;
 }
 
 std::optional<QuantileEstimate> Measured::quantile(double share) const {
@@ -110,9 +112,9 @@ ThrowStatistics statistics_of(const Results& results, const std::string& pilot) 
   sum.pilots[2].pilot = "none";
   for (const ThrowResult* result : results) {
     sum.oracle_flew = sum.oracle_flew || result->oracle.status != "not flown";
-    add_flight(result->flown, *result, sum.pilots[0]);
-    add_flight(result->oracle, *result, sum.pilots[1]);
-    add_flight(result->none, *result, sum.pilots[2]);
+    add_flight(*result, &ThrowResult::flown, sum.pilots[0]);
+    add_flight(*result, &ThrowResult::oracle, sum.pilots[1]);
+    add_flight(*result, &ThrowResult::none, sum.pilots[2]);
     if (result->flown.ok()) add_perception(*result, sum);
   }
   return sum;

@@ -1,7 +1,6 @@
-// What is counted and measured over throws. "Dodged" means: the pilot `none` was hit on the same
-// throw, and the flown pilot was neither hit nor crashed, and had not given up before (gave_up() of
-// result.h). A throw that the pilot gave up on, or whose flight failed with an error, never counts
-// as a success and stays in the denominator.
+// What is counted and measured over throws. "Dodged" is ThrowResult::dodged(). A throw that the
+// pilot gave up on, or whose flight failed with an error, never counts as a success and stays in
+// the denominator.
 #pragma once
 
 #include <array>
@@ -49,7 +48,7 @@ struct Tally {
   Rate collisions;         // hit or crashed, of all flights of the pilot that did not fail
   std::optional<SequentialInterval> sequential = {};  // of the success rate, see Rate
 
-  void add(const FlightResult& flight, const FlightResult& none, bool gave_up = false);
+  void add(const ThrowResult& result, ThrowResult::FlightOf by = &ThrowResult::flown);
   Rate success() const { return {dodged, would_have_hit, sequential}; }
   // What tables show. The pilot none dodges nothing: of it, how many throws would have hit.
   Rate shown(bool none) const { return none ? Rate{would_have_hit, throws} : success(); }

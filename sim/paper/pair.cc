@@ -12,12 +12,9 @@ bool same_throw(const ThrowResult& a, const ThrowResult& b) {
          a.bearing_deg == b.bearing_deg && a.none.hit == b.none.hit;
 }
 
-// Of a throw that would have hit.
-bool dodged(const ThrowResult& result) { return result.flown.unharmed() && !result.gave_up(); }
-
 void add(const ThrowResult& result, Tally& tally, Rate& unharmed,
          std::map<std::string, int>& causes) {
-  tally.add(result.flown, result.none, result.gave_up());
+  tally.add(result);
   unharmed.add(result.flown.unharmed());
   if (!result.cause.empty()) ++causes[result.cause];
 }
@@ -38,8 +35,8 @@ PilotPair compare_pilots(const LoadedCampaign& first, const LoadedCampaign& seco
     if (!belongs(a)) continue;
     add(a, pair.first, pair.first_unharmed, pair.first_causes);
     add(b, pair.second, pair.second_unharmed, pair.second_causes);
-    pair.oracle.add(a.oracle, a.none);
-    if (a.none.hit) pair.paired.add(dodged(a), dodged(b));
+    pair.oracle.add(a, &ThrowResult::oracle);
+    if (a.none.hit) pair.paired.add(a.dodged(), b.dodged());
   }
   return pair;
 }

@@ -7,12 +7,19 @@
 namespace dodgesim {
 namespace {
 
+ThrowResult result_of(const FlightResult& flight, const FlightResult& none) {
+  ThrowResult result;
+  result.flown = flight;
+  result.none = none;
+  return result;
+}
+
 TEST(Tally, OnlyAnUnharmedFlightThroughADangerousThrowIsADodge) {
   Tally sum;
-  sum.add(flown(false), flown(true));        // dodged
-  sum.add(flown(true), flown(true));         // hit
-  sum.add(flown(false, true), flown(true));  // dodged into the wall
-  sum.add(flown(false), flown(false));       // would have missed
+  sum.add(result_of(flown(false), flown(true)));        // dodged
+  sum.add(result_of(flown(true), flown(true)));         // hit
+  sum.add(result_of(flown(false, true), flown(true)));  // dodged into the wall
+  sum.add(result_of(flown(false), flown(false)));       // would have missed
   EXPECT_EQ(sum.throws, 4);
   EXPECT_EQ(sum.would_have_hit, 3);
   EXPECT_EQ(sum.dodged, 1);
@@ -21,8 +28,11 @@ TEST(Tally, OnlyAnUnharmedFlightThroughADangerousThrowIsADodge) {
 
 TEST(Tally, AThrowThatThePilotGaveUpOnIsNoDodgeButCounts) {
   Tally sum;
-  sum.add(flown(false), flown(true), true);
-  sum.add(flown(false), flown(false), true);  // would have missed
+  for (const bool would_hit : {true, false}) {
+    ThrowResult landed = result_of(flown(false), flown(would_hit));
+    landed.landing_us = 1;
+    sum.add(landed);
+  }
   EXPECT_EQ(sum.throws, 2);
   EXPECT_EQ(sum.would_have_hit, 1);
   EXPECT_EQ(sum.dodged, 0);
@@ -31,11 +41,11 @@ TEST(Tally, AThrowThatThePilotGaveUpOnIsNoDodgeButCounts) {
 
 TEST(Tally, AnErrorNeverCountsAsASuccess) {
   Tally sum;
-  sum.add(failed("diverged"), flown(true));
-  sum.add(flown(false), failed("diverged"));       // nobody knows whether it would have hit
-  sum.add(failed("worker died"), FlightResult{});  // nor here
-  sum.add(FlightResult{}, flown(true));            // not asked for: not judged
-  sum.add(failed("diverged"), flown(false));       // would have missed: no chance to dodge
+  sum.add(result_of(failed("diverged"), flown(true)));
+  sum.add(result_of(flown(false), failed("diverged")));  // nobody knows whether it would have hit
+  sum.add(result_of(failed("worker died"), FlightResult{}));  // nor here
+  sum.add(result_of(FlightResult{}, flown(true)));            // not asked for: not judged
+  sum.add(result_of(failed("diverged"), flown(false)));  // would have missed: no chance to dodge
   EXPECT_EQ(sum.throws, 4);
   EXPECT_EQ(sum.would_have_hit, 3);
   EXPECT_EQ(sum.dodged, 0);
@@ -44,10 +54,10 @@ TEST(Tally, AnErrorNeverCountsAsASuccess) {
 
 TEST(Tally, CollisionsAreCountedOverAllFlightsThatDidNotFail) {
   Tally sum;
-  sum.add(flown(true), flown(false));  // would have missed, walked into
-  sum.add(flown(false, true), flown(true));
-  sum.add(flown(false), failed("diverged"));
-  sum.add(failed("diverged"), flown(true));
+  sum.add(result_of(flown(true), flown(false)));  // would have missed, walked into
+  sum.add(result_of(flown(false, true), flown(true)));
+  sum.add(result_of(flown(false), failed("diverged")));
+  sum.add(result_of(failed("diverged"), flown(true)));
   EXPECT_EQ(sum.collisions.count, 2);
   EXPECT_EQ(sum.collisions.of, 3);
 }
