@@ -14,7 +14,7 @@ done
 . "$here/cluster.sh"
 
 shards=3
-throws=300
+throws=600  # a shard takes many times as long as to lose its node
 say() { echo "$SECONDS s: $*"; }
 
 fail() {
@@ -62,7 +62,7 @@ kill -STOP "${task[@]}"
 say "n1 is lost with shard $shard; killed ${#daemons[@]} daemons, stopped ${#task[@]} processes"
 known=$(stat -c %s "$first/results.bin")
 
-wait_until 90 more_than "$second/results.bin" $((known + 1000))
+wait_until 120 more_than "$second/results.bin" $((known + 1000))
 kill -CONT "${task[@]}"
 say "shard $shard is flown again on n2, and on the lost node, too"
 wait_until 60 test -e "$out/manifest.json"

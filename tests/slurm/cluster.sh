@@ -99,16 +99,18 @@ wait_until() {
 # Processes of the cluster in whose environment there is VARIABLE=VALUE; all without an argument.
 # shellcheck disable=SC2120
 processes() {
-  local environment pid
-  for environment in /proc/[0-9]*/environ; do
-    pid=${environment//[!0-9]/}
-    [ "$pid" -ne $$ ] || continue
-    { tr '\0' '\n' <"$environment" | grep -qxF "SLURM_CONF=$cluster_dir/slurm.conf"; } 2>/dev/null ||
-      continue
-    [ $# -eq 0 ] || { tr '\0' '\n' <"$environment" | grep -qxF "$1"; } 2>/dev/null || continue
-    echo "$pid"
+  local environments pid
+  environments=$(holding "SLURM_CONF=$cluster_dir/slurm.conf" /proc/[0-9]*/environ)
+  # shellcheck disable=SC2086
+  [ $# -eq 0 ] || environments=$(holding "$1" $environments)
+  for pid in ${environments//[!0-9$'\n']/}; do
+    [ "$pid" -eq $$ ] || echo "$pid"
   done
 }
+
+# Those of the files, entries with zeros behind them, in which VARIABLE=VALUE is one. In one go: a
+# flight does not wait for whoever looks for it.
+holding() { grep -lszxF -- "$1" "${@:2}" </dev/null || true; }
 
 # Kills with -9, until nothing is left that a dying process has started.
 stop_cluster() {
