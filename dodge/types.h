@@ -11,6 +11,10 @@ namespace dodge {
 
 using TimeUs = std::int64_t;
 
+inline constexpr double seconds(TimeUs t_us) { return 1e-6 * static_cast<double>(t_us); }
+
+inline constexpr double kGravityMps2 = 9.81;  // along -z of W
+
 // One brightness change. Streams of a camera are ordered by (t_us, y, x, polarity).
 struct Event {
   TimeUs t_us = 0;

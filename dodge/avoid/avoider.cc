@@ -5,10 +5,7 @@
 namespace dodge {
 namespace {
 
-constexpr double kSecondsPerUs = 1e-6;
 constexpr double kVertical = 1e-6;  // horizontal length below which an axis counts as vertical
-
-double seconds(TimeUs from, TimeUs to) { return static_cast<double>(to - from) * kSecondsPerUs; }
 
 // The vehicle's x axis without tilt: the heading of (30) is where the vehicle is turned to, not how
 // far it leans into its escape.
@@ -37,7 +34,7 @@ VelocityCommand Avoider::command(TimeUs now, const StateEstimate& state, const G
                                  std::span<const TrackedObstacle> obstacles) {
   VehicleMotion vehicle;
   vehicle.v_W = state.v_WB;
-  vehicle.p_W = state.p_WB + seconds(state.t_us, now) * state.v_WB;
+  vehicle.p_W = state.p_WB + seconds(now - state.t_us) * state.v_WB;
   vehicle.heading_W = heading(state.q_WB);
 
   const Eigen::Vector3d attractive_W =
@@ -59,9 +56,9 @@ Eigen::Vector3d Avoider::repulsion(TimeUs now, const VehicleMotion& vehicle,
     if (!tracked.confirmed) continue;
     const Obstacle& obstacle = tracked.obstacle;
     Ellipsoid ellipsoid = tracked.ellipsoid;
-    ellipsoid.centre_W += seconds(obstacle.t_us, now) * obstacle.v_WO;
+    ellipsoid.centre_W += seconds(now - obstacle.t_us) * obstacle.v_WO;
     repulsive_W += repulsive_.force(vehicle, ellipsoid, obstacle.v_WO,  // (34)
-                                    seconds(obstacle.last_detection_us, now));
+                                    seconds(now - obstacle.last_detection_us));
   }
   return repulsive_W;
 }

@@ -11,7 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kGravityMps2 = 9.81;
 constexpr double kStepS = 0.01;  // between predicted positions; the approach is refined within one
 constexpr int kDirections = 24;  // of escape, across the obstacle's line of flight
 constexpr double kNoSpeedMps = 1e-9;
@@ -59,7 +58,7 @@ class Course {
 class Fall {
  public:
   Fall(const TrackedObstacle& tracked, TimeUs now)
-      : tracked_(tracked), age_s_(1e-6 * static_cast<double>(now - tracked.obstacle.t_us)) {}
+      : tracked_(tracked), age_s_(seconds(now - tracked.obstacle.t_us)) {}
 
   Vector3d position(double t_s) const {
     const double s = age_s_ + t_s;

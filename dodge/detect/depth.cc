@@ -155,7 +155,7 @@ void DepthEstimator::append(const Cluster& cluster, double depth_m, double depth
   const auto age_us = static_cast<TimeUs>(std::llround((1 - cluster.time) * window_us_));
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   X_WB.linear() = state.q_WB.toRotationMatrix();
-  X_WB.translation() = state.p_WB - 1e-6 * static_cast<double>(age_us) * state.v_WB;
+  X_WB.translation() = state.p_WB - seconds(age_us) * state.v_WB;
   const Eigen::Isometry3d X_WC = X_WB * camera_.X_BC;  // (11)
 
   Detection detection;

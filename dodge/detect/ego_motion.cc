@@ -96,17 +96,18 @@ void EgoMotion::warp(std::span<const Event> events, float* __restrict u,
 
 void EgoMotion::set_motion(const Eigen::Vector3d& w_WC_C, TimeUs begin_us, TimeUs end_us) {
   const double length_us = static_cast<double>(end_us - begin_us);
+  const double length_s = seconds(end_us - begin_us);
   const Eigen::Vector3d w = config_.enabled ? w_WC_C : Eigen::Vector3d::Zero();
   // An event lies at most half a bin from the bin's centre.
-  const double travel_px = px_per_rad_ * w.norm() * 1e-6 * length_us;
+  const double travel_px = px_per_rad_ * w.norm() * length_s;
   const double needed = std::ceil(0.5 * travel_px / config_.max_error_px);
   const auto count =
       static_cast<std::size_t>(std::clamp(needed, 1.0, static_cast<double>(kMaxBins)));
   begin_us_ = begin_us;
   bins_per_us_ = length_us > 0 ? static_cast<float>(static_cast<double>(count) / length_us) : 0;
 
-  const double bin_s = 1e-6 * length_us / static_cast<double>(count);
-  const double reference_s = config_.reference == "end" ? 1e-6 * length_us : 0.0;
+  const double bin_s = length_s / static_cast<double>(count);
+  const double reference_s = config_.reference == "end" ? length_s : 0.0;
   Eigen::Matrix3d H = K_ * rodrigues(w * (0.5 * bin_s - reference_s));
   const Eigen::Matrix3d step = rodrigues(w * bin_s);  // same axis: the rotations commute
   bins_.clear();

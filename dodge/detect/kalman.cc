@@ -6,8 +6,6 @@
 namespace dodge {
 namespace {
 
-constexpr double kSecondsPerUs = 1e-6;
-constexpr double kGravityMps2 = 9.81;
 // The near and far centre are this far apart at least to give a line of sight.
 constexpr double kNoDirectionM = 1e-9;
 
@@ -48,7 +46,7 @@ Kalman::Kalman(const KalmanConfig& config, TimeUs t_us, const Eigen::Vector3d& z
 
 void Kalman::predict(TimeUs t_us) {
   if (t_us <= t_us_) return;
-  const double dt = static_cast<double>(t_us - t_us_) * kSecondsPerUs;  // (15)
+  const double dt = seconds(t_us - t_us_);  // (15)
   t_us_ = t_us;
   Matrix6d A = Matrix6d::Identity();  // (19)
   A.topRightCorner<3, 3>() = dt * Eigen::Matrix3d::Identity();

@@ -7,7 +7,7 @@ namespace {
 constexpr std::size_t kStates = 128;  // half a second at 250 Hz
 
 StateEstimate carry_on(const StateEstimate& from, TimeUs t_us) {
-  const double dt_s = 1e-6 * static_cast<double>(t_us - from.t_us);
+  const double dt_s = seconds(t_us - from.t_us);
   StateEstimate state = from;
   state.t_us = t_us;
   state.p_WB += dt_s * from.v_WB;

@@ -7,7 +7,7 @@ namespace dodge {
 void Landing::add(TimeUs t_us, double estimated_m, double measured_m) {
   const double ground_m = estimated_m - measured_m;
   const TimeUs passed_us = last_us_ ? t_us - *last_us_ : 0;
-  const double dt_s = 1e-6 * static_cast<double>(passed_us);
+  const double dt_s = seconds(passed_us);
   const double expected_m = ground_m_ + dt_s * drift_mps_;
   const double error_m = ground_m - expected_m;
   if (!last_us_ || passed_us > config_.fresh_us || std::abs(error_m) > config_.max_step_m) {
