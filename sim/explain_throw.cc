@@ -1,6 +1,7 @@
 #include "sim/explain_throw.h"
 
 #include <algorithm>
+#include <span>
 
 namespace dodgesim {
 
@@ -30,7 +31,41 @@ std::optional<Encounter> encounter(const FlightRecord& none) {
   return contact;
 }
 
-// The pilot's answer to the detection of an object: the evasive commands from then on.
+using Commands = std::span<const Testimony::Command>;
+
+// The commands from the first evasive one on.
+Commands answer(const Testimony& testimony, TimeUs from_us) {
+  const Commands all = testimony.commands;
+  const auto first = std::find_if(all.begin(), all.end(), [&](const Testimony::Command& command) {
+    return command.evading && command.t_us >= from_us;
+  });
+  return {first, all.end()};
+}
+
+// See CollisionEvidence::command_W.
+Vector3d mean_evasion(Commands commands) {
+  Vector3d sum_W = Vector3d::Zero();
+  int count = 0;
+  for (const Testimony::Command& command : commands) {
+    if (!command.evading) continue;
+    sum_W += command.v_W;
+    ++count;
+  }
+  return sum_W / count - commands.front().vehicle_v_W;
+}
+
+// See CollisionEvidence::commanded_path_W.
+Vector3d path(Commands commands, TimeUs contact_us) {
+  Vector3d path_W = Vector3d::Zero();
+  for (std::size_t i = 0; i < commands.size() && commands[i].t_us < contact_us; ++i) {
+    const TimeUs next_us = i + 1 < commands.size() ? commands[i + 1].t_us : contact_us;
+    path_W += seconds(std::min(next_us, contact_us) - commands[i].t_us) *
+              (commands[i].v_W - commands.front().vehicle_v_W);
+  }
+  return path_W;
+}
+
+// The pilot's answer to the detection of an object.
 void add_answer(const Testimony& testimony, const Testimony::Object& object, bool perceives,
                 CollisionEvidence& evidence) {
   TimeUs from_us = 0;
@@ -38,18 +73,13 @@ void add_answer(const Testimony& testimony, const Testimony::Object& object, boo
     if (object.detections.empty()) return;
     from_us = object.detections.front().output_us;
   }
-  Vector3d sum_W = Vector3d::Zero(), start_W = Vector3d::Zero();
-  int count = 0;
-  for (const Testimony::Command& command : testimony.commands) {
-    if (command.t_us < from_us) continue;
-    if (count++ == 0) {
-      evidence.command_us = command.t_us;
-      start_W = command.vehicle_v_W;
-    }
-    sum_W += command.v_W;
+  const Commands commands = answer(testimony, from_us);
+  if (commands.empty()) return;
+  evidence.command_us = commands.front().t_us;
+  evidence.command_W = mean_evasion(commands);
+  if (evidence.undisturbed) {
+    evidence.commanded_path_W = path(commands, evidence.undisturbed->contact_us);
   }
-  if (count == 0) return;
-  evidence.command_W = sum_W / count - start_W;
   for (const Testimony::Object::Detection& detection : object.detections) {
     if (detection.output_us <= *evidence.command_us) evidence.position_error_W = detection.error_W;
   }

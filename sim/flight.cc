@@ -247,9 +247,8 @@ void Flight::control() {
     rate_command_ = sent.command;
     const bool evading = sent.reference.evading;
     if (observer_ != nullptr) observer_->on_command(now, evading);
-    if (!evading) return;
-    if (!record_.first_command_us) record_.first_command_us = now;
-    witness_.add_command(world_.snapshot(), sent.reference.v_W);
+    if (evading && !record_.first_command_us) record_.first_command_us = now;
+    witness_.add_command(world_.snapshot(), sent.reference);
   });
   motors_.set_command(now, flight_controller_.step(now, rate_command_, gyro_B_radps_));
 }

@@ -85,9 +85,10 @@ void Witness::add_detection(const DetectionRow& row) {
   shown.push_back({row.output_us, vector(row.p_W), true_object});
 }
 
-void Witness::add_command(const Snapshot& now, const Eigen::Vector3d& v_W) {
+void Witness::add_command(const Snapshot& now, const VelocityReference& reference) {
   const bool any = std::find(now.launched.begin(), now.launched.end(), true) != now.launched.end();
-  if (any) testimony_.commands.push_back({now.t_us, v_W, now.vehicle.v_W});
+  if (!any) return;
+  testimony_.commands.push_back({now.t_us, reference.evading, reference.v_W, now.vehicle.v_W});
 }
 
 Testimony Witness::testimony() const {

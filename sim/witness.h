@@ -1,5 +1,5 @@
 // Keeps of a flight what is asked afterwards: when each object could be seen and was detected, the
-// evasive commands, and the course for the eye.
+// commands, and the course for the eye.
 #pragma once
 
 #include <array>
@@ -27,9 +27,10 @@ struct Testimony {
     };
     std::vector<Detection> detections;
   };
-  // An evasive command at the flight controller while an object is in flight.
+  // A command at the flight controller while an object is in flight.
   struct Command {
     TimeUs t_us = 0;
+    bool evading = false;
     Eigen::Vector3d v_W = Eigen::Vector3d::Zero();
     Eigen::Vector3d vehicle_v_W = Eigen::Vector3d::Zero();
   };
@@ -51,8 +52,8 @@ class Witness {
   // Call after each tick, with the velocity that the controller is asked for.
   void observe(const World& world, const VelocityReference& reference);
   void add_detection(const DetectionRow& row);
-  // An evasive command has reached the flight controller.
-  void add_command(const Snapshot& now, const Eigen::Vector3d& v_W);
+  // A command has reached the flight controller.
+  void add_command(const Snapshot& now, const VelocityReference& reference);
 
   Testimony testimony() const;
 

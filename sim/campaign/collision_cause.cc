@@ -20,6 +20,13 @@ constexpr int kDirections = 72;
 // The part of v across the unit vector `along`.
 Vector3d across(const Vector3d& v, const Vector3d& along) { return v - v.dot(along) * along; }
 
+// Whether a vehicle that followed every command at once would have got out of the way, in the
+// direction of the commands.
+bool commanded_enough(const CollisionEvidence& evidence) {
+  const auto e = escape_direction(*evidence.undisturbed, evidence.command_W);
+  return e && e->dot(evidence.commanded_path_W) >= distance_to_escape_m(*evidence.undisturbed, *e);
+}
+
 }  // namespace
 
 std::string to_text(CollisionCause cause) {
@@ -36,6 +43,8 @@ std::string to_text(CollisionCause cause) {
       return "wrong position";
     case CollisionCause::kWrongDirection:
       return "wrong direction";
+    case CollisionCause::kCommandedTooLittle:
+      return "commanded too little";
     case CollisionCause::kNotEnoughThrust:
       return "not enough thrust";
     case CollisionCause::kLanding:
@@ -80,15 +89,21 @@ double time_to_move_s(const Agility& agility, const Vector3d& direction_W, doubl
   return agility.dead_time_s + least_s;
 }
 
+std::optional<Vector3d> escape_direction(const Encounter& encounter, const Vector3d& direction_W) {
+  const Vector3d sideways = across(direction_W, encounter.velocity_W.normalized());
+  if (sideways.norm() <= 1e-6 * direction_W.norm()) return std::nullopt;
+  return sideways.normalized();
+}
+
+double distance_to_escape_m(const Encounter& encounter, const Vector3d& escape_W) {
+  return encounter.hull_reach_m(-escape_W) + encounter.object_radius_m +
+         escape_W.dot(encounter.offset_W);
+}
+
 double time_to_escape_s(const Agility& agility, const Encounter& encounter,
                         const Vector3d& direction_W) {
-  const Vector3d flight = encounter.velocity_W.normalized();
-  const Vector3d sideways = across(direction_W, flight);
-  if (sideways.norm() <= 1e-6 * direction_W.norm()) return kInfinity;
-  const Vector3d e = sideways.normalized();
-  const double distance_m =
-      encounter.hull_reach_m(-e) + encounter.object_radius_m + e.dot(encounter.offset_W);
-  return time_to_move_s(agility, e, distance_m);
+  const std::optional<Vector3d> e = escape_direction(encounter, direction_W);
+  return e ? time_to_move_s(agility, *e, distance_to_escape_m(encounter, *e)) : kInfinity;
 }
 
 double least_time_to_escape_s(const Agility& agility, const Encounter& encounter) {
@@ -129,7 +144,10 @@ CollisionVerdict judge_collision(const Agility& agility, const CollisionEvidence
   const auto in_time = [&](const Encounter& encounter) {
     return *verdict.left_s >= time_to_escape_s(agility, encounter, evidence.command_W);
   };
-  if (in_time(*evidence.undisturbed)) return is(CollisionCause::kNotEnoughThrust);
+  if (in_time(*evidence.undisturbed)) {
+    return is(commanded_enough(evidence) ? CollisionCause::kNotEnoughThrust
+                                         : CollisionCause::kCommandedTooLittle);
+  }
   Encounter believed = *evidence.undisturbed;
   believed.offset_W += evidence.position_error_W;
   return is(in_time(believed) ? CollisionCause::kWrongPosition : CollisionCause::kWrongDirection);

@@ -1,20 +1,24 @@
 // Why a flight came to harm, from the truth. A collision is held against what the vehicle's rotors
 // allow, whatever its pilot and controller made of it:
 //
-//   not seen            the object was never in view of a camera
-//   not detected        in view, but no detection was of it
-//   second object       the pilot had detected another object before this one
-//   seen late           when the evasive command arrived, if it did, no direction was left in
-//                       which the vehicle could have got out of the way in time
-//   wrong position      some direction was left, but not the commanded one, which would have been
-//                       right had the object been where it was detected
-//   wrong direction     some direction was left, but not the commanded one; or nothing would have
-//                       happened without the evasion
-//   not enough thrust   the commanded direction was right and the command early enough: the vehicle
-//                       or its controller did not get out of it what its rotors have
-//   landing             the pilot had begun an emergency landing before, on which it dodges nobody
-//   fled into the room  no object touched the vehicle, but it touched the room, having evaded
-//   flew into the room  likewise, without having evaded: its estimate or its mission led it there
+//   not seen              the object was never in view of a camera
+//   not detected          in view, but no detection was of it
+//   second object         the pilot had detected another object before this one
+//   seen late             when the evasive command arrived, if it did, no direction was left in
+//                         which the vehicle could have got out of the way in time
+//   wrong position        some direction was left, but not the commanded one, which would have been
+//                         right had the object been where it was detected
+//   wrong direction       some direction was left, but not the commanded one; or nothing would have
+//                         happened without the evasion
+//   commanded too little  the commanded direction was right and the command early enough, but even
+//                         a vehicle that follows every command at once would not have got out of
+//                         the way: the pilot asked for too low a speed, or stopped too early
+//   not enough thrust     such a vehicle would have got out of the way: this one or its controller
+//                         did not follow as fast as its rotors allow
+//   landing               the pilot had begun an emergency landing before, on which it dodges
+//                         nobody
+//   fled into the room    no object touched the vehicle, but it touched the room, having evaded
+//   flew into the room    likewise, without having evaded: its estimate or its mission led it there
 #pragma once
 
 #include <Eigen/Dense>
@@ -36,18 +40,24 @@ enum class CollisionCause {
   kSeenLate,
   kWrongPosition,
   kWrongDirection,
+  kCommandedTooLittle,
   kNotEnoughThrust,
   kLanding,
   kFledIntoTheRoom,
   kFlewIntoTheRoom,
 };
 
-inline constexpr std::array kCollisionCauses = {
-    CollisionCause::kNotSeen,         CollisionCause::kNotDetected,
-    CollisionCause::kSecondObject,    CollisionCause::kSeenLate,
-    CollisionCause::kWrongPosition,   CollisionCause::kWrongDirection,
-    CollisionCause::kNotEnoughThrust, CollisionCause::kLanding,
-    CollisionCause::kFledIntoTheRoom, CollisionCause::kFlewIntoTheRoom};
+inline constexpr std::array kCollisionCauses = {CollisionCause::kNotSeen,
+                                                CollisionCause::kNotDetected,
+                                                CollisionCause::kSecondObject,
+                                                CollisionCause::kSeenLate,
+                                                CollisionCause::kWrongPosition,
+                                                CollisionCause::kWrongDirection,
+                                                CollisionCause::kCommandedTooLittle,
+                                                CollisionCause::kNotEnoughThrust,
+                                                CollisionCause::kLanding,
+                                                CollisionCause::kFledIntoTheRoom,
+                                                CollisionCause::kFlewIntoTheRoom};
 
 std::string to_text(CollisionCause cause);
 
@@ -79,9 +89,17 @@ struct Encounter {
   std::function<double(const Eigen::Vector3d&)> hull_reach_m;
 };
 
-// Least time to get out of the way of the encounter by moving along `direction_W`, which is taken
-// across the relative velocity; infinite if nothing of it is. The vehicle is out of the way when a
-// plane that holds the line of flight divides it from the object.
+// The unit vector along the part of `direction_W` across the relative velocity; empty if there is
+// none.
+std::optional<Eigen::Vector3d> escape_direction(const Encounter& encounter,
+                                                const Eigen::Vector3d& direction_W);
+
+// How far the vehicle must move along an escape direction to be out of the way of the encounter:
+// until a plane that holds the line of flight divides it from the object.
+double distance_to_escape_m(const Encounter& encounter, const Eigen::Vector3d& escape_W);
+
+// Least time to get out of the way of the encounter along escape_direction(); infinite if there is
+// none.
 double time_to_escape_s(const Agility& agility, const Encounter& encounter,
                         const Eigen::Vector3d& direction_W);
 
@@ -101,6 +119,11 @@ struct CollisionEvidence {
   std::optional<TimeUs> command_us;      // first evasive command after the detection
   // Mean of the evasive commands, less the vehicle's velocity when the first arrived.
   Eigen::Vector3d command_W = Eigen::Vector3d::Zero();
+  // How far the commands, evasive or not, lead from the course that the vehicle was on when that
+  // one arrived: the integral of commanded velocity less the vehicle's velocity at the first
+  // command, from then to the contact of `undisturbed`. Each command holds until the next, the last
+  // to the contact.
+  Eigen::Vector3d commanded_path_W = Eigen::Vector3d::Zero();
   // Of the object's newest detection before that command: detected less true position.
   Eigen::Vector3d position_error_W = Eigen::Vector3d::Zero();
 };

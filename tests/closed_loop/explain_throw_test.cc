@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/campaign/trajectory.h"
+#include "sim/explain_throw.h"
 #include "tests/closed_loop/flights.h"
 
 namespace dodgesim {
@@ -43,6 +44,68 @@ TEST(ExplainThrow, ToldOfItAtHalfAMetreItIsTooLate) {
   // Upward, 9 degrees off the vertical as the ball still climbs: 8 cm of camera housing, 10 cm of
   // ball and 1 cm of drop at 28 m/s^2, after 40 ms of motors and 17 ms of tilt.
   EXPECT_NEAR(*result.escape_needed_s, 0.04 + 0.017 + 0.1154, 0.004);
+}
+
+// 0.5 s to the contact, of which upward 0.17 s are needed and 0.19 m.
+TEST(ExplainThrow, APilotThatAsksForASlowEscapeCommandsTooLittle) {
+  const std::string slow = "dodger: {velocity_limit: {max_speed_mps: 0.3}}\n";
+  const ThrowResult result = fly_throw(head_on("oracle", "speed_mps: 4", 0.2, slow), 0);
+  ASSERT_TRUE(result.flown.hit);
+  EXPECT_GT(*result.escape_left_s, *result.escape_needed_s);
+  EXPECT_EQ(result.cause, "commanded too little");
+}
+
+TEST(ExplainThrow, AControllerThatDoesNotFollowDoesNotUseTheThrust) {
+  const std::string dull = "controller: {evading_speed_limit_mps: 0.3}\n";
+  const ThrowResult result = fly_throw(head_on("oracle", "speed_mps: 4", 0.2, dull), 0);
+  ASSERT_TRUE(result.flown.hit);
+  EXPECT_EQ(result.cause, "not enough thrust");
+}
+
+// Nobody flew this: a ball of 20 cm comes along x at a vehicle that is a point, and would hit it
+// after 1 s. From 0.5 s on it is commanded upward.
+std::string cause_of(const std::vector<Testimony::Command>& commands) {
+  FlightRecord none;
+  none.verdict.nearest.hit = true;
+  none.verdict.nearest.hit_us = 1000000;
+  none.verdict.nearest_object = 0;
+  none.last.objects.resize(1);
+  none.last.objects[0].p_W.x() = 0.1;
+  none.last.objects[0].v_W.x() = -6;
+  none.testimony.trajectory.sizes_m = {0.2};
+  FlightRecord flown = none;
+  flown.agility = {38, 404, 0.04};
+  flown.testimony.objects.resize(1);
+  flown.testimony.commands = commands;
+  flown.first_command_us = commands.front().t_us;
+  FlightPlan plan;
+  plan.pilot = "oracle";
+  ThrowResult result;
+  result.flown.hit = true;
+  explain_throw(plan, &none, flown, result);
+  return result.cause;
+}
+
+TEST(ExplainThrow, WhereTheCommandsLeadDecidesWhetherTheyWereEnough) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), still = Eigen::Vector3d::Zero();
+  // 0.1 m are needed, in 0.5 s.
+  EXPECT_EQ(cause_of({{500000, true, 0.21 * up, still}}), "not enough thrust");
+  EXPECT_EQ(cause_of({{500000, true, 0.19 * up, still}}), "commanded too little");
+  EXPECT_EQ(cause_of({{400000, false, 5 * up, still}, {500000, true, 0.19 * up, still}}),
+            "commanded too little");
+  // It rose anyway.
+  EXPECT_EQ(cause_of({{500000, true, 0.3 * up, 0.11 * up}}), "commanded too little");
+  EXPECT_EQ(cause_of({{500000, true, 0.3 * up, 0.09 * up}}), "not enough thrust");
+  // It stops, for good or for a while.
+  EXPECT_EQ(cause_of({{500000, true, up, still}, {590000, false, still, up}}),
+            "commanded too little");
+  EXPECT_EQ(cause_of({{500000, true, up, still}, {610000, false, still, up}}), "not enough thrust");
+  EXPECT_EQ(
+      cause_of({{500000, true, up, still}, {590000, false, still, up}, {980000, true, up, still}}),
+      "not enough thrust");
+  // What comes after the ball is of no use.
+  EXPECT_EQ(cause_of({{500000, true, 0.19 * up, still}, {1000000, true, 5 * up, still}}),
+            "commanded too little");
 }
 
 TEST(ExplainThrow, ADodgeHasNoCause) {

@@ -33,6 +33,7 @@ CollisionEvidence evidence(TimeUs command_us, const Vector3d& command_W) {
   evidence.undisturbed = head_on();
   evidence.command_us = command_us;
   evidence.command_W = command_W;
+  evidence.commanded_path_W = command_W.normalized();  // 1 m
   return evidence;
 }
 
@@ -117,6 +118,36 @@ TEST(CollisionCause, ADirectionThatTakesTooLongIsWrongWhereAnotherWouldNot) {
   EXPECT_EQ(cause(evidence(800000, kLeft)), CollisionCause::kWrongDirection);
   EXPECT_EQ(cause(evidence(750000, kLeft)), CollisionCause::kNotEnoughThrust);
   EXPECT_EQ(cause(evidence(100000, {-5, 0, 0})), CollisionCause::kWrongDirection);
+}
+
+// To the left the ball's radius and the hull's reach are 0.27 m.
+TEST(CollisionCause, CommandsThatLeadTooShortAWayAreTooLittle) {
+  CollisionEvidence timid = evidence(500000, kLeft);
+  timid.commanded_path_W = 0.271 * kLeft;
+  EXPECT_EQ(cause(timid), CollisionCause::kNotEnoughThrust);
+  timid.commanded_path_W = 0.269 * kLeft;
+  EXPECT_EQ(cause(timid), CollisionCause::kCommandedTooLittle);
+  timid.undisturbed->offset_W.y() = -0.01;  // the ball comes from the right
+  EXPECT_EQ(cause(timid), CollisionCause::kNotEnoughThrust);
+}
+
+TEST(CollisionCause, OnlyTheCommandedWayAlongTheEscapeCounts) {
+  CollisionEvidence swerving = evidence(500000, kLeft);
+  swerving.commanded_path_W = {-3, 0.2, 0};
+  EXPECT_EQ(cause(swerving), CollisionCause::kCommandedTooLittle);
+  swerving.commanded_path_W = {-3, 0.3, 1};
+  EXPECT_EQ(cause(swerving), CollisionCause::kNotEnoughThrust);
+  swerving.commanded_path_W = {0, -1, 0};  // back again
+  EXPECT_EQ(cause(swerving), CollisionCause::kCommandedTooLittle);
+}
+
+TEST(CollisionCause, TooLateOrTheWrongWayIsNotTooLittle) {
+  for (const TimeUs command_us : {900000, 800000}) {
+    CollisionEvidence late = evidence(command_us, kLeft);
+    const CollisionCause before = cause(late);
+    late.commanded_path_W.setZero();
+    EXPECT_EQ(cause(late), before);
+  }
 }
 
 TEST(CollisionCause, ADirectionThatFitsWhatWasDetectedIsAWrongPosition) {
