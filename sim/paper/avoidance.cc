@@ -1,11 +1,14 @@
 // The avoidance experiments, indoors and outdoors: the paper's pilot, an oracle that is told of the
 // object within the same 1.5 m, and dodgesim, on the same throws.
-#include <algorithm>
 #include <functional>
 #include <set>
+#include <span>
+#include <sstream>
 
+#include "dodge/presets.h"
 #include "sim/campaign/text_table.h"
 #include "sim/paper/experiment.h"
+#include "sim/paper/losses.h"
 #include "sim/paper/pair.h"
 
 namespace dodgesim {
@@ -20,27 +23,56 @@ constexpr const char* kProtocol = R"(How the protocol is read:
 - *Oracle*: is told of the object's true state within 1.5 m of the camera, and then avoids it like
   falanga2020. It bounds what perception costs.
 - *falanga2020* believes nothing beyond 1.5 m, as in the paper.
+- *What perception lost*: here each pilot has an oracle of its own, which avoids like the pilot and
+  is told of objects as far away as the pilot may believe them (`dodger.position.max_range_m`). A
+  throw that the pilot lost and its oracle dodged is perception's loss; one that both lost is the
+  loss of avoidance, controller and rotors, for which the object came too fast from that range. A
+  pilot may also dodge what its oracle loses: the rates of the two are not nested. Throws with a
+  flight that failed are left out.
 - Intervals: 95 %, Wilson. p: exact McNemar test on the throws that one of the two pilots dodged
   and the other did not.
 )";
 
+constexpr const char* kSecondPilot = "dodgesim";
+
+// A name in front of rows, and the throws in them; an empty name stands for all throws of a set.
 struct Group {
   std::string name;
-  std::size_t set;  // of two campaigns: that of falanga2020, then that of dodgesim
   std::function<bool(const ThrowResult&)> belongs;
 };
 
+bool any_throw(const ThrowResult&) { return true; }
+
+// The throws of one scenario.
+struct Set {
+  std::string name;
+  const LoadedCampaign* falanga2020;
+  const LoadedCampaign* dodgesim;
+};
+using Sets = std::span<const Set>;
+
+// Each scenario by falanga2020 and then by dodgesim, whose oracle is told of what it may believe.
 std::vector<PaperFlight> flights_of_both(const std::vector<std::string>& scenarios) {
+  std::ostringstream range_m;
+  range_m << dodge::preset(kSecondPilot).position.max_range_m;
   std::vector<PaperFlight> flights;
   for (const std::string& scenario : scenarios) {
     flights.push_back({scenario + "_falanga2020", scenario + ".yaml", {}});
-    flights.push_back(
-        {scenario + "_dodgesim", scenario + ".yaml", {paper_setting("pilot", "dodgesim")}});
+    flights.push_back({scenario + "_dodgesim",
+                       scenario + ".yaml",
+                       {paper_setting("pilot", kSecondPilot),
+                        paper_setting("oracle.range_cap_m", range_m.str())}});
   }
   return flights;
 }
 
 std::string p_text(double p) { return p < 0.0001 ? "< 0.0001" : fixed_text(p, 4); }
+
+PilotPair pair_of(Sets sets, const std::function<bool(const ThrowResult&)>& belongs) {
+  PilotPair pair;
+  for (const Set& set : sets) pair.add(*set.falanga2020, *set.dodgesim, belongs);
+  return pair;
+}
 
 std::vector<std::string> success_row(const std::string& name, const PilotPair& pair) {
   return {name,
@@ -51,6 +83,46 @@ std::vector<std::string> success_row(const std::string& name, const PilotPair& p
           p_text(mcnemar(pair.paired)),
           rate_text(pair.first_unharmed),
           rate_text(pair.second_unharmed)};
+}
+
+void add_success(const std::string& name, Sets sets, const std::vector<Group>& groups,
+                 TextTable& table) {
+  for (const Group& group : groups) {
+    const PilotPair pair = pair_of(sets, group.belongs);
+    if (pair.first_unharmed.of == 0) continue;
+    table.rows.push_back(success_row(group.name.empty() ? name : name + ", " + group.name, pair));
+  }
+}
+
+// The range within which the campaign's oracle is told of objects.
+std::string range_text(const LoadedCampaign& campaign) {
+  const double range_m = campaign.scenario.oracle.range_cap_m;
+  if (range_m == 0) return "any";
+  std::ostringstream text;
+  text << range_m << " m";
+  return text.str();
+}
+
+// "27 not detected, 3 seen late".
+std::string causes_text(const std::map<std::string, int>& causes) {
+  std::string text;
+  for (const auto& [cause, count] : causes) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + cause;
+  }
+  return text;
+}
+
+void add_losses(const std::string& name, Sets sets, const LoadedCampaign* Set::*pilot,
+                TextTable& table) {
+  Losses losses;
+  for (const Set& set : sets) {
+    for (const ThrowResult& result : (set.*pilot)->results) losses.add(result);
+  }
+  table.rows.push_back({name, pilot == &Set::falanga2020 ? "falanga2020" : kSecondPilot,
+                        rate_text(losses.dodged()), range_text(*(sets.front().*pilot)),
+                        rate_text(losses.dodged_by_oracle()),
+                        rate_text(losses.lost_to_perception()), causes_text(losses.perception),
+                        rate_text(losses.lost_to_actuation()), causes_text(losses.actuation)});
 }
 
 TextTable cause_table(const PilotPair& all) {
@@ -69,11 +141,19 @@ TextTable cause_table(const PilotPair& all) {
   return table;
 }
 
-// set_names: what each set of two campaigns is called above its table of causes.
-PaperTables avoidance_tables(const std::vector<LoadedCampaign>& campaigns,
-                             const std::vector<Group>& groups,
-                             const std::vector<std::string>& set_names) {
-  TextTable success;
+std::string causes_of_each(Sets sets) {
+  std::string text;
+  for (const Set& set : sets) {
+    const TextTable table = cause_table(pair_of({&set, 1}, any_throw));
+    if (!table.rows.empty()) text += set.name + ":\n\n" + table.to_markdown() + "\n";
+  }
+  return text;
+}
+
+// Rows for the groups of each set and, if there are several, of all of them together.
+PaperTables avoidance_tables(Sets sets, const std::vector<Group>& groups,
+                             const std::string& all_sets) {
+  TextTable success, losses;
   success.head = {"throws",
                   "falanga2020: dodged / would have hit",
                   "oracle",
@@ -82,48 +162,51 @@ PaperTables avoidance_tables(const std::vector<LoadedCampaign>& campaigns,
                   "p",
                   "all throws, falanga2020: unharmed",
                   "all throws, dodgesim"};
-  std::string causes;
-  for (const Group& group : groups) {
-    const PilotPair pair =
-        compare_pilots(campaigns[2 * group.set], campaigns[2 * group.set + 1], group.belongs);
-    if (pair.first_unharmed.of == 0) continue;
-    success.rows.push_back(success_row(group.name, pair));
-  }
-  for (std::size_t set = 0; set < set_names.size(); ++set) {
-    const PilotPair all = compare_pilots(campaigns[2 * set], campaigns[2 * set + 1],
-                                         [](const ThrowResult&) { return true; });
-    const TextTable table = cause_table(all);
-    if (table.rows.empty()) continue;
-    causes += set_names[set] + ":\n\n" + table.to_markdown() + "\n";
-  }
-  return {success.to_markdown() + "\n" + causes + kProtocol, success.to_csv()};
+  losses.head = {"throws",
+                 "pilot",
+                 "dodged / would have hit",
+                 "range of its oracle",
+                 "dodged by its oracle",
+                 "lost to perception: its oracle dodged",
+                 "causes",
+                 "lost to actuation and range: its oracle lost, too",
+                 "causes"};
+  const auto add = [&](const std::string& name, Sets some) {
+    add_success(name, some, groups, success);
+    add_losses(name, some, &Set::falanga2020, losses);
+    add_losses(name, some, &Set::dodgesim, losses);
+  };
+  for (const Set& set : sets) add(set.name, {&set, 1});
+  if (sets.size() > 1) add(all_sets, sets);
+  return {success.to_markdown() + "\nWhat perception lost:\n\n" + losses.to_markdown() + "\n" +
+              causes_of_each(sets) + kProtocol,
+          success.to_csv()};
 }
 
-// The groups of a set of throws by their speed.
-void add_speeds(const LoadedCampaign& campaign, std::size_t set, std::vector<Group>& groups) {
-  struct Band {
-    double from, to;
-    const char* name;
+// The campaigns of falanga2020 and dodgesim take turns.
+Set set_of(const std::string& name, const std::vector<LoadedCampaign>& campaigns,
+           std::size_t number) {
+  return {name, &campaigns[2 * number], &campaigns[2 * number + 1]};
+}
+
+std::vector<Group> speed_bands() {
+  const auto band = [](const std::string& name, double from_mps, double to_mps) {
+    return Group{name, [=](const ThrowResult& result) {
+                   return result.speed_mps >= from_mps && result.speed_mps < to_mps;
+                 }};
   };
-  constexpr Band kBands[] = {
-      {0, 6.01, "to 6 m/s"}, {6.01, 8.01, "6 to 8 m/s"}, {8.01, 30, "above 8 m/s"}};
-  const std::string& name = campaign.scenario.name;
-  for (const Band& band : kBands) {
-    groups.push_back({name + ", " + band.name, set, [band](const ThrowResult& result) {
-                        return result.speed_mps >= band.from && result.speed_mps < band.to;
-                      }});
-  }
-  groups.push_back({name + ", all", set, [](const ThrowResult&) { return true; }});
+  return {band("to 6 m/s", 0, 6.01),
+          band("6 to 8 m/s", 6.01, 8.01),
+          band("above 8 m/s", 8.01, 30),
+          {"all", any_throw}};
 }
 
 PaperTables by_speed(const std::vector<LoadedCampaign>& campaigns) {
-  std::vector<Group> groups;
-  std::vector<std::string> set_names;
-  for (std::size_t set = 0; 2 * set < campaigns.size(); ++set) {
-    add_speeds(campaigns[2 * set], set, groups);
-    set_names.push_back(campaigns[2 * set].scenario.name);
+  std::vector<Set> sets;
+  for (std::size_t i = 0; 2 * i < campaigns.size(); ++i) {
+    sets.push_back(set_of(campaigns[2 * i].scenario.name, campaigns, i));
   }
-  return avoidance_tables(campaigns, groups, set_names);
+  return avoidance_tables(sets, speed_bands(), "all sets");
 }
 
 // A shape of figure S6 and its longest extension.
@@ -148,13 +231,12 @@ std::vector<PaperFlight> flights_of_shapes() {
 }
 
 PaperTables by_shape(const std::vector<LoadedCampaign>& campaigns) {
-  std::vector<Group> groups;
-  std::vector<std::string> set_names;
-  for (std::size_t set = 0; set < std::size(kShapes); ++set) {
-    set_names.push_back(std::string(kShapes[set].object) + ", " + kShapes[set].size_m + " m");
-    groups.push_back({set_names.back(), set, [](const ThrowResult&) { return true; }});
+  std::vector<Set> sets;
+  for (const Shape& shape : kShapes) {
+    const std::string name = std::string(shape.object) + ", " + shape.size_m + " m";
+    sets.push_back(set_of(name, campaigns, sets.size()));
   }
-  return avoidance_tables(campaigns, groups, set_names);
+  return avoidance_tables(sets, {{"", any_throw}}, "all shapes");
 }
 
 }  // namespace

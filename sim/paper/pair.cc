@@ -12,8 +12,8 @@ bool same_throw(const ThrowResult& a, const ThrowResult& b) {
          a.bearing_deg == b.bearing_deg && a.none.hit == b.none.hit;
 }
 
-void add(const ThrowResult& result, Tally& tally, Rate& unharmed,
-         std::map<std::string, int>& causes) {
+void count(const ThrowResult& result, Tally& tally, Rate& unharmed,
+           std::map<std::string, int>& causes) {
   tally.add(result);
   unharmed.add(result.flown.unharmed());
   if (!result.cause.empty()) ++causes[result.cause];
@@ -21,24 +21,22 @@ void add(const ThrowResult& result, Tally& tally, Rate& unharmed,
 
 }  // namespace
 
-PilotPair compare_pilots(const LoadedCampaign& first, const LoadedCampaign& second,
-                         const std::function<bool(const ThrowResult&)>& belongs) {
-  if (first.results.size() != second.results.size()) {
+void PilotPair::add(const LoadedCampaign& first_flew, const LoadedCampaign& second_flew,
+                    const std::function<bool(const ThrowResult&)>& belongs) {
+  if (first_flew.results.size() != second_flew.results.size()) {
     throw std::invalid_argument("The two pilots flew different numbers of throws.");
   }
-  PilotPair pair;
-  for (std::size_t i = 0; i < first.results.size(); ++i) {
-    const ThrowResult &a = first.results[i], &b = second.results[i];
+  for (std::size_t i = 0; i < first_flew.results.size(); ++i) {
+    const ThrowResult &a = first_flew.results[i], &b = second_flew.results[i];
     if (!same_throw(a, b)) {
       throw std::invalid_argument("The two pilots flew different throws.");
     }
     if (!belongs(a)) continue;
-    add(a, pair.first, pair.first_unharmed, pair.first_causes);
-    add(b, pair.second, pair.second_unharmed, pair.second_causes);
-    pair.oracle.add(a, &ThrowResult::oracle);
-    if (a.none.hit) pair.paired.add(a.dodged(), b.dodged());
+    count(a, first, first_unharmed, first_causes);
+    count(b, second, second_unharmed, second_causes);
+    oracle.add(a, &ThrowResult::oracle);
+    if (a.none.hit) paired.add(a.dodged(), b.dodged());
   }
-  return pair;
 }
 
 }  // namespace dodgesim

@@ -4,7 +4,6 @@
 #include <functional>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "sim/campaign/load_campaign.h"
 #include "sim/campaign/paired.h"
@@ -18,11 +17,11 @@ struct PilotPair {
   Rate first_unharmed, second_unharmed;  // neither hit nor crashed, of all throws
   PairedCounts paired;                   // dodged by the first and by the second
   std::map<std::string, int> first_causes, second_causes;  // of hits and crashes
-};
 
-// Counts the throws that belong. The campaigns hold the same throws; throws std::invalid_argument
-// if they do not.
-PilotPair compare_pilots(const LoadedCampaign& first, const LoadedCampaign& second,
-                         const std::function<bool(const ThrowResult&)>& belongs);
+  // Counts the throws that belong. The campaigns hold the same throws; throws
+  // std::invalid_argument if they do not.
+  void add(const LoadedCampaign& first_flew, const LoadedCampaign& second_flew,
+           const std::function<bool(const ThrowResult&)>& belongs);
+};
 
 }  // namespace dodgesim

@@ -22,5 +22,63 @@ TEST(AvoidanceTables, NameTheShapeAboveItsCauses) {
   EXPECT_THAT(tables, Not(HasSubstr("\nball, 0.1 m:")));  // nothing hit it
 }
 
+// The flights of three sets, of which hover's are given.
+std::vector<LoadedCampaign> outdoors(const LoadedCampaign& falanga2020,
+                                     const LoadedCampaign& dodgesim) {
+  const LoadedCampaign one = campaign({thrown(0, true, false)});
+  std::vector<LoadedCampaign> campaigns = {falanga2020, dodgesim, one, one, one, one};
+  const char* const names[] = {"hover", "goal flight", "several balls"};
+  for (std::size_t i = 0; i < campaigns.size(); ++i) campaigns[i].scenario.name = names[i / 2];
+  return campaigns;
+}
+
+TEST(AvoidanceTables, HaveRowsOfAllSetsTogether) {
+  const LoadedCampaign lost = campaign({thrown(0, true, true, "seen late"),    // 4 m/s
+                                        thrown(1, true, true, "seen late")});  // 8 m/s
+  const LoadedCampaign dodged = campaign({thrown(0, true, false), thrown(1, true, false)});
+  const PaperTables tables = outdoor_experiment().analyse(outdoors(lost, dodged));
+  EXPECT_THAT(tables.markdown, HasSubstr("\n| hover, 6 to 8 m/s | 0 / 1 ("));
+  EXPECT_THAT(tables.markdown, HasSubstr("\n| all sets, to 6 m/s | 2 / 3 ("));
+  EXPECT_THAT(tables.markdown, HasSubstr("\n| all sets, 6 to 8 m/s | 0 / 1 ("));
+  EXPECT_THAT(tables.markdown, Not(HasSubstr("above 8 m/s")));  // nobody threw so fast
+  EXPECT_THAT(tables.csv, HasSubstr("\n\"all sets, all\",\"2 / 4 ("));
+  EXPECT_THAT(tables.csv, HasSubstr(",0 / 2,0.5000,"));
+}
+
+TEST(AvoidanceTables, OneSetHasNoRowsOfAllSets) {
+  const LoadedCampaign one = campaign({thrown(0, true, false)});
+  EXPECT_THAT(indoor_experiment().analyse({one, one}).markdown, Not(HasSubstr("all sets")));
+}
+
+TEST(AvoidanceTables, KeepLossesOfPerceptionApartFromThoseOfActuation) {
+  ThrowResult missed = thrown(0, true, true, "not detected"),
+              late = thrown(1, true, true, "seen late");
+  late.oracle.hit = true;
+  LoadedCampaign lost = campaign({missed, late}), dodged = campaign({missed, late});
+  lost.scenario.oracle.range_cap_m = 1.5;
+  for (ThrowResult& result : dodged.results) {
+    result.flown.hit = false;
+    result.cause = "";
+  }
+  const std::string tables = outdoor_experiment().analyse(outdoors(lost, dodged)).markdown;
+  const std::string half = rate_text({1, 2}), none = rate_text({0, 2}), both = rate_text({2, 2});
+  EXPECT_THAT(tables, HasSubstr("\n| hover | falanga2020 | " + none + " | 1.5 m | " + half + " | " +
+                                half + " | 1 not detected | " + half + " | 1 seen late |\n"));
+  EXPECT_THAT(tables, HasSubstr("\n| hover | dodgesim | " + both + " | any | " + half + " | " +
+                                none + " |  | " + none + " |  |\n"));
+  EXPECT_THAT(tables,
+              HasSubstr("\n| all sets | falanga2020 | " + rate_text({2, 4}) + " | 1.5 m |"));
+}
+
+TEST(AvoidanceTables, AnOracleIsToldOfWhatItsPilotMayBelieve) {
+  for (const PaperFlight& flight : outdoor_experiment().flights) {
+    const bool second = flight.name.ends_with("_dodgesim");
+    EXPECT_EQ(flight.arguments().ends_with(" --set pilot=dodgesim --set oracle.range_cap_m=5"),
+              second)
+        << flight.arguments();
+    EXPECT_EQ(flight.settings.empty(), !second);
+  }
+}
+
 }  // namespace
 }  // namespace dodgesim

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <stdexcept>
 
 #include "tests/sim/paper/synthetic_campaign.h"
@@ -10,6 +11,13 @@ namespace dodgesim {
 namespace {
 
 bool all(const ThrowResult&) { return true; }
+
+PilotPair compare_pilots(const LoadedCampaign& first, const LoadedCampaign& second,
+                         const std::function<bool(const ThrowResult&)>& belongs) {
+  PilotPair pair;
+  pair.add(first, second, belongs);
+  return pair;
+}
 
 TEST(PilotPair, CountsTheThrowsThatWouldHaveHitPairwise) {
   const LoadedCampaign first =
@@ -38,6 +46,20 @@ TEST(PilotPair, CountsOnlyWhatBelongs) {
       compare_pilots(flown, flown, [](const ThrowResult& r) { return r.speed_mps > 5; });
   EXPECT_EQ(fast.first.success().of, 1);
   EXPECT_EQ(fast.first.success().count, 1);
+}
+
+TEST(PilotPair, CountsOneSetAfterTheOther) {
+  const LoadedCampaign lost = campaign({thrown(0, true, true, "seen late")});
+  const LoadedCampaign dodged = campaign({thrown(0, true, false)});
+  PilotPair pair;
+  pair.add(lost, dodged, all);
+  pair.add(dodged, dodged, all);
+  EXPECT_EQ(pair.first.success().count, 1);
+  EXPECT_EQ(pair.second.success().count, 2);
+  EXPECT_EQ(pair.paired.both, 1);
+  EXPECT_EQ(pair.paired.only_second, 1);
+  EXPECT_EQ(pair.first_unharmed.of, 2);
+  EXPECT_EQ(pair.first_causes.at("seen late"), 1);
 }
 
 TEST(PilotPair, RefusesPilotsThatFlewOtherThrows) {

@@ -1,0 +1,29 @@
+// What a pilot lost, held against its oracle: the same vehicle, controller and avoidance, told the
+// truth within a range (oracle.range_cap_m). It keeps apart what perception lost and what would
+// have been lost with perfect perception, too.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "sim/campaign/paired.h"
+#include "sim/campaign/throw_statistics.h"
+
+namespace dodgesim {
+
+// Counts over the throws that would have hit, and whose flights by the pilot, its oracle and the
+// pilot none were all flown.
+struct Losses {
+  PairedCounts counts;                    // dodged by the oracle (first) and by the pilot (second)
+  std::map<std::string, int> perception;  // causes of what the oracle dodged
+  std::map<std::string, int> actuation;   // causes of what the oracle lost, too
+
+  void add(const ThrowResult& result);
+
+  Rate dodged() const { return {counts.both + counts.only_second, counts.total()}; }
+  Rate dodged_by_oracle() const { return {counts.both + counts.only_first, counts.total()}; }
+  Rate lost_to_perception() const { return {counts.only_first, counts.total()}; }
+  Rate lost_to_actuation() const { return {counts.neither, counts.total()}; }
+};
+
+}  // namespace dodgesim
