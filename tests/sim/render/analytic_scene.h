@@ -23,9 +23,11 @@ using AnalyticScene = std::function<Seen(const Eigen::Vector3d&, const Eigen::Ve
 inline constexpr double kFocalPx = 190.68;
 inline Intrinsics small_view() { return {160, 120, kFocalPx}; }
 inline Rect whole(const Intrinsics& view) { return {0, 0, view.width, view.height}; }
-inline std::size_t pixels_of(const Intrinsics& view) {
-  return static_cast<std::size_t>(view.width * view.height);
+inline std::size_t index_of(const Intrinsics& view, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width) +
+         static_cast<std::size_t>(x);
 }
+inline std::size_t pixels_of(const Intrinsics& view) { return index_of(view, 0, view.height); }
 inline std::vector<float> blank(const Intrinsics& view) {
   return std::vector<float>(pixels_of(view), -1.0f);
 }
@@ -76,10 +78,11 @@ inline std::vector<float> photograph(const AnalyticScene& scene, const Intrinsic
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       double sum = 0;
-      for (int k = 0; k < kRays * kRays; ++k) {
-        const double right = (k % kRays + 0.5) / kRays - 0.5;
-        const double down = (k / kRays + 0.5) / kRays - 0.5;
-        sum += seen(scene, camera, X_WC, x + right, y + down).luminance;
+      for (int row = 0; row < kRays; ++row) {
+        for (int column = 0; column < kRays; ++column) {
+          const double right = (column + 0.5) / kRays - 0.5, down = (row + 0.5) / kRays - 0.5;
+          sum += seen(scene, camera, X_WC, x + right, y + down).luminance;
+        }
       }
       out.push_back(static_cast<float>(sum / (kRays * kRays)));
     }

@@ -44,10 +44,10 @@ TEST(KeyPicture, SeenFromWhereItWasDrawnIsTheMeanOverEachPixelsAperture) {
         double sum = 0;
         for (int k = 0; k < n * n; ++k) {
           const int column = n * (x + margin) + k % n, row = n * (y + margin) + k / n;
-          sum += noise[static_cast<std::size_t>(row * fine.width + column)];
+          sum += noise[index_of(fine, column, row)];
         }
         const double mean = sum / (n * n);
-        const double error = out[static_cast<std::size_t>(y * 160 + x)] - mean;
+        const double error = out[index_of(small_view(), x, y)] - mean;
         largest = std::max(largest, std::abs(error) - kHalfPrecision * mean);
       }
     }
@@ -208,7 +208,8 @@ TEST(KeyPicture, AWideViewIsShownWhereItIsOrNotAtAll) {
   const AnalyticScene scene = sky_waves(12 * kFocalPx / wide.f);
   KeyPicture key = key_of(scene, kAtOrigin, {}, wide);
   int shows = 0, refuses = 0;
-  for (double rad = 0; rad < 0.6; rad += 0.01) {
+  for (int step = 0; step < 60; ++step) {
+    const double rad = 0.01 * step;
     const Isometry3d X_WC = pose(turn(rad, {1, 2, 0.5}));
     std::vector<float> out = blank(wide);
     if (!key.show(X_WC, whole(wide), out.data())) {
@@ -303,7 +304,7 @@ TEST(KeyPicture, ARegionHasTheBitsOfTheWholeView) {
     ASSERT_TRUE(key.show(X_WC, r, part.data()));
     for (int y = 0; y < 120; ++y) {
       for (int x = 0; x < 160; ++x) {
-        const auto i = static_cast<std::size_t>(y * 160 + x);
+        const std::size_t i = index_of(small_view(), x, y);
         const bool inside = x >= r.x0 && x < r.x1 && y >= r.y0 && y < r.y1;
         ASSERT_EQ(part[i], inside ? all[i] : -1.0f) << x << ", " << y;
       }
