@@ -66,8 +66,6 @@ std::vector<PaperFlight> flights_of_both(const std::vector<std::string>& scenari
   return flights;
 }
 
-std::string p_text(double p) { return p < 0.0001 ? "< 0.0001" : fixed_text(p, 4); }
-
 PilotPair pair_of(Sets sets, const std::function<bool(const ThrowResult&)>& belongs) {
   PilotPair pair;
   for (const Set& set : sets) pair.add(*set.falanga2020, *set.dodgesim, belongs);

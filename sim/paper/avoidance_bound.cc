@@ -27,8 +27,8 @@ AvoidanceTimes avoidance_times(const Scenario& scenario, double ball_radius_m) {
     return reach_m;
   };
   const double sideways_m = encounter.hull_reach_m(Eigen::Vector3d::UnitY()) + ball_radius_m;
-  const double sideways_mps2 = std::sqrt(std::pow(agility.max_thrust_mps2, 2) -
-                                         std::pow(kGravityMps2, 2));
+  const double sideways_mps2 =
+      std::sqrt(std::pow(agility.max_thrust_mps2, 2) - std::pow(kGravityMps2, 2));
   return {point_avoidance_s(sideways_m, sideways_mps2), least_time_to_escape_s(agility, encounter)};
 }
 

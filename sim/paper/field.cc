@@ -23,9 +23,11 @@ const std::vector<PaperVariant>& variants() {
        "without |v| of (32), k_r0 24",
        {set("dodger.repulsive.scale_by_speed", "false"), set("dodger.repulsive.k_r0", "24")}},
       {"no_upward", "without |F_z|", {set("dodger.repulsive.upward", "false")}},
-      {"away", "away from the line of flight instead of (29)",
+      {"away",
+       "away from the line of flight instead of (29)",
        {set("dodger.repulsive.direction", "away")}},
-      {"closest_approach", "dodgesim's escape instead of the field",
+      {"closest_approach",
+       "dodgesim's escape instead of the field",
        {set("dodger.escape.law", "closest_approach")}}};
   return all;
 }
@@ -41,10 +43,9 @@ constexpr const char* kProtocol = R"(How to read it:
 )";
 
 std::string p_against(const LoadedCampaign& faithful, const LoadedCampaign& variant, int sweep) {
-  const PilotPair pair = compare_pilots(
-      faithful, variant, [sweep](const ThrowResult& result) { return result.sweep == sweep; });
-  const double p = mcnemar(pair.paired);
-  return p < 0.0001 ? "< 0.0001" : fixed_text(p, 4);
+  PilotPair pair;
+  pair.add(faithful, variant, [sweep](const ThrowResult& r) { return r.sweep == sweep; });
+  return p_text(mcnemar(pair.paired));
 }
 
 // Success of every variant at one of the ranges, by speed.
@@ -54,8 +55,7 @@ RateGrid grid_of(const std::vector<LoadedCampaign>& campaigns, std::size_t range
   RateGrid grid{"range " + sweep_value(first, "oracle.range_cap_m") + " m", {}, {}, {}};
   for (const std::string& speed : speeds.values()) grid.columns.push_back(speed + " m/s");
   for (std::size_t v = 0; v < variants().size(); ++v) {
-    grid.add_row(variants()[v].name,
-                 success_by(speeds, parts_of(campaigns[v]).at(range).results));
+    grid.add_row(variants()[v].name, success_by(speeds, parts_of(campaigns[v]).at(range).results));
   }
   return grid;
 }
@@ -75,7 +75,7 @@ TextTable decay_table(const LoadedCampaign& campaign) {
     Rate crashed;
     Measured evading;
     for (const ThrowResult* result : part.results) {
-      tally.add(result->flown, result->none, result->gave_up());
+      tally.add(*result);
       crashed.add(result->flown.crashed);
       if (result->flown.unharmed() && result->evaded) evading.add(evading_s(*result));
     }

@@ -38,8 +38,8 @@ struct LatencyCurves {
 };
 
 double perception_ms(const Part& part, const DelaySpec& delays) {
-  return 1e-3 * (static_cast<double>(delays.compute_us) +
-                 sweep_number(part, "delays.command_us") - kLinkUs);
+  return 1e-3 * (static_cast<double>(delays.compute_us) + sweep_number(part, "delays.command_us") -
+                 kLinkUs);
 }
 
 LatencyCurves curves_of(const std::string& pilot, const std::string& file,
@@ -89,9 +89,8 @@ std::string lost_text(const LatencyCurves& curves, std::size_t speed) {
 
 // By the bound, of perception alone [ms].
 std::string bound_text(const AvoidanceBound& bound, double speed_mps, const DelaySpec& delays) {
-  const double others_s =
-      1e-6 * (0.5 * static_cast<double>(delays.cycle_us) + kLinkUs +
-              static_cast<double>(delays.flight_controller_us));
+  const double others_s = 1e-6 * (0.5 * static_cast<double>(delays.cycle_us) + kLinkUs +
+                                  static_cast<double>(delays.flight_controller_us));
   const double latency_s = bound.greatest_latency_s(speed_mps) - others_s;
   return latency_s > 0 ? fixed_text(1e3 * latency_s, 0) : "none";
 }
@@ -100,8 +99,8 @@ TextTable lost_table(const std::vector<LatencyCurves>& all, const LoadedCampaign
   const Scenario& scenario = campaign.scenario;
   const AvoidanceTimes times = avoidance_times(scenario, kMeanBallRadiusM);
   TextTable table;
-  table.head = {"lost at [ms]",        "bound 1.5 m, point", "bound 1.5 m, rotors",
-                "bound 3 m, point", "bound 3 m, rotors"};
+  table.head = {"lost at [ms]", "bound 1.5 m, point", "bound 1.5 m, rotors", "bound 3 m, point",
+                "bound 3 m, rotors"};
   for (const LatencyCurves& curves : all) table.head.push_back(curves.pilot);
   const Axis speeds("speed_mps", campaign.results);
   for (std::size_t i = 0; i < speeds.values().size(); ++i) {
@@ -109,8 +108,7 @@ TextTable lost_table(const std::vector<LatencyCurves>& all, const LoadedCampaign
     row.push_back(speeds.values()[i] + " m/s");
     for (const double range_m : {1.5, 3.0}) {
       for (const double avoidance_s : {times.point_s, times.rotors_s}) {
-        row.push_back(
-            bound_text({range_m, avoidance_s}, speeds.middles()[i], scenario.delays));
+        row.push_back(bound_text({range_m, avoidance_s}, speeds.middles()[i], scenario.delays));
       }
     }
     for (const LatencyCurves& curves : all) row.push_back(lost_text(curves, i));

@@ -11,9 +11,9 @@ namespace {
 constexpr double kMeanBallRadiusM = 0.1;
 // From light to command: half a cycle, the pilot's 3.5 ms, the link and the flight controller.
 double latency_s(const DelaySpec& delays) {
-  return 1e-6 * (0.5 * static_cast<double>(delays.cycle_us) +
-                 static_cast<double>(delays.compute_us + delays.command_us +
-                                     delays.flight_controller_us));
+  return 1e-6 *
+         (0.5 * static_cast<double>(delays.cycle_us) +
+          static_cast<double>(delays.compute_us + delays.command_us + delays.flight_controller_us));
 }
 
 constexpr const char* kSpeedProtocol = R"(How the claim is read:
@@ -136,8 +136,7 @@ TextTable bound_table(const std::vector<double>& range_m, const Scenario& scenar
 }
 
 PaperTables analyse_range(const std::vector<LoadedCampaign>& campaigns) {
-  const RangeRows faithful =
-      rows_of("falanga2020", "dodger.position.max_range_m", campaigns[0]);
+  const RangeRows faithful = rows_of("falanga2020", "dodger.position.max_range_m", campaigns[0]);
   const RangeRows oracle = rows_of("oracle", "oracle.range_cap_m", campaigns[1]);
   return {faithful.grid.table().to_markdown() + "\n" + oracle.grid.table().to_markdown() + "\n" +
               bound_table(oracle.range_m, campaigns[1].scenario).to_markdown() + "\n" +

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "sim/campaign/text_table.h"
+
 namespace dodgesim {
 
 namespace {
@@ -38,5 +40,7 @@ void PilotPair::add(const LoadedCampaign& first_flew, const LoadedCampaign& seco
     if (a.none.hit) paired.add(a.dodged(), b.dodged());
   }
 }
+
+std::string p_text(double p) { return p < 0.0001 ? "< 0.0001" : fixed_text(p, 4); }
 
 }  // namespace dodgesim

@@ -24,4 +24,7 @@ struct PilotPair {
            const std::function<bool(const ThrowResult&)>& belongs);
 };
 
+// "0.0243", or "< 0.0001".
+std::string p_text(double p);
+
 }  // namespace dodgesim

@@ -71,7 +71,7 @@ std::vector<Rate> success_by(const Axis& axis, const Results& results) {
   std::vector<Tally> tallies(axis.values().size());
   for (const ThrowResult* result : results) {
     const std::optional<std::size_t> i = axis.of(*result);
-    if (i) tallies[*i].add(result->flown, result->none, result->gave_up());
+    if (i) tallies[*i].add(*result);
   }
   std::vector<Rate> rates;
   for (const Tally& tally : tallies) rates.push_back(tally.success());

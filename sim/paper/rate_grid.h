@@ -14,7 +14,7 @@
 namespace dodgesim {
 
 struct RateGrid {
-  std::string name;                      // head of the first column
+  std::string name;  // head of the first column
   std::vector<std::string> rows, columns;
   std::vector<std::vector<Rate>> rates;  // [row][column]
 

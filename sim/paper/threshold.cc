@@ -39,7 +39,7 @@ struct Perception {
 Perception perception_of(const Results& results) {
   Perception sum;
   for (const ThrowResult* result : results) {
-    sum.tally.add(result->flown, result->none, result->gave_up());
+    sum.tally.add(*result);
     sum.false_alarms.add(result->false_alarm);
     sum.distance_m.add(result->first_detection_distance_m);
     sum.events.add(result->truth_rows);
@@ -58,18 +58,15 @@ std::string false_percent(const EventTruthCounts& counts) {
 
 const std::vector<std::string>& perception_head() {
   static const std::vector<std::string> head = {
-      "dodged",           "first detection [m]", "false alarms",   "recall, before",
+      "dodged",          "first detection [m]", "false alarms",  "recall, before",
       "recall, evading", "false, before",       "false, evading"};
   return head;
 }
 
 std::vector<std::string> perception_cells(const Perception& sum) {
-  return {short_rate_text(sum.tally.success()),
-          median_text(sum.distance_m, 2),
-          short_rate_text(sum.false_alarms),
-          percent(sum.events.before.recall()),
-          percent(sum.events.after.recall()),
-          false_percent(sum.events.before),
+  return {short_rate_text(sum.tally.success()), median_text(sum.distance_m, 2),
+          short_rate_text(sum.false_alarms),    percent(sum.events.before.recall()),
+          percent(sum.events.after.recall()),   false_percent(sum.events.before),
           false_percent(sum.events.after)};
 }
 

@@ -58,9 +58,10 @@ void add_bench_command(CLI::App& program, const std::string& command_line, int& 
                    "Also write all runs, with machine, compiler and commit, to this file")
       ->type_name("FILE");
   command
-      ->add_option("--plots", arguments->options.plots_dir,
-                   "Also draw, and write as CSV, the pilot's times by events and by pixels (figures\n"
-                   "S4 and S5 of the paper), into this folder")
+      ->add_option(
+          "--plots", arguments->options.plots_dir,
+          "Also draw, and write as CSV, the pilot's times by events and by pixels (figures\n"
+          "S4 and S5 of the paper), into this folder")
       ->type_name("DIR");
   command
       ->add_option("--runs", arguments->options.runs,

@@ -40,8 +40,8 @@ TEST(AvoidanceBound, KnowsTheRotorsAndTheHull) {
   const AvoidanceTimes times = avoidance_times(scenario, 0.1);
   // 4 rotors of 9.5 N lift 1 kg: 36.7 m/s^2 to the side. The hull is 0.34 m wide.
   EXPECT_NEAR(times.point_s, std::sqrt(2 * (0.17 + 0.1) / 36.7), 0.003);
-  // Upward, without a tilt, at 28.2 m/s^2 after the lag of the motors, until the lower camera, which
-  // reaches down to 0.0925 m, is above the ball.
+  // Upward, without a tilt, at 28.2 m/s^2 after the lag of the motors, until the lower camera,
+  // which reaches down to 0.0925 m, is above the ball.
   EXPECT_NEAR(times.rotors_s, 0.04 + std::sqrt(2 * (0.0925 + 0.1) / 28.2), 0.001);
   EXPECT_GT(avoidance_times(scenario, 0.15).rotors_s, times.rotors_s);
 }

@@ -43,8 +43,10 @@ TEST(LatencyClaim, SaysAtWhichLatencyEachSpeedIsLost) {
        swept(pilot, [](std::size_t part, double speed) { return speed > 5 || part > 0; })});
   // falanga2020 loses 8 m/s half-way between 30 and 60 ms, dodgesim at once, and 4 m/s half-way
   // between 3.5 and 30 ms.
-  EXPECT_THAT(tables.markdown, testing::ContainsRegex("\\| 4 m/s \\|[^\n]*\\| > 60 \\| > 60 \\| > 60 \\| 17 \\|"));
-  EXPECT_THAT(tables.markdown, testing::ContainsRegex("\\| 8 m/s \\|[^\n]*\\| > 60 \\| > 60 \\| 45 \\| < 3.5 \\|"));
+  EXPECT_THAT(tables.markdown,
+              testing::ContainsRegex("\\| 4 m/s \\|[^\n]*\\| > 60 \\| > 60 \\| > 60 \\| 17 \\|"));
+  EXPECT_THAT(tables.markdown,
+              testing::ContainsRegex("\\| 8 m/s \\|[^\n]*\\| > 60 \\| > 60 \\| 45 \\| < 3.5 \\|"));
   EXPECT_THAT(tables.csv, HasSubstr("\"falanga2020, 3 m\",8 m/s,60.0 ms,0,1,0.0000,"));
   EXPECT_EQ(tables.plots.size(), 4u);
 }
