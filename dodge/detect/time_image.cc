@@ -1,37 +1,8 @@
 #include "dodge/detect/time_image.h"
 
 #include <algorithm>
-#include <cmath>
-#include <opencv2/imgproc.hpp>
 
 namespace dodge {
-
-namespace {
-
-// Row of Pascal's triangle, normalised to sum 1.
-cv::Mat1f binomial_kernel(int size) {
-  cv::Mat1f kernel(1, size);
-  float value = 1;
-  for (int i = 0; i < size; ++i) {
-    kernel(0, i) = value * std::ldexp(1.0F, 1 - size);
-    value = value * static_cast<float>(size - 1 - i) / static_cast<float>(i + 1);
-  }
-  return kernel;
-}
-
-// Erosion and dilation by a square. For an even size the anchor of the second step of an opening or
-// closing must be mirrored, or the mask would move by a pixel.
-void erode(cv::Mat1b& mask, int size, bool mirrored) {
-  const int anchor = mirrored ? (size - 1) / 2 : size / 2;
-  cv::erode(mask, mask, cv::Mat1b(size, size, std::uint8_t{1}), {anchor, anchor});
-}
-
-void dilate(cv::Mat1b& mask, int size, bool mirrored) {
-  const int anchor = mirrored ? (size - 1) / 2 : size / 2;
-  cv::dilate(mask, mask, cv::Mat1b(size, size, std::uint8_t{1}), {anchor, anchor});
-}
-
-}  // namespace
 
 TimeImage::TimeImage(const TimeImageConfig& config, int width, int height)
     : config_(config),
@@ -41,7 +12,8 @@ TimeImage::TimeImage(const TimeImageConfig& config, int width, int height)
       previous_(height, width, 0.0F),
       threshold_mask_(height, width, static_cast<std::uint8_t>(0)),
       obstacle_mask_(height, width, static_cast<std::uint8_t>(0)),
-      blur_kernel_(binomial_kernel(config.blur_px)) {
+      blur_(config.blur_px, width),
+      morphology_(width, height, std::max({config.open_px, config.close_px, config.dilate_px})) {
   // One more than pixels: accumulate() writes before it knows whether the entry counts.
   active_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) + 1);
 }
@@ -112,23 +84,28 @@ void TimeImage::threshold(double rate_rps) {
   for (const int pixel : active()) rho[pixel] -= mean;
 
   cv::swap(averaged_, previous_);
-  cv::sepFilter2D(rho_, averaged_, CV_32F, blur_kernel_, blur_kernel_, {-1, -1}, 0,
-                  cv::BORDER_CONSTANT);
-  const double threshold = config_.threshold_a_s * rate_rps + config_.threshold_b;
-  cv::compare(averaged_, threshold, threshold_mask_, cv::CMP_GE);
+  blur_.apply(rho_, averaged_);
+  const auto cut = static_cast<float>(config_.threshold_a_s * rate_rps + config_.threshold_b);
+  const float* averaged = averaged_.ptr<float>();
+  std::transform(averaged, averaged + averaged_.total(), threshold_mask_.ptr<std::uint8_t>(),
+                 [cut](float value) { return static_cast<std::uint8_t>(value >= cut ? 255 : 0); });
 }
 
 void TimeImage::clean() {
   threshold_mask_.copyTo(obstacle_mask_);
-  if (config_.open_px > 1) {
-    erode(obstacle_mask_, config_.open_px, false);
-    dilate(obstacle_mask_, config_.open_px, true);
+  // For an even size the anchor of the second step of an opening or closing must be mirrored, or
+  // the mask would move by a pixel.
+  if (const int size = config_.open_px; size > 1) {
+    morphology_.erode(obstacle_mask_, size, size / 2);
+    morphology_.dilate(obstacle_mask_, size, (size - 1) / 2);
   }
-  if (config_.close_px > 1) {
-    dilate(obstacle_mask_, config_.close_px, false);
-    erode(obstacle_mask_, config_.close_px, true);
+  if (const int size = config_.close_px; size > 1) {
+    morphology_.dilate(obstacle_mask_, size, size / 2);
+    morphology_.erode(obstacle_mask_, size, (size - 1) / 2);
   }
-  if (config_.dilate_px > 1) dilate(obstacle_mask_, config_.dilate_px, false);
+  if (const int size = config_.dilate_px; size > 1) {
+    morphology_.dilate(obstacle_mask_, size, size / 2);
+  }
 }
 
 }  // namespace dodge

@@ -8,7 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "dodge/detect/binomial_filter.h"
 #include "dodge/detect/ego_motion.h"
+#include "dodge/detect/morphology.h"
 #include "dodge/types.h"
 
 namespace dodge {
@@ -105,7 +107,8 @@ class TimeImage {
   cv::Mat1f averaged_, previous_;
   cv::Mat1b threshold_mask_, obstacle_mask_;
   double mean_time_ = 0;
-  cv::Mat1f blur_kernel_;
+  BinomialFilter blur_;
+  Morphology morphology_;
   std::vector<int> active_;  // its first active_count_ entries are the pixels with events
   std::size_t active_count_ = 0;
 };
