@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <opencv2/imgproc.hpp>
 
 namespace dodge {
 
@@ -44,13 +43,9 @@ float squared_distance(const Eigen::Vector2f& p, const Eigen::Vector2f& a,
   return (p - a - s * side).squaredNorm();
 }
 
-// The rectangle around pixel centres, grown by half a pixel on each side to their borders.
-cv::RotatedRect bounding_rectangle(std::span<const cv::Point2f> points) {
-  const cv::Mat wrapped(static_cast<int>(points.size()), 1, CV_32FC2,
-                        const_cast<cv::Point2f*>(points.data()));
-  cv::RotatedRect rectangle = cv::minAreaRect(wrapped);
-  rectangle.size += cv::Size2f(1, 1);
-  return rectangle;
+// Groups do not touch: a row has one every second pixel, with two ends in the outlines.
+std::size_t longest_outlines(int width, int height) {
+  return 2 * static_cast<std::size_t>((width + 1) / 2) * static_cast<std::size_t>(height);
 }
 
 float longer_side(const cv::RotatedRect& r) { return std::max(r.size.width, r.size.height); }
@@ -78,7 +73,8 @@ Clusterer::Clusterer(const ClusterConfig& config, int width, int height)
       height_(height),
       visited_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       row_left_(static_cast<std::size_t>(height)),
-      row_right_(static_cast<std::size_t>(height)) {
+      row_right_(static_cast<std::size_t>(height)),
+      min_area_rectangle_(longest_outlines(width, height)) {
   region_.reserve(visited_.size());
   points_.reserve(visited_.size());
 }
@@ -183,6 +179,13 @@ void Clusterer::summarise(const TimeImage& image, const OpticalFlow& flow) {
   features.rectangle = bounding_rectangle(
       std::span(outline_).subspan(group.outline_begin, group.outline_end - group.outline_begin));
   groups_.push_back(group);
+}
+
+// The rectangle around pixel centres, grown by half a pixel on each side to their borders.
+cv::RotatedRect Clusterer::bounding_rectangle(std::span<const cv::Point2f> points) {
+  cv::RotatedRect rectangle = min_area_rectangle_.around(points);
+  rectangle.size += cv::Size2f(1, 1);
+  return rectangle;
 }
 
 void Clusterer::neighbours(std::size_t i, std::vector<std::size_t>& out) const {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "dodge/detect/min_area_rectangle.h"
 #include "dodge/detect/optical_flow.h"
 #include "dodge/detect/time_image.h"
 
@@ -88,6 +89,7 @@ class Clusterer {
   void group_connected_pixels(const TimeImage& image, const OpticalFlow& flow);
   void flood(const TimeImage& image, int seed);
   void summarise(const TimeImage& image, const OpticalFlow& flow);
+  cv::RotatedRect bounding_rectangle(std::span<const cv::Point2f> points);
   int label_groups();
   void neighbours(std::size_t i, std::vector<std::size_t>& out) const;
   void merge_groups(int label_count);
@@ -99,6 +101,7 @@ class Clusterer {
   std::vector<cv::Point> points_;      // those of them with events
   std::vector<int> row_left_, row_right_;
   std::vector<cv::Point2f> outline_, merged_outline_;
+  MinAreaRectangle min_area_rectangle_;
   std::vector<Group> groups_;
   std::vector<std::size_t> queue_, neighbours_;
   std::vector<Cluster> clusters_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <tuple>
 
 #include "dodge/detect/disparity.h"
@@ -27,22 +26,14 @@ cv::Rect patch_around(const cv::RotatedRect& rectangle) {
   return {tight.x - 1, tight.y - 1, tight.width + 2, tight.height + 2};
 }
 
-// The rectangle around the top camera's and the bottom camera's, moved by the disparity: each may
-// have seen another part of the object.
-cv::RotatedRect joined(const cv::RotatedRect& top, const cv::RotatedRect& bottom,
-                       double disparity_px) {
-  cv::Point2f corners[8];
-  top.points(corners);
-  bottom.points(corners + 4);
-  for (int i = 4; i < 8; ++i) corners[i].y += static_cast<float>(disparity_px);
-  return cv::minAreaRect(cv::Mat(8, 1, CV_32FC2, corners));
-}
-
 }  // namespace
 
 DepthEstimator::DepthEstimator(const DepthConfig& config, std::span<const CameraModel> cameras,
                                std::int64_t window_us)
-    : config_(config), window_us_(static_cast<double>(window_us)), camera_(cameras[0]) {
+    : config_(config),
+      window_us_(static_cast<double>(window_us)),
+      camera_(cameras[0]),
+      min_area_rectangle_(8) {
   if (cameras.size() > 1) {
     const Eigen::Vector3d baseline = cameras[1].X_BC.translation() - cameras[0].X_BC.translation();
     focal_baseline_ = camera_.mean_focal_px() * baseline.norm();
@@ -123,6 +114,17 @@ void DepthEstimator::locate_by_stereo(const View& top, const View& bottom,
     append(object, depth_m, depth_m * config_.stereo.disparity_sigma_px / disparity_px, state,
            detections);
   }
+}
+
+// The rectangle around the top camera's and the bottom camera's, moved by the disparity: each may
+// have seen another part of the object.
+cv::RotatedRect DepthEstimator::joined(const cv::RotatedRect& top, const cv::RotatedRect& bottom,
+                                       double disparity_px) {
+  std::array<cv::Point2f, 8> corners;
+  top.points(corners.data());
+  bottom.points(corners.data() + 4);
+  for (std::size_t i = 4; i < 8; ++i) corners[i].y += static_cast<float>(disparity_px);
+  return min_area_rectangle_.around(corners);
 }
 
 // The smaller cluster is the pattern: what it shows, the other camera is likely to see as well.

@@ -9,6 +9,7 @@
 
 #include "dodge/camera_model.h"
 #include "dodge/detect/cluster.h"
+#include "dodge/detect/min_area_rectangle.h"
 #include "dodge/types.h"
 
 namespace dodge {
@@ -114,6 +115,8 @@ class DepthEstimator {
   void locate_by_stereo(const View& top, const View& bottom, const StateEstimate& state,
                         std::vector<Detection>& detections);
   void match_clusters(const std::vector<Cluster>& top, const std::vector<Cluster>& bottom);
+  cv::RotatedRect joined(const cv::RotatedRect& top, const cv::RotatedRect& bottom,
+                         double disparity_px);
   std::optional<double> correlated_disparity(const View& top, const View& bottom,
                                              const Match& match) const;
   void append(const Cluster& cluster, double depth_m, double depth_sigma_m,
@@ -124,6 +127,7 @@ class DepthEstimator {
   double window_us_;
   CameraModel camera_;         // the reference camera
   double focal_baseline_ = 0;  // focal length times baseline [px m]
+  MinAreaRectangle min_area_rectangle_;
   std::vector<Match> candidates_, matches_;
   std::vector<bool> top_taken_, bottom_taken_;
 };
