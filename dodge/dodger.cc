@@ -36,14 +36,18 @@ Dodger::Eye::Eye(const Config& config, const CameraModel& camera)
 
 Dodger::Dodger(const Config& config)
     : config_(validated(config)),
-      depth_(config.position, config.cameras, config.window.window_us),
+      depth_(config.position, config.cameras, config.window.window_us, config.cluster.max_groups),
       tracker_(config.association, config.kalman, decay_lifetime_s(config.repulsive)),
       avoider_(config.repulsive, config.attractive, config.velocity_limit, config.escape),
       height_monitor_(config.height_monitor),
       landing_(config.landing) {
   const std::size_t used = config.position.depth == "stereo" ? 2 : 1;
+  eyes_.reserve(used);  // copies of an eye would not keep the room that it has reserved
   for (std::size_t i = 0; i < used; ++i) eyes_.emplace_back(config_, config_.cameras[i]);
-  for (const Eye& eye : eyes_) views_.push_back({&eye.clusters, &eye.time_image.averaged()});
+  for (const Eye& eye : eyes_)
+    views_.push_back({&eye.clusterer.clusters(), &eye.time_image.averaged()});
+  detections_.reserve(static_cast<std::size_t>(config.cluster.max_groups));
+  obstacles_.reserve(Tracker::kUsualObstacles);
 }
 
 void Dodger::add_events(int camera, std::span<const Event> events) {
@@ -124,7 +128,7 @@ void Dodger::find_clusters(Eye& eye) {
 
   eye.flow.set_images(eye.time_image.previous_averaged(), eye.time_image.averaged(),
                       elapsed_windows_);
-  eye.clusters = eye.clusterer.find(eye.time_image, eye.flow);
+  eye.clusterer.find(eye.time_image, eye.flow);
   watch.add_to(stage_times_.clustering_us);
 
   if (capture_) capture_images(eye);
@@ -140,7 +144,7 @@ void Dodger::locate_obstacles() {
 const std::vector<Cluster>& Dodger::clusters(int camera) const {
   static const std::vector<Cluster> none;
   const auto index = static_cast<std::size_t>(camera);
-  return index < eyes_.size() ? eyes_[index].clusters : none;
+  return index < eyes_.size() ? eyes_[index].clusterer.clusters() : none;
 }
 
 const StageImages& Dodger::stage_images(int camera) const {

@@ -7,6 +7,10 @@
 
 namespace dodge {
 
+namespace {
+constexpr std::size_t kUsual = 1024;  // pairs within the radii, detections and obstacles
+}
+
 void validate(const AssociationConfig& config) {
   if (!(config.first_radius_m > 0) || !(config.radius_m > 0) || !(config.widen_sigmas >= 0) ||
       config.min_detections < 1 || !(config.max_velocity_sigma_mps > 0) ||
@@ -17,7 +21,12 @@ void validate(const AssociationConfig& config) {
   }
 }
 
-Associator::Associator(const AssociationConfig& config) : config_(config) { validate(config); }
+Associator::Associator(const AssociationConfig& config) : config_(config) {
+  validate(config);
+  pairs_.reserve(kUsual);
+  obstacle_of_.reserve(kUsual);
+  taken_.reserve(kUsual);
+}
 
 std::span<const int> Associator::associate(std::span<const Detection> detections,
                                            std::span<const PredictedObstacle> obstacles) {

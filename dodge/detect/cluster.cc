@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <tuple>
 
 namespace dodge {
 
@@ -43,7 +44,11 @@ float squared_distance(const Eigen::Vector2f& p, const Eigen::Vector2f& a,
   return (p - a - s * side).squaredNorm();
 }
 
-// Groups do not touch: a row has one every second pixel, with two ends in the outlines.
+// Groups do not touch: a square of 2 x 2 pixels has one at most, and a row every second pixel, with
+// two ends in the outlines.
+std::size_t most_groups(int width, int height) {
+  return static_cast<std::size_t>((width + 1) / 2) * static_cast<std::size_t>((height + 1) / 2);
+}
 std::size_t longest_outlines(int width, int height) {
   return 2 * static_cast<std::size_t>((width + 1) / 2) * static_cast<std::size_t>(height);
 }
@@ -75,8 +80,16 @@ Clusterer::Clusterer(const ClusterConfig& config, int width, int height)
       row_left_(static_cast<std::size_t>(height)),
       row_right_(static_cast<std::size_t>(height)),
       min_area_rectangle_(longest_outlines(width, height)) {
+  // What a window may need at most, so that none allocates. Pages that are never used cost nothing.
   region_.reserve(visited_.size());
   points_.reserve(visited_.size());
+  outline_.reserve(longest_outlines(width, height));
+  merged_outline_.reserve(longest_outlines(width, height));
+  groups_.reserve(most_groups(width, height));
+  const auto kept = static_cast<std::size_t>(config.max_groups);
+  queue_.reserve(kept);
+  neighbours_.reserve(kept);
+  clusters_.reserve(kept);
 }
 
 const std::vector<Cluster>& Clusterer::find(const TimeImage& image, const OpticalFlow& flow) {
@@ -112,8 +125,9 @@ void Clusterer::group_connected_pixels(const TimeImage& image, const OpticalFlow
   region_.clear();
 
   if (groups_.size() > static_cast<std::size_t>(config_.max_groups)) {
-    std::stable_sort(groups_.begin(), groups_.end(), [](const Group& a, const Group& b) {
-      return a.features.events > b.features.events;
+    std::sort(groups_.begin(), groups_.end(), [](const Group& a, const Group& b) {
+      return std::tie(b.features.events, a.outline_begin) <
+             std::tie(a.features.events, b.outline_begin);
     });
     groups_.resize(static_cast<std::size_t>(config_.max_groups));
   }
@@ -203,19 +217,26 @@ int Clusterer::label_groups() {
     if (groups_[i].label >= 0) continue;
     neighbours(i, neighbours_);
     if (neighbours_.size() < min_points) continue;
-    const int label = labels++;
-    groups_[i].label = label;
-    queue_.assign(neighbours_.begin(), neighbours_.end());
+    groups_[i].label = labels;
+    queue_.clear();
+    take_neighbours(labels);
     for (std::size_t next = 0; next < queue_.size(); ++next) {
-      Group& group = groups_[queue_[next]];
-      if (group.label >= 0) continue;
-      group.label = label;
       neighbours(queue_[next], neighbours_);
       if (neighbours_.size() < min_points) continue;  // a border point: does not reach further
-      queue_.insert(queue_.end(), neighbours_.begin(), neighbours_.end());
+      take_neighbours(labels);
     }
+    ++labels;
   }
   return labels;
+}
+
+// Labels and queues those of neighbours_ that have no label yet.
+void Clusterer::take_neighbours(int label) {
+  for (const std::size_t neighbour : neighbours_) {
+    if (groups_[neighbour].label >= 0) continue;
+    groups_[neighbour].label = label;
+    queue_.push_back(neighbour);
+  }
 }
 
 void Clusterer::merge_groups(int label_count) {

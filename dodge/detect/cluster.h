@@ -76,6 +76,9 @@ class Clusterer {
   // Clusters of the image's obstacle mask, in the order of the scan. Valid until the next call.
   const std::vector<Cluster>& find(const TimeImage& image, const OpticalFlow& flow);
 
+  // Those of the last call.
+  const std::vector<Cluster>& clusters() const { return clusters_; }
+
   // Eq. (6).
   double cost(const Cluster& a, const Cluster& b) const;
 
@@ -92,6 +95,7 @@ class Clusterer {
   cv::RotatedRect bounding_rectangle(std::span<const cv::Point2f> points);
   int label_groups();
   void neighbours(std::size_t i, std::vector<std::size_t>& out) const;
+  void take_neighbours(int label);
   void merge_groups(int label_count);
 
   ClusterConfig config_;

@@ -29,11 +29,16 @@ cv::Rect patch_around(const cv::RotatedRect& rectangle) {
 }  // namespace
 
 DepthEstimator::DepthEstimator(const DepthConfig& config, std::span<const CameraModel> cameras,
-                               std::int64_t window_us)
+                               std::int64_t window_us, int max_clusters)
     : config_(config),
       window_us_(static_cast<double>(window_us)),
       camera_(cameras[0]),
       min_area_rectangle_(8) {
+  const auto most = static_cast<std::size_t>(max_clusters);
+  candidates_.reserve(most * most);
+  matches_.reserve(most);
+  top_taken_.reserve(most);
+  bottom_taken_.reserve(most);
   if (cameras.size() > 1) {
     const Eigen::Vector3d baseline = cameras[1].X_BC.translation() - cameras[0].X_BC.translation();
     focal_baseline_ = camera_.mean_focal_px() * baseline.norm();

@@ -91,9 +91,10 @@ struct View {
 class DepthEstimator {
  public:
   // One camera for mono; for stereo camera 0 on top and camera 1 below it, rectified (validate()
-  // in dodge/config.h checks this).
+  // in dodge/config.h checks this). max_clusters: how many a camera may see without that locate()
+  // allocates memory.
   DepthEstimator(const DepthConfig& config, std::span<const CameraModel> cameras,
-                 std::int64_t window_us);
+                 std::int64_t window_us, int max_clusters);
 
   // Appends the obstacles among the clusters of the cameras (indexed as the cameras) to detections,
   // best match first. Pixels are those of the window's end, the instant of `state`; a detection's

@@ -3,7 +3,7 @@
 namespace dodge {
 
 namespace {
-constexpr std::size_t kInitialEvents = 1 << 14;  // a busy window holds about 6000
+constexpr std::size_t kInitialEvents = 1 << 15;  // a busy window of 20 ms holds about 20000
 }
 
 EventWindow::EventWindow() : events_(kInitialEvents) {}

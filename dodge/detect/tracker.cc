@@ -47,6 +47,9 @@ Tracker::Tracker(const AssociationConfig& association, const KalmanConfig& kalma
     throw std::invalid_argument("The lifetime of an obstacle must not be negative.");
   }
   lifetime_us_ = static_cast<TimeUs>(std::min(lifetime_s, kLongestLifetimeS) * kUsPerSecond);
+  tracks_.reserve(kUsualObstacles);
+  predicted_.reserve(kUsualObstacles);
+  obstacles_.reserve(kUsualObstacles);
 }
 
 void Tracker::update(TimeUs now, std::span<Detection> detections) {

@@ -25,6 +25,9 @@ TrackedObstacle known_obstacle(int id, TimeUs t_us, const Eigen::Vector3d& p_WO,
 
 class Tracker {
  public:
+  // Room for so many from the start.
+  static constexpr std::size_t kUsualObstacles = 256;
+
   // lifetime_s: how long an obstacle lives after its last detection (decay_lifetime_s of the
   // repulsive field, (33)). Throws std::invalid_argument on values out of range.
   Tracker(const AssociationConfig& association, const KalmanConfig& kalman, double lifetime_s);

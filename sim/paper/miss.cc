@@ -76,7 +76,7 @@ void MissObserver::on_tick(const World& world) {
   if (!unlimited_) {
     const std::vector<dodge::CameraModel> cameras = camera_models(scenario_, world.vehicle());
     unlimited_.emplace(without_limits(scenario_.dodger.position), cameras,
-                       scenario_.dodger.window.window_us);
+                       scenario_.dodger.window.window_us, scenario_.dodger.cluster.max_groups);
     radius_m_ = world.object(0).bounding_radius_m;
   }
   history_.push_back(world.snapshot());

@@ -4,76 +4,19 @@
 
 #include <functional>
 
-#include "tests/dodge/synthetic_events.h"
+#include "tests/dodge/synthetic_flight.h"
 
 namespace dodge {
 namespace {
 
+using synthetic::Flight, synthetic::still, synthetic::turning;
+
 constexpr TimeUs kCycleUs = 5000;
-
-// What a flight over a synthetic scene hands to a pilot, cycle by cycle.
-class Flight {
- public:
-  Flight(synthetic::Motion motion, const std::vector<synthetic::Disk>& disks,
-         const synthetic::Sensor& sensor, std::uint64_t seed)
-      : motion_(std::move(motion)) {
-    const std::vector<CameraModel> cameras = synthetic::vertical_pair();
-    for (std::size_t i = 0; i < 2; ++i) {
-      generators_.emplace_back(cameras[i], motion_, disks, sensor, seed, i);
-    }
-  }
-
-  // Feeds the data up to now and updates.
-  VelocityCommand cycle(Dodger& dodger, TimeUs now_us) {
-    for (int i = 0; i < 2; ++i) {
-      events_.clear();
-      generators_[static_cast<std::size_t>(i)].advance(now_us, events_);
-      dodger.add_events(i, events_);
-    }
-    for (; imu_us_ <= now_us; imu_us_ += 1000) dodger.add_imu({imu_us_, rate(imu_us_), {}});
-    dodger.add_state(state(now_us));
-    return dodger.update(now_us);
-  }
-
-  StateEstimate state(TimeUs t_us) const {
-    const Eigen::Isometry3d X_WB = motion_(1e-6 * static_cast<double>(t_us));
-    StateEstimate state;
-    state.t_us = t_us;
-    state.p_WB = X_WB.translation();
-    state.q_WB = X_WB.linear();
-    state.w_WB_B = rate(t_us);
-    return state;
-  }
-
- private:
-  Eigen::Vector3d rate(TimeUs t_us) const {
-    const double t_s = 1e-6 * static_cast<double>(t_us), h = 1e-4;
-    const Eigen::AngleAxisd turn(
-        Eigen::Matrix3d(motion_(t_s - h).linear().transpose() * motion_(t_s + h).linear()));
-    return turn.axis() * turn.angle() / (2 * h);
-  }
-
-  synthetic::Motion motion_;
-  std::vector<synthetic::EventGenerator> generators_;
-  std::vector<Event> events_;
-  TimeUs imu_us_ = 0;
-};
 
 Config stereo() {
   Config config;
   config.cameras = synthetic::vertical_pair();
   return config;
-}
-
-Eigen::Isometry3d still(double) { return Eigen::Isometry3d::Identity(); }
-
-// Slow at first, then faster and faster up to 2 rad/s.
-Eigen::Isometry3d turning(double t_s) {
-  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
-  X_WB.linear() = Eigen::AngleAxisd(2 / (2 * 3.0) * std::sin(3.0 * t_s),
-                                    Eigen::Vector3d(0.5, 0.6, 0.6).normalized())
-                      .toRotationMatrix();
-  return X_WB;
 }
 
 synthetic::Disk crossing_ball(double diameter_m, double depth_m) {

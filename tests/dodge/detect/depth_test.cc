@@ -39,7 +39,7 @@ class DepthTest : public ::testing::Test {
 
   std::vector<Detection> locate(const DepthConfig& config, const std::vector<Cluster>& top,
                                 const std::vector<Cluster>& bottom) const {
-    DepthEstimator estimator(config, cameras_, 10000);
+    DepthEstimator estimator(config, cameras_, 10000, 64);
     const std::array<View, 2> both = {View{&top, &rho_[0]}, View{&bottom, &rho_[1]}};
     std::vector<Detection> detections;
     estimator.locate(both, state_, detections);
@@ -166,7 +166,7 @@ TEST_F(DepthTest, matching_cost_is_8_and_symmetric) {
   config.stereo.weight_position_1ppx = 2;
   config.stereo.weight_area = 3;
   config.stereo.weight_count = 5;
-  const DepthEstimator estimator(config, cameras_, 10000);
+  const DepthEstimator estimator(config, cameras_, 10000, 64);
   Cluster a = square(100, 80, 10), b = square(104, 50, 20);
   a.pixels = 60;
   b.pixels = 90;

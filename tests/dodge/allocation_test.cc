@@ -1,0 +1,157 @@
+// The flight core allocates no memory in flight: counts the calls of the malloc family, to which
+// operator new and OpenCV's allocator come down.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+
+#include "dodge/dodger.h"
+#include "dodge/presets.h"
+#include "tests/dodge/synthetic_flight.h"
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define DODGESIM_OWN_MALLOC 0
+#endif
+#endif
+#if !defined(DODGESIM_OWN_MALLOC)
+#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define DODGESIM_OWN_MALLOC 0  // sanitizers replace malloc themselves
+#else
+#define DODGESIM_OWN_MALLOC 1
+#endif
+#endif
+
+namespace {
+std::atomic<long> allocations = 0;  // of all threads, since the program's start
+}
+
+#if DODGESIM_OWN_MALLOC
+// glibc's own allocator under the names it keeps for programs that replace malloc.
+extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier)
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* block, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) noexcept {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* block, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_realloc(block, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+  return memalign(alignment, size);
+}
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexcept {
+  *block = memalign(alignment, size);
+  return *block == nullptr ? ENOMEM : 0;
+}
+// NOLINTEND(bugprone-reserved-identifier)
+}
+#endif
+
+namespace dodge {
+namespace {
+
+constexpr TimeUs kCycleUs = 5000;
+
+struct Variant {
+  const char* name;
+  Config config;
+};
+
+void PrintTo(const Variant& variant, std::ostream* out) { *out << variant.name; }
+
+Config stereo(const char* pilot) {
+  Config config = preset(pilot);
+  config.cameras = synthetic::vertical_pair();
+  return config;
+}
+
+Config mono(const char* pilot) {
+  Config config = stereo(pilot);
+  config.position.depth = "mono";
+  return config;
+}
+
+// The branches that the presets do not take: larger kernels, more groups than DBSCAN shall see.
+Config unusual() {
+  Config config = stereo("falanga2020");
+  config.ego_motion.reference = "start";
+  config.time_image.blur_px = 5;
+  config.time_image.open_px = 0;
+  config.time_image.dilate_px = 3;
+  config.cluster.min_group_pixels = 1;
+  config.cluster.max_groups = 2;
+  config.position.stereo.disparity = "centres";
+  config.position.centre = "centroid";
+  return config;
+}
+
+// Balls that cross the view of a turning camera and one that comes.
+std::vector<synthetic::Disk> scene() {
+  std::vector<synthetic::Disk> disks = synthetic::far_background(15, 8);
+  for (const double start_s : {0.15, 0.3}) {
+    disks.push_back(synthetic::thrown_ball({1.3, -0.5, 0}, {1.3, 0.5, 0.1}, 4, 0.2, 1, start_s));
+  }
+  disks.push_back(synthetic::thrown_ball({3.5, 0.2, -0.2}, {0.1, 0, 0}, 6, 0.3, -1, 0.35));
+  return disks;
+}
+
+class Allocation : public ::testing::TestWithParam<Variant> {};
+
+TEST_P(Allocation, none_from_the_first_cycle_on) {
+  if (!DODGESIM_OWN_MALLOC) GTEST_SKIP() << "malloc cannot be counted in this build.";
+  synthetic::Flight flight(synthetic::turning, scene(), {}, 5);
+  Dodger dodger(GetParam().config);
+  dodger.set_goal({});
+  int detections = 0, obstacles = 0, evading = 0;
+  for (TimeUs t = kCycleUs; t <= 800000; t += kCycleUs) {
+    flight.advance(t);
+    const long before = allocations;
+    dodger.add_range({t, 2});
+    const VelocityCommand command = flight.feed(dodger);
+    const long during = allocations - before;
+    ASSERT_EQ(during, 0) << "at " << t << " us";
+    detections += static_cast<int>(dodger.detections().size());
+    obstacles += static_cast<int>(dodger.obstacles().size());
+    evading += command.evading ? 1 : 0;
+  }
+  EXPECT_GT(detections, 20);  // all stages have worked
+  EXPECT_GT(obstacles, 40);
+  EXPECT_GT(evading, 5);
+}
+
+TEST(AllocationCount, sees_operator_new_and_opencv) {
+  if (!DODGESIM_OWN_MALLOC) GTEST_SKIP() << "malloc cannot be counted in this build.";
+  long before = allocations;
+  std::vector<int> numbers(1000);
+  EXPECT_EQ(allocations - before, 1);
+  before = allocations;
+  const cv::Mat1b image(100, 100);
+  EXPECT_GE(allocations - before, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pilots, Allocation,
+                         ::testing::Values(Variant{"falanga2020_stereo", stereo("falanga2020")},
+                                           Variant{"falanga2020_mono", mono("falanga2020")},
+                                           Variant{"dodgesim_stereo", stereo("dodgesim")},
+                                           Variant{"dodgesim_mono", mono("dodgesim")},
+                                           Variant{"unusual", unusual()}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace dodge
