@@ -77,7 +77,7 @@ inline std::vector<Disk> far_background(int count, std::uint64_t seed,
                               distance_m * std::tan(elevation));
     const double radius_m = distance_m * random.uniform(0.02, 0.08);
     const double contrast = random.uniform(0.4, 1.2) * (random.uniform() < 0.5 ? -1 : 1);
-    disks.push_back({[p_W](double) { return p_W; }, radius_m, contrast});
+    disks.push_back({[p_W](double) { return Eigen::Vector3d(p_W); }, radius_m, contrast});
   }
   return disks;
 }
@@ -96,7 +96,8 @@ class EventGenerator {
         sensor_(sensor),
         random_(seed, camera_index, "noise"),
         t_us_(begin_us) {
-    const auto size = static_cast<std::size_t>(camera.width * camera.height);
+    const auto size =
+        static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
     level_.assign(size, 0);
     reference_.assign(size, 0);
     circles_.resize(disks_.size());

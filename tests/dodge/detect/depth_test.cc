@@ -117,7 +117,8 @@ TEST_F(DepthTest, six_points_are_the_corners_and_the_centre_moved_by_the_size) {
 
 TEST_F(DepthTest, whole_pixels_give_depth_within_the_quantisation_of_the_disparity) {
   const double focal_baseline = cameras_[0].fx * 0.15;
-  for (double depth_m = 0.3; depth_m < 1.4; depth_m += 0.01) {
+  for (int depth_cm = 30; depth_cm < 140; ++depth_cm) {
+    const double depth_m = 0.01 * depth_cm;
     const Eigen::Vector3d p_B(depth_m + 0.1, 0.05, 0.03);
     Cluster top = seen_by(0, p_B, 0.2), bottom = seen_by(1, p_B, 0.2);
     top.rectangle.center.y = std::round(top.rectangle.center.y);
