@@ -42,6 +42,13 @@ Commands answer(const Testimony& testimony, TimeUs from_us) {
   return {first, all.end()};
 }
 
+// Those before the contact, but at least the first.
+Commands before(TimeUs contact_us, Commands commands) {
+  const auto end = std::find_if(commands.begin() + 1, commands.end(),
+                                [&](const auto& command) { return command.t_us >= contact_us; });
+  return {commands.begin(), end};
+}
+
 // See CollisionEvidence::command_W.
 Vector3d mean_evasion(Commands commands) {
   Vector3d sum_W = Vector3d::Zero();
@@ -73,9 +80,10 @@ void add_answer(const Testimony& testimony, const Testimony::Object& object, boo
     if (object.detections.empty()) return;
     from_us = object.detections.front().output_us;
   }
-  const Commands commands = answer(testimony, from_us);
+  Commands commands = answer(testimony, from_us);
   if (commands.empty()) return;
   evidence.command_us = commands.front().t_us;
+  if (evidence.undisturbed) commands = before(evidence.undisturbed->contact_us, commands);
   evidence.command_W = mean_evasion(commands);
   if (evidence.undisturbed) {
     evidence.commanded_path_W = path(commands, evidence.undisturbed->contact_us);

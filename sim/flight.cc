@@ -272,7 +272,7 @@ const Snapshot* Flight::truth_at(TimeUs t_us) const {
 }
 
 void Flight::log_detections() {
-  const TimeUs output_us = now_us() + scenario_.delays.compute_us;
+  const TimeUs output_us = now_us() + scenario_.delays.pilot_us();
   for (const dodge::Detection& detection : computer_.pilot().detections()) {
     ++record_.detections;
     DetectionRow row;

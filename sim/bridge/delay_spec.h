@@ -12,9 +12,13 @@ struct DelaySpec {
   int range_us = 2000;
   int cycle_us = 4000;             // from the start of one cycle of the pilot to the next
   int compute_us = 3500;           // one cycle of the pilot
+  int perception_us = 0;           // on top of that, pipelined: cycles stay as frequent
   int packet_us = 1000;            // USB packets of events end at multiples of this
   int command_us = 3000;           // serial link to the flight controller
   int flight_controller_us = 250;  // from a received command to the rotor commands
+
+  // From the start of a cycle to its command.
+  int pilot_us() const { return compute_us + perception_us; }
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -33,7 +37,11 @@ struct DelaySpec {
     v("compute_us", compute_us, 0, 1000000,
       "One cycle of the pilot, from its newest data to its command (3.5 ms in the paper's Table "
       "3).");
-    v("command_us", command_us, 0, 1000000,
+    v("perception_us", perception_us, 0, 1000000,
+      "Later than that by this: a slow perception that is pipelined, so that the pilot's cycles "
+      "stay "
+      "as frequent. Not part of the paper's chain, but for experiments with latency.");
+    v("command_us", command_us, 0, 100000,
       "Serial link from the computer to the flight controller (3.0 ms measured by the authors).");
     v("flight_controller_us", flight_controller_us, 0, 100000,
       "From a received command to the rotor commands it causes (one 4 kHz cycle).");

@@ -19,7 +19,7 @@ OnboardComputer::OnboardComputer(const DelaySpec& delays, std::unique_ptr<dodge:
       imu_(delays.imu_us),
       states_(delays.state_estimate_us),
       ranges_(delays.range_us),
-      commands_(delays.compute_us) {}
+      commands_(delays.pilot_us()) {}
 
 void OnboardComputer::send_events(int camera, TimeUs packet_end_us, std::span<const Event> packet) {
   Packet out;

@@ -117,7 +117,8 @@ struct CollisionEvidence {
   bool another_detected_before = false;
   std::optional<Encounter> undisturbed;  // empty: nothing would have happened
   std::optional<TimeUs> command_us;      // first evasive command after the detection
-  // Mean of the evasive commands, less the vehicle's velocity when the first arrived.
+  // Mean of the evasive commands until the contact of `undisturbed`, less the vehicle's velocity when
+  // the first arrived.
   Eigen::Vector3d command_W = Eigen::Vector3d::Zero();
   // How far the commands, evasive or not, lead from the course that the vehicle was on when that
   // one arrived: the integral of commanded velocity less the vehicle's velocity at the first

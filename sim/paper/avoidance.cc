@@ -1,5 +1,6 @@
-// The avoidance experiments, indoors and outdoors: the paper's pilot, an oracle that is told of the
-// object within the same 1.5 m, and dodgesim, on the same throws.
+// The avoidance experiments, indoors and outdoors: the paper's pilot and dodgesim on the same
+// throws, each beside an oracle that is told of the object within the range that the pilot may
+// believe.
 #include <functional>
 #include <set>
 #include <span>

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/base/gravity.h"
+#include "sim/base/time.h"
 #include "sim/campaign/collision_cause.h"
 #include "sim/flight.h"
 #include "sim/world/referee.h"
@@ -30,6 +31,13 @@ AvoidanceTimes avoidance_times(const Scenario& scenario, double ball_radius_m) {
   const double sideways_mps2 =
       std::sqrt(std::pow(agility.max_thrust_mps2, 2) - std::pow(kGravityMps2, 2));
   return {point_avoidance_s(sideways_m, sideways_mps2), least_time_to_escape_s(agility, encounter)};
+}
+
+double latency_without_pilot_s(const Scenario& scenario) {
+  const DelaySpec& delays = scenario.delays;
+  return seconds(scenario.sensors.events.latency_us + delays.transport_us + delays.command_us +
+                 delays.flight_controller_us) +
+         0.5 * seconds(delays.cycle_us);
 }
 
 }  // namespace dodgesim

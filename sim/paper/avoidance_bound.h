@@ -28,4 +28,8 @@ struct AvoidanceTimes {
 };
 AvoidanceTimes avoidance_times(const Scenario& scenario, double ball_radius_m);
 
+// From light to the rotors' command, without what the pilot takes: the pixel's latency, transport,
+// half a cycle until the next one begins, the link and the flight controller.
+double latency_without_pilot_s(const Scenario& scenario);
+
 }  // namespace dodgesim

@@ -56,7 +56,7 @@ struct PaperVariant {
 std::vector<PaperFlight> flights_of(const std::string& prefix, const std::string& scenario,
                                     const std::vector<PaperVariant>& variants);
 
-// All of them, in the paper's order.
+// All of them: the paper's, then the claims.
 const std::vector<PaperExperiment>& paper_experiments();
 
 PaperExperiment table1_experiment();

@@ -37,9 +37,11 @@ constexpr const char* kProtocol = R"(How to read it:
 - The oracle is told of the true object within the range, and avoids it by the variant. All variants
   meet the same throws. Dodged / would have hit (95 %, Wilson).
 - *p*: exact McNemar test against the first row, over all speeds.
-- *Decay*: falanga2020 with its cameras, believing from 3 m on. The repulsive constant falls by
-  exp(-lambda dt) while the object is not detected; *evading*: the time for which the commands
-  evaded, in the median (how long the vehicle goes on after the object has passed).
+- The flights of the variants end 0.1 s after the ball's arrival: what comes later is not judged.
+- *Decay*: the repulsive constant falls by exp(-lambda dt) while the object is not detected. The
+  oracle is told of the ball within 1.5 m and flies on for 3 s: *evading* is the time for which its
+  commands evaded, in the median of the dodges. falanga2020, believing from 3 m on, shows what the
+  decay does between detections.
 )";
 
 std::string p_against(const LoadedCampaign& faithful, const LoadedCampaign& variant, int sweep) {
@@ -52,8 +54,8 @@ std::string p_against(const LoadedCampaign& faithful, const LoadedCampaign& vari
 RateGrid grid_of(const std::vector<LoadedCampaign>& campaigns, std::size_t range) {
   const Axis speeds("speed_mps", campaigns.front().results);
   const Part first = parts_of(campaigns.front()).at(range);
-  RateGrid grid{"range " + sweep_value(first, "oracle.range_cap_m") + " m", {}, {}, {}};
-  for (const std::string& speed : speeds.values()) grid.columns.push_back(speed + " m/s");
+  RateGrid grid{
+      "range " + sweep_value(first, "oracle.range_cap_m") + " m", {}, speed_columns(speeds), {}};
   for (std::size_t v = 0; v < variants().size(); ++v) {
     grid.add_row(variants()[v].name, success_by(speeds, parts_of(campaigns[v]).at(range).results));
   }
@@ -67,9 +69,8 @@ double evading_s(const ThrowResult& result) {
   return seconds(samples * trajectory.period_us);
 }
 
-TextTable decay_table(const LoadedCampaign& campaign) {
-  TextTable table;
-  table.head = {"lambda [1/s]", "dodged", "crashed into the room", "evading [s]"};
+void add_decay(const std::string& pilot, const LoadedCampaign& campaign, bool flies_on,
+               TextTable& table) {
   for (const Part& part : parts_of(campaign)) {
     Tally tally;
     Rate crashed;
@@ -77,12 +78,19 @@ TextTable decay_table(const LoadedCampaign& campaign) {
     for (const ThrowResult* result : part.results) {
       tally.add(*result);
       crashed.add(result->flown.crashed);
-      if (result->flown.unharmed() && result->evaded) evading.add(evading_s(*result));
+      if (result->dodged() && result->evaded) evading.add(evading_s(*result));
     }
-    table.rows.push_back({sweep_value(part, "dodger.repulsive.lambda_decay_1ps"),
+    table.rows.push_back({pilot, sweep_value(part, "dodger.repulsive.lambda_decay_1ps"),
                           short_rate_text(tally.success()), short_rate_text(crashed),
-                          median_text(evading, 2)});
+                          flies_on ? median_text(evading, 2) : ""});
   }
+}
+
+TextTable decay_table(const LoadedCampaign& told, const LoadedCampaign& seen) {
+  TextTable table;
+  table.head = {"pilot", "lambda [1/s]", "dodged", "crashed into the room", "evading [s]"};
+  add_decay("oracle, 1.5 m", told, true, table);
+  add_decay("falanga2020, 3 m", seen, false, table);
   return table;
 }
 
@@ -99,7 +107,8 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
     }
     tables.markdown += table.to_markdown() + "\n";
   }
-  tables.markdown += decay_table(campaigns.back()).to_markdown() + "\n" + kProtocol;
+  tables.markdown +=
+      decay_table(campaigns[variants().size()], campaigns.back()).to_markdown() + "\n" + kProtocol;
   tables.csv = rates_csv(grids);
   return tables;
 }
@@ -108,7 +117,8 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
 
 PaperExperiment field_experiment() {
   std::vector<PaperFlight> flights = flights_of("field_", "claims_field.yaml", variants());
-  flights.push_back({"decay", "claims_decay.yaml", {}});
+  flights.push_back({"decay_told", "claims_decay_told.yaml", {}});
+  flights.push_back({"decay_seen", "claims_decay_seen.yaml", {}});
   return {"field", "What each part of the repulsive field is worth", flights, analyse};
 }
 

@@ -1,6 +1,5 @@
 // The claim behind event cameras: how late perception may be, by the speed of the object.
-#include <cmath>
-
+#include "sim/base/error.h"
 #include "sim/paper/avoidance_bound.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/rate_grid.h"
@@ -12,22 +11,22 @@ namespace {
 constexpr const char* kProtocol = R"(How the claim is read:
 
 - *Latency of perception*: 3.5 ms are the paper's, 60 ms those of a pipeline of frames. More than
-  3.5 ms are added as a delay of every command, so that the pilot sees as often as before and only
-  acts later. (A computer that takes longer for each cycle also sees less often: results/latency.)
+  3.5 ms are a delay of every command of the pilot (`delays.perception_us`), which sees as often as
+  before and only acts later. (A computer that takes longer for each cycle also sees less often:
+  results/latency.)
   All other delays stay: packets of events, their transport, the wait for the next cycle, 3 ms to
   the flight controller, then the motors.
-- *Lost at*: the latency from which on less than half of the throws that would have hit are dodged,
-  between two measured latencies on a straight line.
+- *Lost at*: the greatest latency that was flown with at least half of the throws dodged, and the
+  next one.
 - *Bound*: "How fast is too fast" (Falanga et al. 2019), s / v - t_a, less the delays that are not
   perception's; s the range from which on the object is known, a ball of 20 cm that comes at the
   vehicle's centre. *point*: t_a = sqrt(2 r / u) of a vehicle that accelerates to the side at once
-  with all its thrust. *rotors*: t_a of its rotors in the best direction, with their lag and the
+  with all its thrust but what keeps its height. *rotors*: t_a of its rotors in the best direction, with their lag and the
   time to tilt.
 - *oracle*: told of the true object within s, avoids it like falanga2020. Intervals: 95 %, Wilson.
 )";
 
 constexpr double kPaperLatencyMs = 3.5, kFrameLatencyMs = 60;
-constexpr double kLinkUs = 3000;  // what of the command's delay is not perception's
 constexpr double kMeanBallRadiusM = 0.1;
 
 // Success of a pilot at each speed (rows) and latency (columns).
@@ -38,16 +37,14 @@ struct LatencyCurves {
 };
 
 double perception_ms(const Part& part, const DelaySpec& delays) {
-  return 1e-3 * (static_cast<double>(delays.compute_us) + sweep_number(part, "delays.command_us") -
-                 kLinkUs);
+  return 1e-3 * (delays.compute_us + sweep_number(part, "delays.perception_us"));
 }
 
 LatencyCurves curves_of(const std::string& pilot, const std::string& file,
                         const std::vector<Part>& parts, const LoadedCampaign& campaign) {
   const Axis speeds("speed_mps", campaign.results);
   LatencyCurves curves{pilot, file, {}, {}};
-  RateGrid by_latency{"", {}, {}, {}};
-  for (const std::string& speed : speeds.values()) by_latency.columns.push_back(speed + " m/s");
+  RateGrid by_latency{"", {}, speed_columns(speeds), {}};
   for (const Part& part : parts) {
     curves.latency_ms.push_back(perception_ms(part, campaign.scenario.delays));
     by_latency.add_row(fixed_text(curves.latency_ms.back(), 1) + " ms",
@@ -63,6 +60,8 @@ std::vector<Part> within(const std::string& range_m, const LoadedCampaign& campa
   for (const Part& part : parts_of(campaign)) {
     if (sweep_value(part, "oracle.range_cap_m") == range_m) parts.push_back(part);
   }
+  if (parts.empty())
+    throw ScenarioError("The experiment needs oracle.range_cap_m " + range_m + ".");
   return parts;
 }
 
@@ -75,23 +74,23 @@ PaperPlot plot_of(const LatencyCurves& curves) {
     add_curve(curves.grid.rows[i], static_cast<int>(i), curves.latency_ms, curves.grid.rates[i],
               plot);
   }
-  add_mark("3.5 ms and 60 ms", 5, kPaperLatencyMs, plot);
-  add_mark("", 5, kFrameLatencyMs, plot);
+  add_mark("3.5 ms and 60 ms", kPaperLatencyMs, plot);
+  add_mark("", kFrameLatencyMs, plot);
   return {curves.file, plot};
 }
 
+// Between which latencies a speed is lost.
 std::string lost_text(const LatencyCurves& curves, std::size_t speed) {
-  const double lost_ms = half_lost(curves.latency_ms, curves.grid.rates[speed]);
-  if (std::isinf(lost_ms)) return "> " + fixed_text(curves.latency_ms.back(), 0);
-  if (lost_ms == curves.latency_ms.front()) return "< " + fixed_text(lost_ms, 1);
-  return fixed_text(lost_ms, 0);
+  const std::vector<double>& at = curves.latency_ms;
+  const std::optional<std::size_t> last = last_half(curves.grid.rates[speed]);
+  if (!last) return "< " + fixed_text(at.front(), 1);
+  if (*last + 1 == at.size()) return "> " + fixed_text(at.back(), 0);
+  return fixed_text(at[*last], *last == 0 ? 1 : 0) + " to " + fixed_text(at[*last + 1], 0);
 }
 
 // By the bound, of perception alone [ms].
-std::string bound_text(const AvoidanceBound& bound, double speed_mps, const DelaySpec& delays) {
-  const double others_s = 1e-6 * (0.5 * static_cast<double>(delays.cycle_us) + kLinkUs +
-                                  static_cast<double>(delays.flight_controller_us));
-  const double latency_s = bound.greatest_latency_s(speed_mps) - others_s;
+std::string bound_text(const AvoidanceBound& bound, double speed_mps, const Scenario& scenario) {
+  const double latency_s = bound.greatest_latency_s(speed_mps) - latency_without_pilot_s(scenario);
   return latency_s > 0 ? fixed_text(1e3 * latency_s, 0) : "none";
 }
 
@@ -108,7 +107,7 @@ TextTable lost_table(const std::vector<LatencyCurves>& all, const LoadedCampaign
     row.push_back(speeds.values()[i] + " m/s");
     for (const double range_m : {1.5, 3.0}) {
       for (const double avoidance_s : {times.point_s, times.rotors_s}) {
-        row.push_back(bound_text({range_m, avoidance_s}, speeds.middles()[i], scenario.delays));
+        row.push_back(bound_text({range_m, avoidance_s}, speeds.middles()[i], scenario));
       }
     }
     for (const LatencyCurves& curves : all) row.push_back(lost_text(curves, i));

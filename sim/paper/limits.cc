@@ -9,23 +9,22 @@ namespace dodgesim {
 namespace {
 
 constexpr double kMeanBallRadiusM = 0.1;
-// From light to command: half a cycle, the pilot's 3.5 ms, the link and the flight controller.
-double latency_s(const DelaySpec& delays) {
-  return 1e-6 *
-         (0.5 * static_cast<double>(delays.cycle_us) +
-          static_cast<double>(delays.compute_us + delays.command_us + delays.flight_controller_us));
+
+double latency_s(const Scenario& scenario) {
+  return latency_without_pilot_s(scenario) + seconds(scenario.delays.pilot_us());
 }
 
 constexpr const char* kSpeedProtocol = R"(How the claim is read:
 
-- Balls of 10, 20 and 30 cm; from 4 m/s on they come from 3 m to 3.5 m, slower ones from 1 m to
-  1.5 m, because from 3 m they would be lobs that fall steeply onto the vehicle. Speeds are those
-  over the ground.
+- Balls of 10, 20 and 30 cm, by their speed over the ground. From 4 m/s on they come from 3 m to
+  3.5 m. Slower ones come from 0.8 m to 1 m and the vehicle's height, because from 3 m they would be
+  lobs that fall onto it; even so those of 3 m/s fall at 27 degrees and those of 2 m/s at 48 degrees
+  when they arrive. Nothing slower was thrown: it would mostly fall.
 - *falanga2020* believes nothing beyond 1.5 m, as in the paper; *oracle, 1.5 m* is told of the true
   object from there on and avoids it likewise; *oracle* without a range is told at once.
 - The vertical lines are the bound of "How fast is too fast" (Falanga et al. 2019) for a range of
   1.5 m and the delays of this chain, s / (tau + t_a), with the t_a of a point (sqrt(2 r / u)) and
-  that of the vehicle's rotors. Below them an ideal vehicle dodges every ball that comes straight.
+  that of the vehicle's rotors. Below them an ideal vehicle dodges a ball of 20 cm that comes level.
 - Intervals: 95 %, Wilson.
 )";
 
@@ -33,8 +32,9 @@ constexpr const char* kRangeProtocol = R"(How the claim is read:
 
 - *falanga2020* believes detections up to the range (`dodger.position.max_range_m`), the oracle is
   told of the true object from there on.
-- *Bound*: the fastest ball by "How fast is too fast" (Falanga et al. 2019), s / (tau + t_a), with the
-  delays of this chain; t_a of a point (sqrt(2 r / u)) and of the vehicle's rotors.
+- *Bound*: the fastest ball of 20 cm by "How fast is too fast" (Falanga et al. 2019),
+  s / (tau + t_a), with the delays of this chain; t_a of a point (sqrt(2 r / u)) and of the vehicle's
+  rotors.
 - Intervals: 95 %, Wilson.
 )";
 
@@ -45,12 +45,12 @@ struct SpeedCurve {
 
   void add(const Results& results, const LoadedCampaign& campaign) {
     const Axis speeds("speed_mps", campaign.results);
-    const std::vector<Rate> success = success_by(speeds, results);
-    for (std::size_t i = 0; i < success.size(); ++i) {
-      speed_mps.push_back(speeds.middles()[i]);
-      columns.push_back(speeds.values()[i] + " m/s");
-      rates.push_back(success[i]);
-    }
+    const auto append = [](auto& all, const auto& more) {
+      all.insert(all.end(), more.begin(), more.end());
+    };
+    append(speed_mps, speeds.middles());
+    append(columns, speed_columns(speeds));
+    append(rates, success_by(speeds, results));
   }
 };
 
@@ -79,11 +79,11 @@ PaperTables analyse_speed(const std::vector<LoadedCampaign>& campaigns) {
   }
   const Scenario& scenario = campaigns[1].scenario;
   const AvoidanceTimes times = avoidance_times(scenario, kMeanBallRadiusM);
-  const double tau_s = latency_s(scenario.delays);
+  const double tau_s = latency_s(scenario);
   const double point_mps = AvoidanceBound{1.5, times.point_s}.greatest_speed_mps(tau_s);
   const double rotors_mps = AvoidanceBound{1.5, times.rotors_s}.greatest_speed_mps(tau_s);
-  add_mark("bound of 1.5 m: rotors, point", 5, rotors_mps, plot);
-  add_mark("", 5, point_mps, plot);
+  add_mark("bound of 1.5 m: rotors, point", rotors_mps, plot);
+  add_mark("", point_mps, plot);
   return {grid.table().to_markdown() + "\nBound for 1.5 m: " + fixed_text(point_mps, 1) +
               " m/s (point), " + fixed_text(rotors_mps, 1) + " m/s (rotors).\n\n" + kSpeedProtocol,
           rates_csv({grid}),
@@ -98,8 +98,7 @@ struct RangeRows {
 RangeRows rows_of(const std::string& pilot, const std::string& key,
                   const LoadedCampaign& campaign) {
   const Axis speeds("speed_mps", campaign.results);
-  RangeRows rows{{pilot, {}, {}, {}}, {}};
-  for (const std::string& speed : speeds.values()) rows.grid.columns.push_back(speed + " m/s");
+  RangeRows rows{{pilot, {}, speed_columns(speeds), {}}, {}};
   for (const Part& part : parts_of(campaign)) {
     rows.range_m.push_back(sweep_number(part, key));
     rows.grid.add_row(sweep_value(part, key) + " m", success_by(speeds, part.results));
@@ -117,13 +116,13 @@ PaperPlot plot_of(const RangeRows& rows, const std::string& file) {
   for (std::size_t i = 0; i < by_speed.rows.size(); ++i) {
     add_curve(by_speed.rows[i], static_cast<int>(i), rows.range_m, by_speed.rates[i], plot);
   }
-  add_mark("1.5 m", 5, 1.5, plot);
+  add_mark("1.5 m", 1.5, plot);
   return {file, plot};
 }
 
 TextTable bound_table(const std::vector<double>& range_m, const Scenario& scenario) {
   const AvoidanceTimes times = avoidance_times(scenario, kMeanBallRadiusM);
-  const double tau_s = latency_s(scenario.delays);
+  const double tau_s = latency_s(scenario);
   TextTable table;
   table.head = {"range", "bound, point [m/s]", "bound, rotors [m/s]"};
   for (const double s : range_m) {
@@ -138,7 +137,8 @@ TextTable bound_table(const std::vector<double>& range_m, const Scenario& scenar
 PaperTables analyse_range(const std::vector<LoadedCampaign>& campaigns) {
   const RangeRows faithful = rows_of("falanga2020", "dodger.position.max_range_m", campaigns[0]);
   const RangeRows oracle = rows_of("oracle", "oracle.range_cap_m", campaigns[1]);
-  return {faithful.grid.table().to_markdown() + "\n" + oracle.grid.table().to_markdown() + "\n" +
+  return {faithful.grid.with_sum().table().to_markdown() + "\n" +
+              oracle.grid.with_sum().table().to_markdown() + "\n" +
               bound_table(oracle.range_m, campaigns[1].scenario).to_markdown() + "\n" +
               kRangeProtocol,
           rates_csv({faithful.grid, oracle.grid}),

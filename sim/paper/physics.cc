@@ -1,6 +1,7 @@
 // What physics allows a vehicle that is told of the object, by range, latency and gains.
+#include <algorithm>
 #include <array>
-#include <cmath>
+#include <optional>
 
 #include "sim/paper/experiment.h"
 #include "sim/paper/rate_grid.h"
@@ -9,11 +10,11 @@ namespace dodgesim {
 
 namespace {
 
-constexpr std::size_t kSpeeds = 5, kSizes = 3;
-
-// Percent dodged of a study with a rigid body, motors of first order and the paper's field by
-// itself, before this simulator: [speed 4, 5, 6, 8, 10 m/s][ball of 10, 20, 30 cm].
-using Study = std::array<std::array<int, kSizes>, kSpeeds>;
+// Percent dodged in a study with a rigid body, motors of first order and the paper's field, made
+// before this simulator: a row for each speed, a column for each ball.
+constexpr std::array kStudySpeedsMps = {4.0, 5.0, 6.0, 8.0, 10.0};
+constexpr std::array kStudySizesM = {0.1, 0.2, 0.3};
+using Study = std::array<std::array<int, kStudySizesM.size()>, kStudySpeedsMps.size()>;
 
 struct PhysicsVariant {
   PaperVariant variant;
@@ -26,8 +27,10 @@ const std::vector<PhysicsVariant>& physics_variants() {
   static const std::vector<PhysicsVariant> all = {
       {{"1_5m", "range 1.5 m (the paper's)", {}},
        {{{77, 65, 50}, {83, 67, 33}, {79, 56, 24}, {51, 27, 3}, {31, 4, 0}}}},
+      {{"middle", "range 1.5 m, aimed at the vehicle's middle", {set("throw.aim_offset_m", "0")}},
+       {{{77, 65, 50}, {83, 67, 33}, {79, 56, 24}, {51, 27, 3}, {31, 4, 0}}}},
       {{"agile",
-        "the same, gains 15 and 20 1/s, limit 10 m/s, motors 25 ms",
+        "range 1.5 m, gains 15 and 20 1/s, limit 10 m/s, motors 25 ms",
         {set("controller.evading_velocity_gain_1ps", "15"),
          set("controller.attitude_gain_xy_1ps", "20"),
          set("controller.evading_speed_limit_mps", "10"),
@@ -43,11 +46,11 @@ const std::vector<PhysicsVariant>& physics_variants() {
        {{{100, 100, 100}, {100, 100, 100}, {100, 100, 100}, {100, 100, 100}, {100, 95, 84}}}},
       {{"3m_40ms",
         "range 3 m, 40 ms from light to command",
-        {range("3"), set("delays.command_us", "34250")}},
+        {range("3"), set("delays.perception_us", "30150")}},
        {{{100, 100, 100}, {100, 100, 100}, {100, 100, 100}, {100, 100, 99}, {99, 93, 83}}}},
       {{"3m_70ms",
         "range 3 m, 70 ms from light to command",
-        {range("3"), set("delays.command_us", "64250")}},
+        {range("3"), set("delays.perception_us", "60150")}},
        {{{100, 100, 100}, {100, 100, 100}, {100, 100, 100}, {100, 98, 89}, {89, 82, 64}}}},
       {{"slow",
         "range 1.5 m, command limit 2 m/s",
@@ -63,17 +66,40 @@ constexpr const char* kPhysicsProtocol = R"(How to read it:
   motors of first order, the paper's field and perfect perception found, in percent. **Bold**: the
   interval does not hold the study's figure.
 - The study does not say where its throws were aimed at nor from which height they came. Ours come
-  from the vehicle's height and would hit anywhere at the hull. Aimed at its middle instead, 60 to
-  100 % of those of 4 and 5 m/s and next to none of 8 and 10 m/s are dodged at 1.5 m: where a ball
-  would hit decides how far the vehicle must go (try `--set` of `throw.aim_offset_m`).
+  from the vehicle's height and would hit anywhere at the hull; one table shows what becomes of them
+  when they are aimed at its middle: where a ball would hit decides how far the vehicle must go.
 - Our vehicle is the whole chain but perception: rotors, mixer, body-rate loop, velocity controller
   and state estimate, with noise.
 )";
 
-std::string beside_study(const Rate& rate, int percent) {
-  const bool differs = !rate.interval().contains(0.01 * percent);
+template <std::size_t n>
+std::optional<std::size_t> find(const std::array<double, n>& values, double value) {
+  const auto found = std::find(values.begin(), values.end(), value);
+  if (found == values.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - values.begin());
+}
+
+// The rate, with the study's figure if it has one.
+std::string beside_study(const Rate& rate, const Study& study, double speed_mps, double size_m) {
+  const auto speed = find(kStudySpeedsMps, speed_mps), size = find(kStudySizesM, size_m);
+  if (!speed || !size) return short_rate_text(rate);
+  const int percent = study[*speed][*size];
   const std::string text = short_rate_text(rate) + ", " + std::to_string(percent);
-  return differs ? "**" + text + "**" : text;
+  return rate.interval().contains(0.01 * percent) ? text : "**" + text + "**";
+}
+
+// A row for each size, a column for each speed.
+RateGrid grid_of(const PhysicsVariant& variant, const LoadedCampaign& campaign, const Axis& sizes,
+                 const Axis& speeds) {
+  RateGrid grid{variant.variant.name, {}, speed_columns(speeds), {}};
+  for (std::size_t size = 0; size < sizes.values().size(); ++size) {
+    Results of_size;
+    for (const ThrowResult& result : campaign.results) {
+      if (sizes.of(result) == size) of_size.push_back(&result);
+    }
+    grid.add_row(sizes.values()[size] + " m", success_by(speeds, of_size));
+  }
+  return grid;
 }
 
 PaperTables analyse_physics(const std::vector<LoadedCampaign>& campaigns) {
@@ -82,25 +108,15 @@ PaperTables analyse_physics(const std::vector<LoadedCampaign>& campaigns) {
   for (std::size_t v = 0; v < campaigns.size(); ++v) {
     const PhysicsVariant& variant = physics_variants().at(v);
     const Axis speeds("speed_mps", campaigns[v].results), sizes("size_m", campaigns[v].results);
-    RateGrid grid{variant.variant.name, {}, {}, {}};
-    for (const std::string& speed : speeds.values()) grid.columns.push_back(speed + " m/s");
-    TextTable table;
-    table.head = {grid.name};
-    table.head.insert(table.head.end(), grid.columns.begin(), grid.columns.end());
-    for (std::size_t size = 0; size < sizes.values().size(); ++size) {
-      Results of_size;
-      for (const ThrowResult& result : campaigns[v].results) {
-        if (sizes.of(result) == size) of_size.push_back(&result);
-      }
-      grid.add_row(sizes.values()[size] + " m", success_by(speeds, of_size));
-      std::vector<std::string>& row = table.rows.emplace_back();
-      row.push_back(grid.rows.back());
-      for (std::size_t speed = 0; speed < grid.columns.size(); ++speed) {
-        row.push_back(beside_study(grid.rates.back()[speed], variant.study.at(speed).at(size)));
+    grids.push_back(grid_of(variant, campaigns[v], sizes, speeds));
+    TextTable table = grids.back().table();
+    for (std::size_t size = 0; size < sizes.middles().size(); ++size) {
+      for (std::size_t speed = 0; speed < speeds.middles().size(); ++speed) {
+        table.rows[size][speed + 1] = beside_study(grids.back().rates[size][speed], variant.study,
+                                                   speeds.middles()[speed], sizes.middles()[size]);
       }
     }
     tables.markdown += table.to_markdown() + "\n";
-    grids.push_back(grid);
   }
   tables.markdown += kPhysicsProtocol;
   tables.csv = rates_csv(grids);

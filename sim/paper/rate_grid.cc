@@ -1,7 +1,6 @@
 #include "sim/paper/rate_grid.h"
 
 #include <cmath>
-#include <limits>
 
 #include "sim/base/error.h"
 #include "sim/config/numbers.h"
@@ -18,6 +17,20 @@ RateGrid RateGrid::transposed(const std::string& transposed_name) const {
   other.rates.resize(columns.size());
   for (const std::vector<Rate>& row : rates) {
     for (std::size_t i = 0; i < columns.size(); ++i) other.rates[i].push_back(row[i]);
+  }
+  return other;
+}
+
+RateGrid RateGrid::with_sum() const {
+  RateGrid other = *this;
+  other.columns.push_back("all");
+  for (std::vector<Rate>& row : other.rates) {
+    Rate sum;
+    for (const Rate& rate : row) {
+      sum.count += rate.count;
+      sum.of += rate.of;
+    }
+    row.push_back(sum);
   }
   return other;
 }
@@ -67,6 +80,12 @@ std::string median_text(const Measured& sample, int digits) {
                  : fixed_text(median->value, digits);
 }
 
+std::vector<std::string> speed_columns(const Axis& speeds) {
+  std::vector<std::string> columns;
+  for (const std::string& speed : speeds.values()) columns.push_back(speed + " m/s");
+  return columns;
+}
+
 std::vector<Rate> success_by(const Axis& axis, const Results& results) {
   std::vector<Tally> tallies(axis.values().size());
   for (const ThrowResult* result : results) {
@@ -110,19 +129,16 @@ void add_curve(const std::string& name, int colour, const std::vector<double>& a
   plot.series.push_back(points);
 }
 
-void add_mark(const std::string& name, int colour, double at, Plot& plot) {
-  plot.series.push_back({name, Series::Kind::kLine, colour, {at, at}, {0, 1}, {}});
+void add_mark(const std::string& name, double at, Plot& plot) {
+  constexpr int kGrey = 5;
+  plot.series.push_back({name, Series::Kind::kLine, kGrey, {at, at}, {0, 1}, {}});
 }
 
-double half_lost(const std::vector<double>& at, const std::vector<Rate>& rates) {
-  const auto value = [&](std::size_t i) { return rates[i].value().value_or(0); };
-  for (std::size_t i = at.size(); i-- > 0;) {
-    if (value(i) < 0.5) continue;
-    if (i + 1 == at.size()) return std::numeric_limits<double>::infinity();
-    const double share = (value(i) - 0.5) / (value(i) - value(i + 1));
-    return at[i] + share * (at[i + 1] - at[i]);
+std::optional<std::size_t> last_half(const std::vector<Rate>& rates) {
+  for (std::size_t i = rates.size(); i-- > 0;) {
+    if (rates[i].of > 0 && 2 * rates[i].count >= rates[i].of) return i;
   }
-  return at.front();
+  return std::nullopt;
 }
 
 }  // namespace dodgesim

@@ -1,7 +1,7 @@
 // Success rates over two conditions, such as the latency and the speed.
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +20,8 @@ struct RateGrid {
 
   void add_row(const std::string& row, const std::vector<Rate>& row_rates);
   RateGrid transposed(const std::string& transposed_name) const;
+  // With a last column for each row's sum.
+  RateGrid with_sum() const;
   TextTable table() const;  // "25 / 34 (0.57 to 0.85)", with Wilson's interval
 };
 
@@ -33,6 +35,9 @@ std::string short_rate_text(const Rate& rate);
 // have one; "-" of none.
 std::string median_text(const Measured& sample, int digits);
 
+// "4 m/s", ...
+std::vector<std::string> speed_columns(const Axis& speeds);
+
 // The flown pilot's dodges among the throws that would have hit, for each value of the axis.
 std::vector<Rate> success_by(const Axis& axis, const Results& results);
 
@@ -40,17 +45,15 @@ std::vector<Rate> success_by(const Axis& axis, const Results& results);
 std::string sweep_value(const Part& part, const std::string& key);
 double sweep_number(const Part& part, const std::string& key);
 
-// Success over the values of `columns`, which are numbers: a line and its points, without what had
-// no trials.
+// Success over `at`: a line and its points, without what had no trials. Colours 0 to 4.
 void add_curve(const std::string& name, int colour, const std::vector<double>& at,
                const std::vector<Rate>& rates, Plot& plot);
 
-// A vertical line.
-void add_mark(const std::string& name, int colour, double at, Plot& plot);
+// A grey vertical line.
+void add_mark(const std::string& name, double at, Plot& plot);
 
-// Where the rates, over increasing values, fall below one half for good: between the last value
-// with at least one half and the next one, on a straight line. Infinite if the last rate is at
-// least one half; `at.front()` if none is.
-double half_lost(const std::vector<double>& at, const std::vector<Rate>& rates);
+// The last of the rates that is at least one half; empty if none is. Rates without trials do not
+// count.
+std::optional<std::size_t> last_half(const std::vector<Rate>& rates);
 
 }  // namespace dodgesim

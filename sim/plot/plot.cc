@@ -22,6 +22,10 @@ const std::array<cv::Scalar, 6> kColours = {cv::Scalar(180, 100, 30), cv::Scalar
                                             cv::Scalar(80, 160, 60),  cv::Scalar(160, 60, 140),
                                             cv::Scalar(30, 160, 210), cv::Scalar(110, 110, 110)};
 
+const cv::Scalar& colour_of(const Series& series) {
+  return kColours[static_cast<std::size_t>(series.colour) % kColours.size()];
+}
+
 // From values to pixels along one axis.
 struct Scale {
   double from, to;
@@ -134,13 +138,13 @@ void draw_bars(cv::Mat3b& image, const Series& series, const Scale& x, const Sca
     const cv::Rect visible = bar & cv::Rect(0, 0, kWidth, kHeight);
     if (visible.empty()) continue;
     cv::Mat part = image(visible);
-    const cv::Mat paint(part.size(), CV_8UC3, kColours[static_cast<std::size_t>(series.colour)]);
+    const cv::Mat paint(part.size(), CV_8UC3, colour_of(series));
     cv::addWeighted(part, 0.45, paint, 0.55, 0, part);
   }
 }
 
 void draw_points(cv::Mat3b& image, const Series& series, const Scale& x, const Scale& y) {
-  const cv::Scalar& colour = kColours[static_cast<std::size_t>(series.colour)];
+  const cv::Scalar& colour = colour_of(series);
   cv::Point last;
   bool started = false;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -172,8 +176,7 @@ void draw_legend(cv::Mat3b& image, const Plot& plot) {
     const cv::Size size = cv::getTextSize(series.name, kFont, kTextScale, 1, nullptr);
     const int x = plot.legend_left ? kLeft + 28 : kWidth - kRight - size.width - 10;
     cv::rectangle(image, {x - 22, y - 9}, {x + size.width + 4, y + 4}, kPaper, cv::FILLED);
-    cv::rectangle(image, {x - 18, y - 7}, {x - 8, y + 1},
-                  kColours[static_cast<std::size_t>(series.colour)], cv::FILLED);
+    cv::rectangle(image, {x - 18, y - 7}, {x - 8, y + 1}, colour_of(series), cv::FILLED);
     write(image, series.name, {x, y}, 0);
     y += 17;
   }

@@ -106,6 +106,8 @@ TEST(ExplainThrow, WhereTheCommandsLeadDecidesWhetherTheyWereEnough) {
   // What comes after the ball is of no use.
   EXPECT_EQ(cause_of({{500000, true, 0.19 * up, still}, {1000000, true, 5 * up, still}}),
             "commanded too little");
+  EXPECT_EQ(cause_of({{500000, true, 0.21 * up, still}, {1000000, true, -5 * up, still}}),
+            "not enough thrust");
 }
 
 TEST(ExplainThrow, ADodgeHasNoCause) {

@@ -16,7 +16,8 @@ std::vector<WindowTimes> windows() {
   std::vector<WindowTimes> windows;
   for (int i = 0; i < 40; ++i) {
     const double noise_us = i % 4 < 2 ? 0.5 : -0.5;
-    const double events = 500.0 * (i / 4), pixels = 30.0 * (i / 4);
+    const int step = i / 4;
+    const double events = 500.0 * step, pixels = 30.0 * step;
     windows.push_back(
         {events, pixels, 10 + 3e-3 * events + noise_us, 5 + 0.02 * pixels - noise_us});
   }

@@ -202,6 +202,19 @@ TEST(OnboardComputer, ACommandAppearsOnceWhenItsComputationEnds) {
   }
 }
 
+TEST(OnboardComputer, APipelinedPerceptionIsLateButNotRare) {
+  DelaySpec delays;
+  delays.perception_us = 56500;
+  Bench bench{delays};
+  bench.run(80000);
+  ASSERT_GE(bench.log.cycles.size(), 19u);  // one every 4 ms
+  ASSERT_GE(bench.outputs.size(), 4u);
+  for (std::size_t i = 0; i < bench.outputs.size(); ++i) {
+    EXPECT_EQ(bench.outputs[i].cycle_us, static_cast<TimeUs>(4000 * (i + 1)));
+    EXPECT_EQ(bench.outputs[i].at_us, bench.outputs[i].cycle_us + 60000);
+  }
+}
+
 TEST(OnboardComputer, OnlyTheNewestOfSeveralCommandsCounts) {
   Log log;
   OnboardComputer computer(DelaySpec{}, std::make_unique<RecordingPilot>(log));

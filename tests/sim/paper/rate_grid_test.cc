@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "sim/base/error.h"
 #include "tests/sim/paper/synthetic_campaign.h"
 
@@ -38,6 +36,15 @@ TEST(RateGrid, IsTransposed) {
   }
 }
 
+TEST(RateGrid, SumsItsRows) {
+  RateGrid grid{"speed", {}, {"a", "b"}, {}};
+  grid.add_row("x", {{1, 3}, {2, 4}});
+  const RateGrid summed = grid.with_sum();
+  EXPECT_EQ(summed.columns.back(), "all");
+  EXPECT_EQ(summed.rates[0].back().count, 3);
+  EXPECT_EQ(summed.rates[0].back().of, 7);
+}
+
 TEST(RateGrid, IsWrittenForPeopleAndPrograms) {
   RateGrid grid{"speed", {}, {"a", "b"}, {}};
   grid.add_row("x", {{25, 34}, {0, 0}});
@@ -48,17 +55,25 @@ TEST(RateGrid, IsWrittenForPeopleAndPrograms) {
             "speed,x,b,0,0,,0.0000,1.0000\n");
 }
 
-TEST(HalfLost, LiesOnTheLineBetweenTwoMeasurements) {
-  const std::vector<double> at = {10, 20, 40};
-  EXPECT_NEAR(half_lost(at, {{10, 10}, {8, 10}, {2, 10}}), 30, 1e-12);
-  EXPECT_NEAR(half_lost(at, {{10, 10}, {5, 10}, {0, 10}}), 20, 1e-12);
-  EXPECT_TRUE(std::isinf(half_lost(at, {{10, 10}, {2, 10}, {6, 10}})));  // not for good
-  EXPECT_EQ(half_lost(at, {{4, 10}, {2, 10}, {0, 0}}), 10);
+TEST(LastHalf, IsTheLastRateOfAtLeastOneHalf) {
+  EXPECT_EQ(last_half({{10, 10}, {8, 10}, {2, 10}}), 1u);
+  EXPECT_EQ(last_half({{10, 10}, {5, 10}, {0, 0}}), 1u);
+  EXPECT_EQ(last_half({{10, 10}, {2, 10}, {6, 10}}), 2u);
+  EXPECT_FALSE(last_half({{4, 10}, {2, 10}}));
+}
+
+TEST(MedianText, LeavesOutAnIntervalThatASmallSampleDoesNotHave) {
+  Measured sample;
+  EXPECT_EQ(median_text(sample, 1), "-");
+  for (const double value : {1.0, 2.0, 3.0}) sample.add(value);
+  EXPECT_EQ(median_text(sample, 1), "2.0");
+  for (int i = 0; i < 100; ++i) sample.add(2.0);
+  EXPECT_EQ(median_text(sample, 1), "2.0 (2.0 to 2.0)");
 }
 
 TEST(SweepValue, MustBeThere) {
-  const Part part{0, {{"delays.command_us", "3000"}, {"pilot", "oracle"}}, "oracle", {}, {}};
-  EXPECT_EQ(sweep_number(part, "delays.command_us"), 3000);
+  const Part part{0, {{"delays.perception_us", "3000"}, {"pilot", "oracle"}}, "oracle", {}, {}};
+  EXPECT_EQ(sweep_number(part, "delays.perception_us"), 3000);
   EXPECT_EQ(sweep_value(part, "pilot"), "oracle");
   EXPECT_THROW(sweep_number(part, "pilot"), ScenarioError);
   EXPECT_THROW(sweep_value(part, "seed"), ScenarioError);
