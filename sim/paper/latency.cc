@@ -21,8 +21,8 @@ constexpr const char* kProtocol = R"(How the claim is read:
 - *Bound*: "How fast is too fast" (Falanga et al. 2019), s / v - t_a, less the delays that are not
   perception's; s the range from which on the object is known, a ball of 20 cm that comes at the
   vehicle's centre. *point*: t_a = sqrt(2 r / u) of a vehicle that accelerates to the side at once
-  with all its thrust but what keeps its height. *rotors*: t_a of its rotors in the best direction, with their lag and the
-  time to tilt.
+  with all its thrust but what keeps its height. *rotors*: t_a of its rotors in the best direction,
+  with their lag and the time to tilt.
 - *oracle*: told of the true object within s, avoids it like falanga2020. Intervals: 95 %, Wilson.
 )";
 
