@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "sim/base/child_process.h"
 #include "sim/base/error.h"
 
 namespace dodgesim {
@@ -63,6 +64,11 @@ void OsmesaContext::make_current() {
     throw SimulationError("OSMesa cannot make its OpenGL context current for an image of " +
                           std::to_string(width_) + " x " + std::to_string(height_) + " px.");
   }
+}
+
+std::string renderer_name() {
+  constexpr int kWallMs = 30000;
+  return ask_child([] { return OsmesaContext(GlProfile::kCore33, 1, 1).renderer(); }, kWallMs).said;
 }
 
 }  // namespace dodgesim

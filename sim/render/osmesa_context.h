@@ -38,4 +38,9 @@ class OsmesaContext {
   std::string renderer_, version_;
 };
 
+// renderer() of a context that another process makes: Mesa starts threads that outlive a context,
+// and a process with threads must not fork workers, which may wait for them for ever. Empty if
+// there is no context to be had.
+std::string renderer_name();
+
 }  // namespace dodgesim

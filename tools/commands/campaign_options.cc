@@ -72,7 +72,7 @@ CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options) 
   watch_signals();
   options.stop = [] { return stop_signal != 0; };
   options.show_progress = ::isatty(STDERR_FILENO) == 1;
-  options.gl_renderer = [] { return OsmesaContext(GlProfile::kCore33, 1, 1).renderer(); };
+  options.gl_renderer = renderer_name;
   const bool truth = options.truth;
   return run_campaign(scenario, options, [&scenario, truth](int index) {
     return truth ? fly_with_truth(scenario, index) : fly_throw(scenario, index);

@@ -1,0 +1,19 @@
+// Work that must leave nothing behind in this process: a crash, memory, threads.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace dodgesim {
+
+struct ChildAnswer {
+  bool in_time = false;
+  std::string said;  // all until it ended; what it had said before a crash, or less
+};
+
+// Runs `task` in a forked process, and listens for at most `wall_ms`; then the process is killed.
+// Its standard error goes nowhere, and it dies with its parent. An exception that leaves `task`
+// ends it like a crash. Throws SimulationError if no process can be made.
+ChildAnswer ask_child(const std::function<std::string()>& task, int wall_ms);
+
+}  // namespace dodgesim
