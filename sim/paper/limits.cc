@@ -19,7 +19,7 @@ constexpr const char* kSpeedProtocol = R"(How the claim is read:
 - Balls of 10, 20 and 30 cm, by their speed over the ground. From 4 m/s on they come from 3 m to
   3.5 m. Slower ones come from 0.8 m to 1 m and the vehicle's height, because from 3 m they would be
   lobs that fall onto it; even so those of 3 m/s fall at 27 degrees and those of 2 m/s at 48 degrees
-  when they arrive. Nothing slower was thrown: it would mostly fall.
+  when they arrive, and leave 0.3 s and 0.45 s. Nothing slower was thrown: it would mostly fall.
 - *falanga2020* believes nothing beyond 1.5 m, as in the paper; *oracle, 1.5 m* is told of the true
   object from there on and avoids it likewise; *oracle* without a range is told at once.
 - The vertical lines are the bound of "How fast is too fast" (Falanga et al. 2019) for a range of
@@ -33,8 +33,8 @@ constexpr const char* kRangeProtocol = R"(How the claim is read:
 - *falanga2020* believes detections up to the range (`dodger.position.max_range_m`), the oracle is
   told of the true object from there on.
 - *Bound*: the fastest ball of 20 cm by "How fast is too fast" (Falanga et al. 2019),
-  s / (tau + t_a), with the delays of this chain; t_a of a point (sqrt(2 r / u)) and of the vehicle's
-  rotors.
+  s / (tau + t_a), with the delays of this chain; t_a of a point (sqrt(2 r / u)) and of the
+  vehicle's rotors.
 - Intervals: 95 %, Wilson.
 )";
 
@@ -72,7 +72,7 @@ PaperTables analyse_speed(const std::vector<LoadedCampaign>& campaigns) {
   Plot plot;
   plot.title = "Throws dodged by their speed";
   plot.x = {"speed [m/s]", 0, curves[0].speed_mps.back() + 0.5, false};
-  plot.y = {"dodged, of those that would have hit", 0, 1.05, false};
+  plot.y = {"dodged, of those that would have hit", 0, 1.5, false};
   for (std::size_t i = 0; i < std::size(curves); ++i) {
     grid.add_row(names[i], curves[i].rates);
     add_curve(names[i], static_cast<int>(i), curves[i].speed_mps, curves[i].rates, plot);
