@@ -21,12 +21,7 @@ std::optional<Encounter> encounter(const FlightRecord& none) {
   contact.velocity_W = object.v_W - vehicle.v_W;
   contact.object_radius_m = 0.5 * none.testimony.trajectory.sizes_m[i];
   contact.hull_reach_m = [hull = none.hull, q_W = vehicle.q_W](const Vector3d& direction_W) {
-    const Vector3d direction_B = q_W.conjugate() * direction_W;
-    double reach_m = 0;
-    for (const Convex& part : hull) {
-      reach_m = std::max(reach_m, part.reach_m(direction_B));
-    }
-    return reach_m;
+    return reach_m(hull, q_W.conjugate() * direction_W);
   };
   return contact;
 }

@@ -18,6 +18,8 @@ constexpr TimeUs kTruthEveryUs = 1000;     // how often the pilot that knows the
 constexpr TimeUs kHistoryUs = 1000000;     // longer than any sensing delay that makes sense
 constexpr TimeUs kShownBeforeUs = 100000;  // of the trajectory before the first launch
 
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+
 double seconds_since(WallClock::time_point start) {
   return std::chrono::duration<double>(WallClock::now() - start).count();
 }
@@ -58,6 +60,10 @@ std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
     model.cy = camera.cy();
     model.X_BC = X_BC;
     models.push_back(model);
+  }
+  const Eigen::Vector3d error_rad = kRadPerDeg * scenario.sensors.camera.calibration_error_deg;
+  if (error_rad.norm() > 0) {
+    models.at(1).X_BC.rotate(Eigen::AngleAxisd(error_rad.norm(), error_rad.normalized()));
   }
   return models;
 }

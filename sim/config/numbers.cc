@@ -86,6 +86,12 @@ std::optional<double> parse_double(std::string_view text) {
   return value;
 }
 
+std::optional<double> number_in(std::string_view text) {
+  const NumberForm form = number_form(text);
+  if (form != NumberForm::kDecimal && form != NumberForm::kInteger) return std::nullopt;
+  return parse_double(text);
+}
+
 template <class Integer>
 std::optional<Integer> parse_integer(std::string_view text) {
   text = without_plus(text);

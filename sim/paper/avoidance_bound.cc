@@ -1,6 +1,5 @@
 #include "sim/paper/avoidance_bound.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "sim/base/gravity.h"
@@ -23,9 +22,7 @@ AvoidanceTimes avoidance_times(const Scenario& scenario, double ball_radius_m) {
   encounter.velocity_W = -Eigen::Vector3d::UnitX();
   encounter.object_radius_m = ball_radius_m;
   encounter.hull_reach_m = [&referee](const Eigen::Vector3d& direction) {
-    double reach_m = 0;
-    for (const Convex& part : referee.hull()) reach_m = std::max(reach_m, part.reach_m(direction));
-    return reach_m;
+    return reach_m(referee.hull(), direction);
   };
   const double sideways_m = encounter.hull_reach_m(Eigen::Vector3d::UnitY()) + ball_radius_m;
   const double sideways_mps2 =

@@ -20,6 +20,9 @@ struct AvoidanceBound {
 // t_a of a point that accelerates at once and evenly: sqrt(2 r / u).
 double point_avoidance_s(double distance_m, double acceleration_mps2);
 
+// Of the balls of 10, 20 and 30 cm.
+constexpr double kMeanBallRadiusM = 0.1;
+
 // t_a of the scenario's vehicle, at rest, from a ball that comes level and ahead at its centre.
 struct AvoidanceTimes {
   double point_s = 0;   // to the side, with all its thrust but what keeps its height, at once

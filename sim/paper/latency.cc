@@ -27,7 +27,6 @@ constexpr const char* kProtocol = R"(How the claim is read:
 )";
 
 constexpr double kPaperLatencyMs = 3.5, kFrameLatencyMs = 60;
-constexpr double kMeanBallRadiusM = 0.1;
 
 // Success of a pilot at each speed (rows) and latency (columns).
 struct LatencyCurves {
@@ -69,7 +68,7 @@ PaperPlot plot_of(const LatencyCurves& curves) {
   Plot plot;
   plot.title = curves.pilot + ": throws dodged by latency of perception";
   plot.x = {"latency of perception [ms]", 0, curves.latency_ms.back(), false};
-  plot.y = {"dodged, of those that would have hit", 0, 1.05, false};
+  plot.y = dodged_axis(1.05);
   for (std::size_t i = 0; i < curves.grid.rows.size(); ++i) {
     add_curve(curves.grid.rows[i], static_cast<int>(i), curves.latency_ms, curves.grid.rates[i],
               plot);

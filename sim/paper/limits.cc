@@ -8,8 +8,6 @@ namespace dodgesim {
 
 namespace {
 
-constexpr double kMeanBallRadiusM = 0.1;
-
 double latency_s(const Scenario& scenario) {
   return latency_without_pilot_s(scenario) + seconds(scenario.delays.pilot_us());
 }
@@ -72,7 +70,7 @@ PaperTables analyse_speed(const std::vector<LoadedCampaign>& campaigns) {
   Plot plot;
   plot.title = "Throws dodged by their speed";
   plot.x = {"speed [m/s]", 0, curves[0].speed_mps.back() + 0.5, false};
-  plot.y = {"dodged, of those that would have hit", 0, 1.5, false};
+  plot.y = dodged_axis(1.5);
   for (std::size_t i = 0; i < std::size(curves); ++i) {
     grid.add_row(names[i], curves[i].rates);
     add_curve(names[i], static_cast<int>(i), curves[i].speed_mps, curves[i].rates, plot);
@@ -110,7 +108,7 @@ PaperPlot plot_of(const RangeRows& rows, const std::string& file) {
   Plot plot;
   plot.title = rows.grid.name + ": throws dodged by the range from which on they are believed";
   plot.x = {"range [m]", 0, 3.2, false};
-  plot.y = {"dodged, of those that would have hit", 0, 1.05, false};
+  plot.y = dodged_axis(1.05);
   plot.legend_left = true;
   const RateGrid by_speed = rows.grid.transposed("");
   for (std::size_t i = 0; i < by_speed.rows.size(); ++i) {

@@ -105,13 +105,12 @@ std::string sweep_value(const Part& part, const std::string& key) {
 }
 
 double sweep_number(const Part& part, const std::string& key) {
-  const std::string value = sweep_value(part, key);
-  const NumberForm form = number_form(value);
-  const bool is_number = form == NumberForm::kDecimal || form == NumberForm::kInteger;
-  const std::optional<double> number = is_number ? parse_double(value) : std::nullopt;
+  const std::optional<double> number = number_in(sweep_value(part, key));
   if (!number) throw ScenarioError("The experiment needs numbers for " + key + ".");
   return *number;
 }
+
+PlotAxis dodged_axis(double top) { return {"dodged, of those that would have hit", 0, top, false}; }
 
 void add_curve(const std::string& name, int colour, const std::vector<double>& at,
                const std::vector<Rate>& rates, Plot& plot) {

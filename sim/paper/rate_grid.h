@@ -45,6 +45,9 @@ std::vector<Rate> success_by(const Axis& axis, const Results& results);
 std::string sweep_value(const Part& part, const std::string& key);
 double sweep_number(const Part& part, const std::string& key);
 
+// Of plots of success.
+PlotAxis dodged_axis(double top);
+
 // Success over `at`: a line and its points, without what had no trials. Colours 0 to 4.
 void add_curve(const std::string& name, int colour, const std::vector<double>& at,
                const std::vector<Rate>& rates, Plot& plot);

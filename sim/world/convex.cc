@@ -210,6 +210,12 @@ Eigen::Vector3d Convex::support(const Eigen::Vector3d& direction) const {
   return centre_ + R_ * p;
 }
 
+double reach_m(const std::vector<Convex>& parts, const Eigen::Vector3d& direction) {
+  double farthest_m = 0;
+  for (const Convex& part : parts) farthest_m = std::max(farthest_m, part.reach_m(direction));
+  return farthest_m;
+}
+
 ConvexGap convex_gap(const Convex& a, const Convex& b, const Eigen::Isometry3d& X_AB) {
   const Eigen::Matrix3d R_BA = X_AB.linear().transpose();
   // v is the point of the core difference a - b that is nearest to the origin so far.

@@ -49,6 +49,9 @@ class Convex {
   std::vector<Eigen::Vector3d> vertices_;
 };
 
+// How far a body of several parts, its frame's origin among them, reaches.
+double reach_m(const std::vector<Convex>& parts, const Eigen::Vector3d& direction);
+
 struct ConvexGap {
   double distance_m = 0;                          // between the surfaces, 0 if they touch
   Eigen::Vector3d p_A = Eigen::Vector3d::Zero();  // the nearest point on a, in a's frame

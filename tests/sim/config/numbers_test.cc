@@ -71,5 +71,13 @@ TEST(Numbers, WhatDoesNotFitIsEmpty) {
   EXPECT_EQ(parse_integer<int>("+5"), 5);
 }
 
+TEST(Numbers, TextIsANumberAsAWholeOrNotAtAll) {
+  EXPECT_EQ(number_in("-0.5"), -0.5);
+  EXPECT_EQ(number_in("+12"), 12);
+  for (const char* text : {"", "12 m", "010", ".inf", "1e999", "0x10"}) {
+    EXPECT_FALSE(number_in(text).has_value()) << text;
+  }
+}
+
 }  // namespace
 }  // namespace dodgesim

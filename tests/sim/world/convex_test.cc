@@ -162,5 +162,17 @@ TEST(ConvexTest, OverlappingBodiesTouch) {
   }
 }
 
+TEST(ConvexTest, ABodyOfSeveralPartsReachesAsFarAsTheFarthest) {
+  const auto ball = [](double x, double radius_m) {
+    return Convex::sphere(Vector3d(x, 0, 0), radius_m);
+  };
+  const std::vector<Convex> parts = {ball(-0.2, 0.01), ball(0.1, 0.05)};
+  EXPECT_NEAR(reach_m(parts, Vector3d::UnitX()), 0.15, 1e-12);
+  EXPECT_NEAR(reach_m(parts, -Vector3d::UnitX()), 0.21, 1e-12);
+  EXPECT_NEAR(reach_m(parts, Vector3d::UnitY()), 0.05, 1e-12);
+  EXPECT_EQ(reach_m({ball(0.1, 0.05)}, -Vector3d::UnitX()), 0);  // the origin
+  EXPECT_EQ(reach_m({}, Vector3d::UnitX()), 0);
+}
+
 }  // namespace
 }  // namespace dodgesim

@@ -30,14 +30,6 @@ std::vector<Convex> surface(const World& world) {
   return parts;
 }
 
-double reach_m(const std::vector<Convex>& parts, const Vector3d& direction) {
-  double reach = -1;
-  for (const Convex& part : parts) {
-    reach = std::max(reach, part.support(direction).dot(direction) + part.radius_m());
-  }
-  return reach;
-}
-
 class ObjectModel : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Models, ObjectModel, testing::ValuesIn(object_names()),
                          [](const auto& info) { return info.param; });
