@@ -18,8 +18,6 @@ constexpr TimeUs kTruthEveryUs = 1000;     // how often the pilot that knows the
 constexpr TimeUs kHistoryUs = 1000000;     // longer than any sensing delay that makes sense
 constexpr TimeUs kShownBeforeUs = 100000;  // of the trajectory before the first launch
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
-
 double seconds_since(WallClock::time_point start) {
   return std::chrono::duration<double>(WallClock::now() - start).count();
 }
@@ -61,9 +59,8 @@ std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
     model.X_BC = X_BC;
     models.push_back(model);
   }
-  const Eigen::Vector3d error_rad = kRadPerDeg * scenario.sensors.camera.calibration_error_deg;
-  if (error_rad.norm() > 0) {
-    models.at(1).X_BC.rotate(Eigen::AngleAxisd(error_rad.norm(), error_rad.normalized()));
+  if (const auto turn = scenario.vehicle_overrides.lower_camera_turn()) {
+    models.at(1).X_BC.rotate(turn->inverse());
   }
   return models;
 }

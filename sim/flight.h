@@ -65,7 +65,7 @@ WorldSpec world_spec(const Scenario& scenario, const std::vector<FlightPlan::Lau
 // The event cameras' geometry.
 Intrinsics intrinsics(const CameraSpec& camera);
 
-// The cameras as the pilot is told of them, calibration_error_deg included.
+// The cameras as the pilot is told of them, without lower_camera_turn_deg.
 std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
                                               const VehicleParameters& vehicle);
 

@@ -42,7 +42,7 @@ std::string names_of_keys(const std::vector<ThrowResult>& results) {
 std::optional<std::string> value_in_cell(const ThrowResult& result, const std::string& key) {
   for (const AxisValue& of_cell : result.cell_values) {
     if (of_cell.key != key) continue;
-    const std::optional<double> number = number_in(of_cell.value);
+    const std::optional<double> number = as_number(of_cell.value);
     return number ? to_text(*number) : of_cell.value;
   }
   return std::nullopt;
@@ -114,7 +114,7 @@ void Axis::set_names(const std::vector<ThrowResult>& results, const NameOf& name
     }
   }
   for (const std::string& value : values_) {
-    if (const auto number = number_in(value)) middles_.push_back(*number);
+    if (const auto number = as_number(value)) middles_.push_back(*number);
   }
   if (middles_.size() < values_.size()) middles_.clear();
   of_ = [values = values_, name_of](const ThrowResult& result) -> std::optional<std::size_t> {

@@ -86,7 +86,7 @@ std::optional<double> parse_double(std::string_view text) {
   return value;
 }
 
-std::optional<double> number_in(std::string_view text) {
+std::optional<double> as_number(std::string_view text) {
   const NumberForm form = number_form(text);
   if (form != NumberForm::kDecimal && form != NumberForm::kInteger) return std::nullopt;
   return parse_double(text);

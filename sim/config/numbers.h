@@ -23,8 +23,8 @@ NumberForm number_form(std::string_view text);
 // Requires number_form kDecimal or kInteger. Empty when beyond the range of double.
 std::optional<double> parse_double(std::string_view text);
 
-// The number that the whole text is; empty for anything else.
-std::optional<double> number_in(std::string_view text);
+// The text as a number; empty if it is none, or beyond the range of double.
+std::optional<double> as_number(std::string_view text);
 
 // Requires number_form kInteger. Empty when beyond the range of the type.
 template <class Integer>

@@ -34,7 +34,6 @@ struct CameraSpec {
   int width = 320;   // [px]
   int height = 240;  // [px]
   double horizontal_fov_deg = 80;
-  Eigen::Vector3d calibration_error_deg = Eigen::Vector3d::Zero();
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -42,10 +41,6 @@ struct CameraSpec {
     v("height", height, 16, 2048, "Rows of each event camera (240 as the paper's SEES1).");
     v("horizontal_fov_deg", horizontal_fov_deg, 10, 150,
       "Horizontal field of view; 80 degrees over 320 columns is a focal length of 190.7 px.");
-    v("calibration_error_deg", calibration_error_deg, -5, 5,
-      "How the pilot's idea of where the lower camera looks is turned against the truth: about the "
-      "camera's own axes, right, down and ahead. [0.1, 0, 0]: it believes it looks 0.1 degrees "
-      "higher, a third of a pixel of disparity.");
   }
 };
 

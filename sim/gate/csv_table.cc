@@ -97,11 +97,7 @@ const std::string& CsvTable::at(std::size_t row, const std::string& column) cons
 }
 
 double CsvTable::number(std::size_t row, const std::string& column) const {
-  const std::string& text = at(row, column);
-  const NumberForm form = number_form(text);
-  if (form == NumberForm::kDecimal || form == NumberForm::kInteger) {
-    if (const auto value = parse_double(text)) return *value;
-  }
+  if (const auto value = as_number(at(row, column))) return *value;
   refuse(row, column, "a number");
 }
 

@@ -17,11 +17,11 @@ struct AvoidanceBound {
   double greatest_speed_mps(double latency_s) const { return range_m / (latency_s + avoidance_s); }
 };
 
+// Mean radius of balls of 10, 20 and 30 cm.
+inline constexpr double kMeanBallRadiusM = 0.1;
+
 // t_a of a point that accelerates at once and evenly: sqrt(2 r / u).
 double point_avoidance_s(double distance_m, double acceleration_mps2);
-
-// Of the balls of 10, 20 and 30 cm.
-constexpr double kMeanBallRadiusM = 0.1;
 
 // t_a of the scenario's vehicle, at rest, from a ball that comes level and ahead at its centre.
 struct AvoidanceTimes {

@@ -105,7 +105,7 @@ std::string sweep_value(const Part& part, const std::string& key) {
 }
 
 double sweep_number(const Part& part, const std::string& key) {
-  const std::optional<double> number = number_in(sweep_value(part, key));
+  const std::optional<double> number = as_number(sweep_value(part, key));
   if (!number) throw ScenarioError("The experiment needs numbers for " + key + ".");
   return *number;
 }

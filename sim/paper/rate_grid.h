@@ -45,7 +45,7 @@ std::vector<Rate> success_by(const Axis& axis, const Results& results);
 std::string sweep_value(const Part& part, const std::string& key);
 double sweep_number(const Part& part, const std::string& key);
 
-// Of plots of success.
+// The y axis of plots of success, up to `top`.
 PlotAxis dodged_axis(double top);
 
 // Success over `at`: a line and its points, without what had no trials. Colours 0 to 4.

@@ -49,7 +49,8 @@ class Convex {
   std::vector<Eigen::Vector3d> vertices_;
 };
 
-// How far a body of several parts, its frame's origin among them, reaches.
+// How far the farthest of the parts reaches from the frame's origin in the direction of a unit
+// vector; 0 if none does.
 double reach_m(const std::vector<Convex>& parts, const Eigen::Vector3d& direction);
 
 struct ConvexGap {

@@ -110,6 +110,16 @@ void World::override_vehicle(const VehicleOverrides& overrides) {
     top = middle + 0.5 * overrides.stereo_baseline_m * up;
     bottom = middle - 0.5 * overrides.stereo_baseline_m * up;
   }
+  if (const auto turn = overrides.lower_camera_turn()) {
+    // MuJoCo's camera has y up and looks along -z.
+    const Eigen::Vector3d axis = Eigen::Vector3d(1, -1, -1).cwiseProduct(turn->axis());
+    mjtNum* quat = model_->cam_quat + 4 * find(mjOBJ_CAMERA, "bottom");
+    const Eigen::Quaterniond q = quaternion(quat) * Eigen::AngleAxisd(turn->angle(), axis);
+    quat[0] = q.w();
+    quat[1] = q.x();
+    quat[2] = q.y();
+    quat[3] = q.z();
+  }
   mj_setConst(model_.get(), data_.get());  // what MuJoCo derives from these
 }
 

@@ -1,43 +1,58 @@
+// What a pilot makes of a lower camera that looks elsewhere than it believes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
-#include "dodge/camera_model.h"
-#include "sim/flight.h"
 #include "tests/closed_loop/flights.h"
 
 namespace dodgesim {
 namespace {
 
-using Eigen::Vector3d;
-
-std::vector<dodge::CameraModel> cameras(const std::string& error_deg) {
-  const Scenario wrong =
-      scenario("sensors: {camera: {calibration_error_deg: " + error_deg + "}}\n");
-  return camera_models(wrong, World(world_spec(wrong, {})).vehicle());
+Scenario thrown_at(const std::string& turn_deg) {
+  return scenario(
+      "mission: {start_m: [-2, 0, 2]}\n"
+      "throw: {distance_m: 3, speed_mps: 5, launch_height_m: 1.7, launch_s: 0.2}\n"
+      "dodger: {position: {max_range_m: 4}, repulsive: {k_r0: 0}}\n"
+      "vehicle_overrides: {lower_camera_turn_deg: " +
+      turn_deg + "}\n");
 }
 
-TEST(CalibrationError, IsOfTheLowerCamerasDirectionAlone) {
-  const auto right = cameras("[0, 0, 0]"), wrong = cameras("[0.3, -0.2, 0.1]");
-  ASSERT_EQ(wrong.size(), 2U);
-  EXPECT_TRUE(wrong[0].X_BC.isApprox(right[0].X_BC, 0));
-  EXPECT_TRUE(wrong[1].X_BC.translation().isApprox(right[1].X_BC.translation(), 0));
-  const Eigen::AngleAxisd turn(
-      Eigen::Matrix3d(right[1].X_BC.linear().transpose() * wrong[1].X_BC.linear()));
-  EXPECT_NEAR(turn.angle(), std::sqrt(0.14) * M_PI / 180, 1e-9);
-  EXPECT_TRUE(turn.axis().isApprox(Vector3d(0.3, -0.2, 0.1).normalized(), 1e-6));
+// Median over the detections of a throw: seen less true disparity, b / Z, over the focal length.
+double disparity_error_rad(const std::string& turn_deg) {
+  const Scenario s = thrown_at(turn_deg);
+  FlightPlan plan = plan_throw(s, 0);
+  plan.end_us = plan.launches.at(0).toss.launch_us + 350000;
+  const FlightRecord record = fly(s, plan);
+  constexpr double kBaselineM = 0.15;
+  std::vector<double> errors;
+  for (const DetectionRow& row : record.rows) {
+    const double true_m = row.true_depth_m.value();
+    errors.push_back((1 / row.depth_m - 1 / true_m) * kBaselineM);
+  }
+  EXPECT_GT(errors.size(), 10u);
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  return *middle;
 }
 
-// A pilot that believes its lower camera looks higher than it does expects things lower in its
-// image.
-TEST(CalibrationError, AboutTheFirstAxisShiftsTheDisparity) {
-  const auto right = cameras("[0, 0, 0]"), wrong = cameras("[0.1, 0, 0]");
-  const Vector3d p_B = right[1].X_BC * Vector3d(0, 0, 2);
-  const auto row = [&](const dodge::CameraModel& camera) {
-    return camera.project(camera.X_BC.inverse() * p_B).y();
+TEST(CalibrationError, OfTheLowerCamerasPitchIsOneOfTheDisparity) {
+  constexpr double kTurnRad = 0.3 * M_PI / 180;
+  const double usual_rad = disparity_error_rad("[0, 0, 0]");
+  EXPECT_NEAR(disparity_error_rad("[0.3, 0, 0]") - usual_rad, -kTurnRad, 0.2 * kTurnRad);
+  EXPECT_NEAR(disparity_error_rad("[-0.3, 0, 0]") - usual_rad, kTurnRad, 0.2 * kTurnRad);
+}
+
+TEST(CalibrationError, IsUnknownToThePilot) {
+  const Scenario right = thrown_at("[0, 0, 0]"), wrong = thrown_at("[0.3, -0.2, 0.1]");
+  const auto known = [](const Scenario& s) {
+    return camera_models(s, World(world_spec(s, {})).vehicle());
   };
-  EXPECT_NEAR(row(wrong[1]) - row(right[1]), right[1].fy * std::tan(0.1 * M_PI / 180), 1e-9);
-  EXPECT_NEAR(row(wrong[1]) - row(right[1]), 0.33, 0.01);
+  for (std::size_t camera : {0, 1}) {
+    EXPECT_TRUE(known(wrong)[camera].X_BC.isApprox(known(right)[camera].X_BC, 1e-12));
+  }
 }
 
 }  // namespace

@@ -72,10 +72,10 @@ TEST(Numbers, WhatDoesNotFitIsEmpty) {
 }
 
 TEST(Numbers, TextIsANumberAsAWholeOrNotAtAll) {
-  EXPECT_EQ(number_in("-0.5"), -0.5);
-  EXPECT_EQ(number_in("+12"), 12);
+  EXPECT_EQ(as_number("-0.5"), -0.5);
+  EXPECT_EQ(as_number("+12"), 12);
   for (const char* text : {"", "12 m", "010", ".inf", "1e999", "0x10"}) {
-    EXPECT_FALSE(number_in(text).has_value()) << text;
+    EXPECT_FALSE(as_number(text).has_value()) << text;
   }
 }
 

@@ -87,5 +87,17 @@ TEST(VehicleOverrides, TheBaselineMovesBothCamerasAboutTheirMiddle) {
   EXPECT_TRUE(wide.vehicle().X_BC[0].linear().isApprox(usual.vehicle().X_BC[0].linear()));
 }
 
+TEST(VehicleOverrides, TheLowerCameraTurnsAboutItsOwnAxes) {
+  VehicleOverrides overrides;
+  overrides.lower_camera_turn_deg = {0.3, -0.2, 0.1};
+  const World turned(with(overrides)), usual(with({}));
+  EXPECT_TRUE(turned.vehicle().X_BC[0].isApprox(usual.vehicle().X_BC[0], 0));
+  const Eigen::Isometry3d X_CT = usual.vehicle().X_BC[1].inverse() * turned.vehicle().X_BC[1];
+  EXPECT_LT(X_CT.translation().norm(), 1e-12);
+  const Eigen::AngleAxisd turn(X_CT.linear());
+  EXPECT_NEAR(turn.angle(), std::sqrt(0.14) * M_PI / 180, 1e-9);
+  EXPECT_TRUE(turn.axis().isApprox(Eigen::Vector3d(0.3, -0.2, 0.1).normalized(), 1e-6));
+}
+
 }  // namespace
 }  // namespace dodgesim
