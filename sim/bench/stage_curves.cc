@@ -54,7 +54,6 @@ void draw_curve(const std::filesystem::path& file, const std::string& title,
   plot.title = title;
   plot.x = {load_name, 0, std::max(1.0, most), false};
   plot.y = {"time [us]", 0, 0, false};
-  plot.legend_left = true;
   plot.series.push_back({"windows", Series::Kind::kPoints, 0, x, all(windows, time_us), {}});
   plot.series.push_back({"least squares",
                          Series::Kind::kLine,

@@ -84,8 +84,7 @@ Check judge(const std::vector<Sampled>& rates) {
   check.plots.push_back({"Distance of the time stamps from the reference",
                          {"displacement from sample to sample [px]", 0.09, 5, true},
                          {"[us]", 0, 0, true},
-                         {medians, tails},
-                         true});
+                         {medians, tails}});
   return check;
 }
 

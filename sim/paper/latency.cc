@@ -67,8 +67,8 @@ std::vector<Part> within(const std::string& range_m, const LoadedCampaign& campa
 PaperPlot plot_of(const LatencyCurves& curves) {
   Plot plot;
   plot.title = curves.pilot + ": throws dodged by latency of perception";
-  plot.x = {"latency of perception [ms]", 0, curves.latency_ms.back(), false};
-  plot.y = dodged_axis(1.05);
+  plot.x = {"latency of perception [ms]", 0, 1.05 * curves.latency_ms.back(), false};
+  plot.y = dodged_axis();
   for (std::size_t i = 0; i < curves.grid.rows.size(); ++i) {
     add_curve(curves.grid.rows[i], static_cast<int>(i), curves.latency_ms, curves.grid.rates[i],
               plot);

@@ -70,7 +70,7 @@ PaperTables analyse_speed(const std::vector<LoadedCampaign>& campaigns) {
   Plot plot;
   plot.title = "Throws dodged by their speed";
   plot.x = {"speed [m/s]", 0, curves[0].speed_mps.back() + 0.5, false};
-  plot.y = dodged_axis(1.5);
+  plot.y = dodged_axis();
   for (std::size_t i = 0; i < std::size(curves); ++i) {
     grid.add_row(names[i], curves[i].rates);
     add_curve(names[i], static_cast<int>(i), curves[i].speed_mps, curves[i].rates, plot);
@@ -108,8 +108,7 @@ PaperPlot plot_of(const RangeRows& rows, const std::string& file) {
   Plot plot;
   plot.title = rows.grid.name + ": throws dodged by the range from which on they are believed";
   plot.x = {"range [m]", 0, 3.2, false};
-  plot.y = dodged_axis(1.05);
-  plot.legend_left = true;
+  plot.y = dodged_axis();
   const RateGrid by_speed = rows.grid.transposed("");
   for (std::size_t i = 0; i < by_speed.rows.size(); ++i) {
     add_curve(by_speed.rows[i], static_cast<int>(i), rows.range_m, by_speed.rates[i], plot);

@@ -110,7 +110,7 @@ double sweep_number(const Part& part, const std::string& key) {
   return *number;
 }
 
-PlotAxis dodged_axis(double top) { return {"dodged, of those that would have hit", 0, top, false}; }
+PlotAxis dodged_axis() { return {"dodged, of those that would have hit", 0, 1.05, false}; }
 
 void add_curve(const std::string& name, int colour, const std::vector<double>& at,
                const std::vector<Rate>& rates, Plot& plot) {

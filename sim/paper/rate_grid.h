@@ -45,8 +45,8 @@ std::vector<Rate> success_by(const Axis& axis, const Results& results);
 std::string sweep_value(const Part& part, const std::string& key);
 double sweep_number(const Part& part, const std::string& key);
 
-// The y axis of plots of success, up to `top`.
-PlotAxis dodged_axis(double top);
+// The y axis of plots of success.
+PlotAxis dodged_axis();
 
 // Success over `at`: a line and its points, without what had no trials. Colours 0 to 4.
 void add_curve(const std::string& name, int colour, const std::vector<double>& at,

@@ -17,7 +17,7 @@ constexpr double kTextScale = 0.42;
 constexpr double kHeadRoom = 1.1;  // above the highest value
 constexpr int kTicks = 6;          // at least so many, about
 
-const cv::Scalar kInk(40, 40, 40), kGrid(225, 225, 225), kPaper(255, 255, 255);
+const cv::Scalar kInk(40, 40, 40), kGrid(225, 225, 225);
 const std::array<cv::Scalar, 6> kColours = {cv::Scalar(180, 100, 30), cv::Scalar(40, 90, 220),
                                             cv::Scalar(80, 160, 60),  cv::Scalar(160, 60, 140),
                                             cv::Scalar(30, 160, 210), cv::Scalar(110, 110, 110)};
@@ -169,17 +169,27 @@ void draw_points(cv::Mat3b& image, const Series& series, const Scale& x, const S
   }
 }
 
-void draw_legend(cv::Mat3b& image, const Plot& plot) {
-  int y = kTop + 16;
+// The names of the series in lines as wide as the frame; empty if they have none.
+cv::Mat3b legend(const Plot& plot) {
+  constexpr int kLineHeight = 17, kMarkWidth = 16, kGap = 14;
+  std::vector<std::pair<cv::Point, const Series*>> entries;
+  cv::Point at(kLeft, 12);
   for (const Series& series : plot.series) {
     if (series.name.empty()) continue;
-    const cv::Size size = cv::getTextSize(series.name, kFont, kTextScale, 1, nullptr);
-    const int x = plot.legend_left ? kLeft + 28 : kWidth - kRight - size.width - 10;
-    cv::rectangle(image, {x - 22, y - 9}, {x + size.width + 4, y + 4}, kPaper, cv::FILLED);
-    cv::rectangle(image, {x - 18, y - 7}, {x - 8, y + 1}, colour_of(series), cv::FILLED);
-    write(image, series.name, {x, y}, 0);
-    y += 17;
+    const int width =
+        kMarkWidth + cv::getTextSize(series.name, kFont, kTextScale, 1, nullptr).width;
+    if (at.x > kLeft && at.x + width > kWidth - kRight) at = {kLeft, at.y + kLineHeight};
+    entries.emplace_back(at, &series);
+    at.x += width + kGap;
   }
+  if (entries.empty()) return {};
+  cv::Mat3b strip(at.y + 5, kWidth, cv::Vec3b(255, 255, 255));
+  for (const auto& [place, series] : entries) {
+    cv::rectangle(strip, place + cv::Point(0, -7), place + cv::Point(10, 1), colour_of(*series),
+                  cv::FILLED);
+    write(strip, series->name, place + cv::Point(kMarkWidth, 0), 0);
+  }
+  return strip;
 }
 
 }  // namespace
@@ -216,7 +226,12 @@ cv::Mat3b draw(const Plot& plot) {
   const cv::Rect frame(kLeft + 1, kTop + 1, kWidth - kRight - kLeft - 1,
                        kHeight - kBottom - kTop - 1);
   inside(frame).copyTo(image(frame));
-  draw_legend(image, plot);
+  const cv::Mat3b names = legend(plot);
+  if (names.empty()) return image;
+  constexpr int kBelowTitle = 28;
+  cv::vconcat(std::vector<cv::Mat3b>{image.rowRange(0, kBelowTitle), names,
+                                     image.rowRange(kBelowTitle, kHeight)},
+              image);
   return image;
 }
 

@@ -26,7 +26,6 @@ struct Plot {
   std::string title;
   PlotAxis x, y;
   std::vector<Series> series;
-  bool legend_left = false;
 };
 
 // A histogram of `values` with bars over [from, to); what lies outside is left out. The heights are
@@ -34,7 +33,7 @@ struct Plot {
 Series histogram(const std::string& name, int colour, const std::vector<double>& values,
                  double from, double to, int bins);
 
-// About 640 x 400 px [BGR].
+// 640 x 400 px, and above the axes the lines that the names take [BGR].
 cv::Mat3b draw(const Plot& plot);
 
 }  // namespace dodgesim
