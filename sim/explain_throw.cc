@@ -9,20 +9,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The contact of the flight that nobody evaded in, if there was one.
-std::optional<Encounter> encounter(const FlightRecord& none) {
-  const Approach& nearest = none.verdict.nearest;
-  if (!nearest.hit) return std::nullopt;
+// The contact of the flight in which nobody evaded.
+Encounter encounter(const FlightRecord& none) {
   const auto i = static_cast<std::size_t>(none.verdict.nearest_object);
-  const BodyState &vehicle = none.last.vehicle, &object = none.last.objects[i];
   Encounter contact;
-  contact.contact_us = nearest.hit_us;
-  contact.offset_W = object.p_W - vehicle.p_W;
-  contact.velocity_W = object.v_W - vehicle.v_W;
-  contact.object_radius_m = 0.5 * none.testimony.trajectory.sizes_m[i];
-  contact.hull_reach_m = [hull = none.hull, q_W = vehicle.q_W](const Vector3d& direction_W) {
-    return reach_m(hull, q_W.conjugate() * direction_W);
-  };
+  contact.contact_us = none.verdict.nearest.hit_us;
+  contact.vehicle = none.last.vehicle;
+  contact.object = none.last.objects[i];
+  contact.hull = none.hull;
+  contact.shape = none.shapes[i];
   return contact;
 }
 
@@ -95,23 +90,22 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
   evidence.landing = flown.landing_us.has_value();
   evidence.evaded = flown.first_command_us.has_value();
   evidence.perceives = perceives(plan.pilot);
-  if (!evidence.hit) return evidence;
-  const auto hitter = static_cast<std::size_t>(flown.verdict.nearest_object);
+  const bool would_hit = none != nullptr && none->verdict.nearest.hit;
+  if (!evidence.hit && !would_hit) return evidence;
+  const int hitter = (evidence.hit ? flown : *none).verdict.nearest_object;
   const Testimony& testimony = flown.testimony;
-  const Testimony::Object& object = testimony.objects[hitter];
+  const Testimony::Object& object = testimony.objects[static_cast<std::size_t>(hitter)];
   evidence.in_view = object.in_view_us.has_value();
   evidence.detected = !object.detections.empty();
   for (std::size_t i = 0; i < testimony.objects.size(); ++i) {
     const auto& other = testimony.objects[i].detections;
-    if (i == hitter || other.empty()) continue;
+    if (&testimony.objects[i] == &object || other.empty()) continue;
     if (!evidence.detected || other.front().output_us < object.detections.front().output_us) {
       evidence.another_detected_before = true;
     }
   }
   // Of a later object nobody knows how it would have met a vehicle that stayed.
-  if (none != nullptr && none->verdict.nearest_object == flown.verdict.nearest_object) {
-    evidence.undisturbed = encounter(*none);
-  }
+  if (would_hit && none->verdict.nearest_object == hitter) evidence.undisturbed = encounter(*none);
   add_answer(testimony, object, evidence.perceives, evidence);
   return evidence;
 }
@@ -133,11 +127,14 @@ void explain_throw(const FlightPlan& plan, const FlightRecord* none, const Fligh
   result.false_alarm =
       result.first_command_us && (plan.launches.empty() || perceives(plan.pilot)) &&
       (!result.first_detection_us || *result.first_command_us < *result.first_detection_us);
-  if (plan.pilot == "none" || !(result.flown.hit || result.flown.crashed)) return;
-  const CollisionVerdict verdict = judge_collision(flown.agility, evidence_of(plan, none, flown));
-  result.cause = to_text(verdict.cause);
-  result.escape_left_s = verdict.left_s;
-  result.escape_needed_s = verdict.needed_s;
+  if (plan.pilot == "none") return;
+  const CollisionEvidence evidence = evidence_of(plan, none, flown);
+  const EscapeTimes times = escape_times(flown.agility, evidence);
+  result.escape_left_s = times.left_s;
+  result.escape_needed_s = times.needed_s;
+  if (result.flown.hit || result.flown.crashed) {
+    result.cause = to_text(collision_cause(flown.agility, evidence, times));
+  }
 }
 
 }  // namespace dodgesim

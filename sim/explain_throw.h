@@ -1,5 +1,5 @@
-// What a throw's flights say about each other: false alarms, time to contact, and why the flown
-// pilot was hit or crashed.
+// What a throw's flights say about each other: false alarms, times to contact and to escape, and
+// why the flown pilot was hit or crashed.
 #pragma once
 
 #include "sim/flight.h"

@@ -324,6 +324,7 @@ FlightRecord Flight::record() const {
   record.testimony = witness_.testimony();
   record.agility = agility_of(world_.vehicle(), scenario_.motors);
   record.hull = referee_.hull();
+  for (int i = 0; i < world_.object_count(); ++i) record.shapes.push_back(referee_.shape(i));
   if (rig_) {
     record.events = {rig_->event_count(0), rig_->event_count(1)};
     record.events_lost = {rig_->lost_count(0), rig_->lost_count(1)};

@@ -82,6 +82,7 @@ struct FlightRecord {
   Testimony testimony;
   Agility agility;
   std::vector<Convex> hull;                  // of the vehicle, in B
+  std::vector<std::vector<Convex>> shapes;   // of each object, in its frame
   std::optional<TimeUs> first_detection_us;  // output of the first detection of a true object
   std::optional<TimeUs> first_detection_t_us;
   std::optional<double> first_detection_distance_m;

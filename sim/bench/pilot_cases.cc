@@ -60,6 +60,39 @@ struct Load {
 constexpr Load kLoads[] = {
     {"typical", 2000, 6000, 10000}, {"6000", 5500, 6500, 10000}, {"20000", 18000, 22000, 30000}};
 
+// A stage of Table 3.
+struct Stage {
+  const char* name;
+  double dodge::StageTimes::*time_us;
+  const char* meaning;
+};
+constexpr Stage kStages[] = {
+    {"ego_motion", &dodge::StageTimes::ego_motion_us, "compensation and time image"},
+    {"threshold", &dodge::StageTimes::threshold_us, "normalisation, averaging and cut"},
+    {"morphology", &dodge::StageTimes::morphology_us, "opening and closing"},
+    {"clustering", &dodge::StageTimes::clustering_us, "flow, groups and DBSCAN"}};
+
+double detection_us(const dodge::StageTimes& times) {
+  double sum = 0;
+  for (const Stage& stage : kStages) sum += times.*stage.time_us;
+  return sum;
+}
+
+struct MeanAndSd {
+  double mean, sd;
+};
+
+MeanAndSd mean_and_sd(const std::vector<double>& sample) {
+  const auto count = static_cast<double>(sample.size());
+  double sum = 0, squares = 0;
+  for (const double value : sample) {
+    sum += value;
+    squares += value * value;
+  }
+  const double mean = sum / count;
+  return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
+}
+
 // Where the cameras of the nominal vehicle are does not matter to a single one.
 dodge::Config one_camera(TimeUs window_us) {
   dodge::Config config;
@@ -132,32 +165,25 @@ struct Player {
     return windows;
   }
 
-  // Means of the four stages, of their sum and of the rest, and the sum's standard deviation.
+  // In the order of add_quantities().
   std::vector<double> run(const Load& load) const {
     const std::vector<dodge::StageTimes> times = times_under(load);
-    const auto count = static_cast<double>(times.size());
-    dodge::StageTimes sum;
-    double detection = 0, squares = 0;
-    for (const dodge::StageTimes& t : times) {
-      sum.ego_motion_us += t.ego_motion_us;
-      sum.threshold_us += t.threshold_us;
-      sum.morphology_us += t.morphology_us;
-      sum.clustering_us += t.clustering_us;
-      sum.rest_us += t.rest_us;
-      const double all = t.ego_motion_us + t.threshold_us + t.morphology_us + t.clustering_us;
-      detection += all;
-      squares += all * all;
+    const auto of = [&times](const auto& time_us) {
+      std::vector<double> sample_ms;
+      sample_ms.reserve(times.size());
+      for (const dodge::StageTimes& t : times) sample_ms.push_back(1e-3 * time_us(t));
+      return mean_and_sd(sample_ms);
+    };
+    const MeanAndSd detection = of(detection_us);
+    std::vector<double> values;
+    for (const Stage& stage : kStages) {
+      const MeanAndSd one = of([&stage](const dodge::StageTimes& t) { return t.*stage.time_us; });
+      values.insert(values.end(), {one.mean, one.sd, one.mean / detection.mean});
     }
-    const double mean = detection / count;
-    const double sd = std::sqrt(std::max(0.0, squares / count - mean * mean));
-    return {1e-3 * sum.ego_motion_us / count,
-            1e-3 * sum.threshold_us / count,
-            1e-3 * sum.morphology_us / count,
-            1e-3 * sum.clustering_us / count,
-            1e-3 * mean,
-            1e-3 * sd,
-            1e-3 * sum.rest_us / count,
-            count};
+    const MeanAndSd rest = of([](const dodge::StageTimes& t) { return t.rest_us; });
+    values.insert(values.end(),
+                  {detection.mean, detection.sd, rest.mean, static_cast<double>(times.size())});
+    return values;
   }
 };
 
@@ -184,12 +210,14 @@ void add_quantities(const Load& load, std::vector<Quantity>& quantities) {
   const std::string name = std::string("pilot.") + load.name;
   const std::string windows =
       "windows of " + std::to_string(load.least) + " to " + std::to_string(load.most) + " events";
+  for (const Stage& stage : kStages) {
+    const std::string stage_name = name + "." + stage.name;
+    quantities.insert(quantities.end(), {{stage_name, "ms", stage.meaning + (", " + windows)},
+                                         {stage_name + "_sd", "ms", "standard deviation"},
+                                         {stage_name + "_share", "1", "of the four stages"}});
+  }
   quantities.insert(quantities.end(),
-                    {{name + ".ego_motion", "ms", "compensation and time image, " + windows},
-                     {name + ".threshold", "ms", "normalisation, averaging and cut"},
-                     {name + ".morphology", "ms", "opening and closing"},
-                     {name + ".clustering", "ms", "flow, groups and DBSCAN"},
-                     {name + ".detection", "ms", "these four together, mean"},
+                    {{name + ".detection", "ms", "the four stages together, mean"},
                      {name + ".detection_sd", "ms", "standard deviation of the four together"},
                      {name + ".rest", "ms", "depth, tracking and avoidance"},
                      {name + ".windows", "windows", "that this was measured on"}});

@@ -227,7 +227,7 @@ struct ThrowResult {
   std::optional<TimeUs> landing_us;  // the pilot gave up: its first command to land
   std::optional<TimeUs> landed_us;   // it touched down gently; the flight ends there
   std::string cause;                 // of a hit or crash (collision_cause.h)
-  std::optional<double> escape_left_s, escape_needed_s;  // CollisionVerdict
+  std::optional<double> escape_left_s, escape_needed_s;  // EscapeTimes
   int detections = 0;
   std::array<std::int64_t, 2> events{};       // of the top and bottom camera
   std::array<std::int64_t, 2> events_lost{};  // by a readout that could not serve them

@@ -20,16 +20,17 @@ constexpr const char* kProtocol = R"(How the protocol is read:
 
 - *Dodged / would have hit*: only throws count that hit a vehicle which stays as it is, as in the
   paper's indoor experiments. The paper's outdoor "more than 90 % of the time" counts all throws,
-  also those that would have missed: that is the column of all throws.
+  also those that would have missed: see more_throws.md.
 - *Oracle*: is told of the object's true state within 1.5 m of the camera, and then avoids it like
-  falanga2020. It bounds what perception costs.
+  falanga2020.
 - *falanga2020* believes nothing beyond 1.5 m, as in the paper.
 - *What perception lost*: here each pilot has an oracle of its own, which avoids like the pilot and
   is told of objects as far away as the pilot may believe them (`dodger.position.max_range_m`). A
   throw that the pilot lost and its oracle dodged is perception's loss; one that both lost is the
-  loss of avoidance, controller and rotors, for which the object came too fast from that range. A
-  pilot may also dodge what its oracle loses: the rates of the two are not nested. Throws with a
-  flight that failed are left out.
+  loss of range, escape law, controller and rotors: another law may dodge it from the same range
+  (field.md). A pilot may also dodge what its oracle loses: the rates of the two are not nested, and
+  their ratio (95 %, bootstrap over throws) may exceed 1. Throws with a flight that failed are left
+  out.
 - Intervals: 95 %, Wilson. p: exact McNemar test on the throws that one of the two pilots dodged
   and the other did not.
 )";
@@ -79,16 +80,14 @@ std::vector<std::string> success_row(const std::string& name, const PilotPair& p
           rate_text(pair.oracle.success()),
           rate_text(pair.second.success()),
           std::to_string(pair.paired.only_first) + " / " + std::to_string(pair.paired.only_second),
-          p_text(mcnemar(pair.paired)),
-          rate_text(pair.first_unharmed),
-          rate_text(pair.second_unharmed)};
+          p_text(mcnemar(pair.paired))};
 }
 
 void add_success(const std::string& name, Sets sets, const std::vector<Group>& groups,
                  TextTable& table) {
   for (const Group& group : groups) {
     const PilotPair pair = pair_of(sets, group.belongs);
-    if (pair.first_unharmed.of == 0) continue;
+    if (pair.paired.total() == 0) continue;
     table.rows.push_back(success_row(group.name.empty() ? name : name + ", " + group.name, pair));
   }
 }
@@ -119,9 +118,9 @@ void add_losses(const std::string& name, Sets sets, const LoadedCampaign* Set::*
   }
   table.rows.push_back({name, pilot == &Set::falanga2020 ? "falanga2020" : kSecondPilot,
                         rate_text(losses.dodged()), range_text(*(sets.front().*pilot)),
-                        rate_text(losses.dodged_by_oracle()),
+                        rate_text(losses.dodged_by_oracle()), ratio_text(losses),
                         rate_text(losses.lost_to_perception()), causes_text(losses.perception),
-                        rate_text(losses.lost_to_actuation()), causes_text(losses.actuation)});
+                        rate_text(losses.lost_with_oracle()), causes_text(losses.with_oracle)});
 }
 
 TextTable cause_table(const PilotPair& all) {
@@ -153,22 +152,17 @@ std::string causes_of_each(Sets sets) {
 PaperTables avoidance_tables(Sets sets, const std::vector<Group>& groups,
                              const std::string& all_sets) {
   TextTable success, losses;
-  success.head = {"throws",
-                  "falanga2020: dodged / would have hit",
-                  "oracle",
-                  "dodgesim",
-                  "dodged by falanga2020 alone / dodgesim alone",
-                  "p",
-                  "all throws, falanga2020: unharmed",
-                  "all throws, dodgesim"};
+  success.head = {"throws",   "falanga2020: dodged / would have hit",         "oracle",
+                  "dodgesim", "dodged by falanga2020 alone / dodgesim alone", "p"};
   losses.head = {"throws",
                  "pilot",
                  "dodged / would have hit",
                  "range of its oracle",
                  "dodged by its oracle",
+                 "ratio",
                  "lost to perception: its oracle dodged",
                  "causes",
-                 "lost to actuation and range: its oracle lost, too",
+                 "lost to range, escape and vehicle: its oracle lost, too",
                  "causes"};
   const auto add = [&](const std::string& name, Sets some) {
     add_success(name, some, groups, success);

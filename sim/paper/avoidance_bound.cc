@@ -1,33 +1,83 @@
 #include "sim/paper/avoidance_bound.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sim/base/gravity.h"
 #include "sim/base/time.h"
-#include "sim/campaign/collision_cause.h"
+#include "sim/campaign/escape.h"
 #include "sim/flight.h"
 #include "sim/world/referee.h"
 
 namespace dodgesim {
 
+namespace {
+
+// The scenario's vehicle.
+struct Body {
+  Agility agility;
+  std::vector<Convex> hull;
+};
+
+Body body_of(const Scenario& scenario) {
+  const World world(world_spec(scenario, {}));
+  return {agility_of(world.vehicle(), scenario.motors), Referee(world).hull()};
+}
+
+// A ball that comes along -x at the middle of the vehicle, at the instant at which it touches it.
+Encounter head_on(const std::vector<Convex>& hull, double speed_mps) {
+  const Convex ball = Convex::sphere(Eigen::Vector3d::Zero(), kMeanBallRadiusM);
+  constexpr double kTouchingM = 1e-6;
+  Eigen::Isometry3d X_BO = Eigen::Isometry3d::Identity();
+  X_BO.translation().x() = reach_m(hull, Eigen::Vector3d::UnitX()) + kMeanBallRadiusM;
+  double gap_m = 0;
+  do {
+    gap_m = std::numeric_limits<double>::infinity();
+    for (const Convex& part : hull) {
+      gap_m = std::min(gap_m, convex_gap(part, ball, X_BO).distance_m);
+    }
+    X_BO.translation().x() -= gap_m;
+  } while (gap_m > kTouchingM);
+  Encounter encounter;
+  encounter.hull = hull;
+  encounter.shape = {ball};
+  encounter.object.p_W = X_BO.translation();
+  encounter.object.v_W.x() = -speed_mps;
+  return encounter;
+}
+
+}  // namespace
+
+double AvoidanceBound::greatest_speed_mps(double latency_s) const {
+  constexpr double kPrecisionMps = 1e-3;
+  double low = kPrecisionMps, high = 100;
+  while (high - low > kPrecisionMps) {
+    const double middle = 0.5 * (low + high);
+    (greatest_latency_s(middle) >= latency_s ? low : high) = middle;
+  }
+  return low;
+}
+
 double point_avoidance_s(double distance_m, double acceleration_mps2) {
   return std::sqrt(2 * distance_m / acceleration_mps2);
 }
 
-AvoidanceTimes avoidance_times(const Scenario& scenario, double ball_radius_m) {
-  const World world(world_spec(scenario, {}));
-  const Referee referee(world);
-  const Agility agility = agility_of(world.vehicle(), scenario.motors);
-  Encounter encounter;
-  encounter.velocity_W = -Eigen::Vector3d::UnitX();
-  encounter.object_radius_m = ball_radius_m;
-  encounter.hull_reach_m = [&referee](const Eigen::Vector3d& direction) {
-    return reach_m(referee.hull(), direction);
-  };
-  const double sideways_m = encounter.hull_reach_m(Eigen::Vector3d::UnitY()) + ball_radius_m;
+AvoidanceBound point_bound(const Scenario& scenario, double range_m) {
+  const Body body = body_of(scenario);
+  const double sideways_m = reach_m(body.hull, Eigen::Vector3d::UnitY()) + kMeanBallRadiusM;
   const double sideways_mps2 =
-      std::sqrt(std::pow(agility.max_thrust_mps2, 2) - std::pow(kGravityMps2, 2));
-  return {point_avoidance_s(sideways_m, sideways_mps2), least_time_to_escape_s(agility, encounter)};
+      std::sqrt(std::pow(body.agility.max_thrust_mps2, 2) - std::pow(kGravityMps2, 2));
+  const double escape_s = point_avoidance_s(sideways_m, sideways_mps2);
+  return {range_m, [escape_s](double) { return escape_s; }};
+}
+
+AvoidanceBound rotors_bound(const Scenario& scenario, double range_m) {
+  return {range_m, [body = body_of(scenario)](double speed_mps) {
+            const Encounter encounter = head_on(body.hull, speed_mps);
+            return encounter.object.p_W.x() / speed_mps +
+                   least_time_to_escape_s(body.agility, encounter);
+          }};
 }
 
 double latency_without_pilot_s(const Scenario& scenario) {

@@ -64,6 +64,8 @@ PaperExperiment table2_experiment();
 PaperExperiment indoor_experiment();
 PaperExperiment outdoor_experiment();
 PaperExperiment shapes_experiment();
+PaperExperiment more_throws_experiment();
+PaperExperiment drift_experiment();
 PaperExperiment latency_experiment();
 PaperExperiment speed_experiment();
 PaperExperiment range_experiment();

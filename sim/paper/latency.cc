@@ -21,9 +21,10 @@ constexpr const char* kProtocol = R"(How the claim is read:
 - *Bound*: "How fast is too fast" (Falanga et al. 2019), s / v - t_a, less the delays that are not
   perception's; s the range from which on the object is known, a ball of 20 cm that comes at the
   vehicle's centre. *point*: t_a = sqrt(2 r / u) of a vehicle that accelerates to the side at once
-  with all its thrust but what keeps its height. *rotors*: t_a of its rotors in the best direction,
-  with their lag and the time to tilt.
-- *oracle*: told of the true object within s, avoids it like falanga2020. Intervals: 95 %, Wilson.
+  with all its thrust but what keeps its height. *rotors*: by the best of many manoeuvres at the
+  limits of its rotors, with their lag, until the ball touches the hull.
+- *oracle*: told of the true object within s, avoids it like falanga2020, over the open field, where
+  no wall ends an escape. Intervals: 95 %, Wilson.
 )";
 
 constexpr double kPaperLatencyMs = 3.5, kFrameLatencyMs = 60;
@@ -95,7 +96,11 @@ std::string bound_text(const AvoidanceBound& bound, double speed_mps, const Scen
 
 TextTable lost_table(const std::vector<LatencyCurves>& all, const LoadedCampaign& campaign) {
   const Scenario& scenario = campaign.scenario;
-  const AvoidanceTimes times = avoidance_times(scenario, kMeanBallRadiusM);
+  std::vector<AvoidanceBound> bounds;
+  for (const double range_m : {1.5, 3.0}) {
+    bounds.push_back(point_bound(scenario, range_m));
+    bounds.push_back(rotors_bound(scenario, range_m));
+  }
   TextTable table;
   table.head = {"lost at [ms]", "bound 1.5 m, point", "bound 1.5 m, rotors", "bound 3 m, point",
                 "bound 3 m, rotors"};
@@ -104,10 +109,8 @@ TextTable lost_table(const std::vector<LatencyCurves>& all, const LoadedCampaign
   for (std::size_t i = 0; i < speeds.values().size(); ++i) {
     std::vector<std::string>& row = table.rows.emplace_back();
     row.push_back(speeds.values()[i] + " m/s");
-    for (const double range_m : {1.5, 3.0}) {
-      for (const double avoidance_s : {times.point_s, times.rotors_s}) {
-        row.push_back(bound_text({range_m, avoidance_s}, speeds.middles()[i], scenario));
-      }
+    for (const AvoidanceBound& bound : bounds) {
+      row.push_back(bound_text(bound, speeds.middles()[i], scenario));
     }
     for (const LatencyCurves& curves : all) row.push_back(lost_text(curves, i));
   }

@@ -1,6 +1,6 @@
 // What a pilot lost, held against its oracle: the same vehicle, controller and avoidance, told the
-// truth within a range (oracle.range_cap_m). It keeps apart what perception lost and what would
-// have been lost with perfect perception, too.
+// truth within a range (oracle.range_cap_m). It keeps apart what perception lost and what is lost
+// with perfect perception, too, by range, escape law, controller or rotors.
 #pragma once
 
 #include <map>
@@ -14,16 +14,20 @@ namespace dodgesim {
 // Counts over the throws that would have hit, and whose flights by the pilot, its oracle and the
 // pilot none were all flown.
 struct Losses {
-  PairedCounts counts;                    // dodged by the oracle (first) and by the pilot (second)
-  std::map<std::string, int> perception;  // causes of what the oracle dodged
-  std::map<std::string, int> actuation;   // causes of what the oracle lost, too
+  PairedCounts counts;                     // dodged by the oracle (first) and by the pilot (second)
+  std::map<std::string, int> perception;   // causes of what the oracle dodged
+  std::map<std::string, int> with_oracle;  // causes of what the oracle lost, too
 
   void add(const ThrowResult& result);
 
   Rate dodged() const { return {counts.both + counts.only_second, counts.total()}; }
   Rate dodged_by_oracle() const { return {counts.both + counts.only_first, counts.total()}; }
   Rate lost_to_perception() const { return {counts.only_first, counts.total()}; }
-  Rate lost_to_actuation() const { return {counts.neither, counts.total()}; }
+  Rate lost_with_oracle() const { return {counts.neither, counts.total()}; }
 };
+
+// "1.04 (0.90 to 1.19)": the pilot's dodges by the oracle's, with the 95 % interval of
+// cluster_bootstrap() over throws; "-" where it has none because the oracle dodges so few.
+std::string ratio_text(const Losses& losses);
 
 }  // namespace dodgesim

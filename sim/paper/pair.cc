@@ -14,10 +14,8 @@ bool same_throw(const ThrowResult& a, const ThrowResult& b) {
          a.bearing_deg == b.bearing_deg && a.none.hit == b.none.hit;
 }
 
-void count(const ThrowResult& result, Tally& tally, Rate& unharmed,
-           std::map<std::string, int>& causes) {
+void count(const ThrowResult& result, Tally& tally, std::map<std::string, int>& causes) {
   tally.add(result);
-  unharmed.add(result.flown.unharmed());
   if (!result.cause.empty()) ++causes[result.cause];
 }
 
@@ -34,8 +32,8 @@ void PilotPair::add(const LoadedCampaign& first_flew, const LoadedCampaign& seco
       throw std::invalid_argument("The two pilots flew different throws.");
     }
     if (!belongs(a)) continue;
-    count(a, first, first_unharmed, first_causes);
-    count(b, second, second_unharmed, second_causes);
+    count(a, first, first_causes);
+    count(b, second, second_causes);
     oracle.add(a, &ThrowResult::oracle);
     if (a.none.hit) paired.add(a.dodged(), b.dodged());
   }

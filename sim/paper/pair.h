@@ -11,11 +11,10 @@
 
 namespace dodgesim {
 
-// Counts over the throws that would have hit (and, `unharmed`, over all).
+// Counts over the throws that would have hit.
 struct PilotPair {
-  Tally first, second, oracle;           // the oracle with the first pilot's avoidance
-  Rate first_unharmed, second_unharmed;  // neither hit nor crashed, of all throws
-  PairedCounts paired;                   // dodged by the first and by the second
+  Tally first, second, oracle;  // the oracle with the first pilot's avoidance
+  PairedCounts paired;          // dodged by the first and by the second
   std::map<std::string, int> first_causes, second_causes;  // of hits and crashes
 
   // Counts the throws that belong. The campaigns hold the same throws; throws

@@ -59,6 +59,10 @@ class Referee {
 
   // The vehicle's hull, in B.
   const std::vector<Convex>& hull() const { return hull_.parts; }
+  // Object i, in its frame.
+  const std::vector<Convex>& shape(int object) const {
+    return objects_.at(static_cast<std::size_t>(object)).parts;
+  }
 
  private:
   struct Body {

@@ -21,8 +21,8 @@ function storyOf(i) {
                  outcomeOf(i)];
   if (throws.cause[i] !== kNone) parts.push(`, ${data.causes[throws.cause[i]]}`);
   if (Number.isFinite(throws.left[i])) {
-    parts.push(`. The evasive command came ${number(throws.left[i], 3)} s before the contact; ` +
-               `the vehicle needs ${number(throws.needed[i], 3)} s at least`);
+    parts.push(`. The evasive command came ${number(throws.left[i], 3)} s before the contact without ` +
+               `it; the vehicle needs ${number(throws.needed[i], 3)} s at least`);
   }
   return parts.join('') + '.';
 }

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+
 #include "tests/sim/paper/synthetic_campaign.h"
 
 namespace dodgesim {
@@ -23,10 +26,10 @@ TEST(Losses, HoldEveryThrowAgainstTheOracle) {
   EXPECT_EQ(rate_text(losses.dodged()), rate_text({2, 6}));
   EXPECT_EQ(rate_text(losses.dodged_by_oracle()), rate_text({4, 6}));
   EXPECT_EQ(rate_text(losses.lost_to_perception()), rate_text({3, 6}));
-  EXPECT_EQ(rate_text(losses.lost_to_actuation()), rate_text({1, 6}));
+  EXPECT_EQ(rate_text(losses.lost_with_oracle()), rate_text({1, 6}));
   EXPECT_EQ(losses.perception.at("not detected"), 2);
   EXPECT_EQ(losses.perception.at("seen late"), 1);
-  EXPECT_EQ(losses.actuation, (std::map<std::string, int>{{"seen late", 1}}));
+  EXPECT_EQ(losses.with_oracle, (std::map<std::string, int>{{"seen late", 1}}));
 }
 
 TEST(Losses, LeaveOutWhatWouldHaveMissedAndWhatFailed) {
@@ -41,6 +44,26 @@ TEST(Losses, LeaveOutWhatWouldHaveMissedAndWhatFailed) {
     losses.add(result);
   }
   EXPECT_EQ(losses.counts.total(), 0);
+}
+
+TEST(Losses, TheRatioToTheOracleHasAnIntervalOverThrows) {
+  Losses losses;
+  losses.counts = {40, 10, 5, 45};  // both, only the oracle, only the pilot, neither
+  const std::string text = ratio_text(losses);
+  double ratio = 0, low = 0, high = 0;
+  ASSERT_EQ(std::sscanf(text.c_str(), "%lf (%lf to %lf)", &ratio, &low, &high), 3) << text;
+  EXPECT_DOUBLE_EQ(ratio, 0.9);
+  // Delta method: the logarithm's variance is (10 + 5) / (45 * 50).
+  const double sd = std::sqrt(15.0 / (45 * 50));
+  EXPECT_NEAR(low, 0.9 * std::exp(-1.96 * sd), 0.03);
+  EXPECT_NEAR(high, 0.9 * std::exp(1.96 * sd), 0.03);
+}
+
+TEST(Losses, AnOracleThatHardlyDodgesGivesNoRatio) {
+  Losses losses;
+  EXPECT_EQ(ratio_text(losses), "-");
+  losses.counts = {1, 0, 1, 10};
+  EXPECT_EQ(ratio_text(losses), "-");
 }
 
 TEST(Losses, WhoLandedBeforeTheObjectCameHasLostUnharmed) {

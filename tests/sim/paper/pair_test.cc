@@ -34,8 +34,6 @@ TEST(PilotPair, CountsTheThrowsThatWouldHaveHitPairwise) {
   EXPECT_EQ(pair.first.success().count, 1);
   EXPECT_EQ(pair.first.success().of, 3);
   EXPECT_EQ(pair.second.success().count, 2);
-  EXPECT_EQ(pair.second_unharmed.count, 2);
-  EXPECT_EQ(pair.second_unharmed.of, 4);
   EXPECT_EQ(pair.first_causes.at("seen late"), 2);
   EXPECT_EQ(pair.second_causes.at("wrong direction"), 1);
 }
@@ -58,7 +56,6 @@ TEST(PilotPair, CountsOneSetAfterTheOther) {
   EXPECT_EQ(pair.second.success().count, 2);
   EXPECT_EQ(pair.paired.both, 1);
   EXPECT_EQ(pair.paired.only_second, 1);
-  EXPECT_EQ(pair.first_unharmed.of, 2);
   EXPECT_EQ(pair.first_causes.at("seen late"), 1);
 }
 

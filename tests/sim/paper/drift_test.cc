@@ -1,0 +1,43 @@
+// The table of flights whose state estimate drifts.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/paper/experiment.h"
+#include "tests/sim/paper/synthetic_campaign.h"
+
+namespace dodgesim {
+namespace {
+
+using testing::HasSubstr;
+
+ThrowResult landed(int index, TimeUs landing_us) {
+  ThrowResult result = thrown(index, false, false);
+  result.landing_us = landing_us;
+  result.landed_us = landing_us + 5000000;
+  return result;
+}
+
+TEST(Drift, TellsTheMonitorsLandingsFromCrashesWithoutIt) {
+  const LoadedCampaign none = campaign({thrown(0, false, false)});
+  LoadedCampaign up = campaign({landed(0, 3700000), landed(1, 3800000), thrown(2, false, false)});
+  up.scenario.sensors.state_estimate.height_drift_mps = 0.2;
+  for (ThrowResult& result : up.results) {
+    result.sweep = result.index / 2;
+    result.sweep_values = {{"dodger.height_monitor.enabled", result.sweep == 0 ? "true" : "false"}};
+  }
+  up.results[2].flown.crashed = true;
+  LoadedCampaign balls = campaign({thrown(0, true, false), landed(1, 1900000)});
+  for (ThrowResult& result : balls.results) {
+    result.cell_values = {
+        {"sensors.state_estimate.height_drift_mps", result.index == 0 ? "0" : "0.5"}};
+  }
+  const std::string table = drift_experiment().analyse({none, up, up, balls}).markdown;
+  EXPECT_THAT(table, HasSubstr("\n| hover | 0 | on | 0 / 1 | 0 / 1 | - |"));
+  EXPECT_THAT(table, HasSubstr("\n| hover | 0.2 | on | 2 / 2 | 0 / 2 | 3.75 (3.70 to 3.80) |"));
+  EXPECT_THAT(table, HasSubstr("\n| hover | 0.2 | off | 0 / 1 | 1 / 1 | - |"));
+  EXPECT_THAT(table, HasSubstr("\n| balls | 0 | on | 0 / 1 | 0 / 1 | - | 1 / 1 ("));
+  EXPECT_THAT(table, HasSubstr("\n| balls | 0.5 | on | 1 / 1 | 0 / 1 | 1.90 ("));
+}
+
+}  // namespace
+}  // namespace dodgesim
