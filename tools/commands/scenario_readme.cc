@@ -27,7 +27,7 @@ and flies. Each file here runs as it is:
 | `paper/drift_none.yaml` | their control: nothing drifts, nothing lands |
 | `paper/drift_thrown_at.yaml` | balls at a vehicle whose height estimate drifts |
 | `paper/passing*.yaml`, `paper/indoor.yaml`, `paper/outdoor_*.yaml` | the first paper's experiments (`dodgesim paper`) |
-| `paper/claims*.yaml` | the claims behind its method: latency, speed, range, field, threshold, translation |
+| `paper/claims*.yaml` | the claims behind its method: latency, speed, range, physics, field, threshold, translation |
 | `paper/training_*.yaml` | the throws on which `tools/search` looks for parameters |
 
 ```
