@@ -31,7 +31,7 @@ struct Outcome {
     landed.add(result.landed_us.has_value());
     crashed.add(result.flown.crashed);
     if (result.landing_us) landing_s.add(seconds(*result.landing_us));
-    tally.add(result);
+    if (result.thrown()) tally.add(result);
   }
 };
 

@@ -7,12 +7,12 @@
 
 namespace dodgesim {
 
-EdgeSmoother::EdgeSmoother(const std::vector<Edge>& edges, const Intrinsics& intrinsics,
-                           const DepthRange& depth)
+EdgeSmoother::EdgeSmoother(const std::vector<Edge>& edges, ProgramCache& programs,
+                           const Intrinsics& intrinsics, const DepthRange& depth)
     : all_edges_(edges),
       intrinsics_(intrinsics),
       near_m_(depth.near_m),
-      program_(make_edge_program(intrinsics, depth)),
+      program_(make_edge_program(programs, depth)),
       buffer_(make_edge_buffer(edges.size())) {
   seen_.reserve(edges.size());
 }
@@ -42,23 +42,26 @@ void EdgeSmoother::draw(const Eigen::Isometry3d& X_WC, const Rect& region, const
                      static_cast<float>(edge.bulge_m)});
   }
   if (seen_.empty()) return;
-  glBindBuffer(GL_ARRAY_BUFFER, buffer_.buffer);
+  glBindBuffer(GL_ARRAY_BUFFER, buffer_.buffer.name());
   glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(seen_.size() * sizeof(seen_[0])),
                   seen_.data());
   glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_2D, target.depth);
+  glBindTexture(GL_TEXTURE_2D, target.depth.name());
   glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, target.luminance_copy);
+  glBindTexture(GL_TEXTURE_2D, target.luminance_copy.name());
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glCopyTexSubImage2D(GL_TEXTURE_2D, 0, region.x0, region.y0, region.x0, region.y0,
                       region.x1 - region.x0, region.y1 - region.y0);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.without_depth);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.without_depth.name());
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glUseProgram(program_.name);
+  set_camera(program_, intrinsics_);
+  glUniform2f(program_.image, static_cast<float>(intrinsics_.width),
+              static_cast<float>(intrinsics_.height));
   const Eigen::Matrix4f X_CW_float = X_CW.matrix().cast<float>();
   glUniformMatrix4fv(program_.X_CW, 1, GL_FALSE, X_CW_float.data());
-  glBindVertexArray(buffer_.array);
+  glBindVertexArray(buffer_.array.name());
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(seen_.size()));
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);

@@ -14,8 +14,8 @@ namespace dodgesim {
 
 class EdgeSmoother {
  public:
-  // Makes OpenGL objects in the current context.
-  EdgeSmoother(const std::vector<Edge>& edges, const Intrinsics& intrinsics,
+  // Makes OpenGL objects in the current context, with programs of that context.
+  EdgeSmoother(const std::vector<Edge>& edges, ProgramCache& programs, const Intrinsics& intrinsics,
                const DepthRange& depth);
 
   // The luminance and depth of `target` hold the static scene in `region`, and its framebuffer

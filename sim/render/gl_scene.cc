@@ -81,32 +81,33 @@ GlProgram locate(GLuint name) {
   p.conic_origin = at("u_conic_origin");
   p.R_WC = at("u_R_WC");
   p.X_CW = at("u_X_CW");
+  p.image = at("u_image");
   return p;
 }
 
-GLuint make_image(GLint format, GLenum layout, GLenum type, int width, int height) {
-  GLuint texture = 0;
-  glGenTextures(1, &texture);
-  glBindTexture(GL_TEXTURE_2D, texture);
+void allocate(const GlTexture& image, GLint format, GLenum layout, GLenum type, int width,
+              int height) {
+  glBindTexture(GL_TEXTURE_2D, image.name());
   glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, layout, type, nullptr);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-  return texture;
 }
 
-GLuint make_framebuffer(GLuint luminance, GLuint depth, GLuint ids) {
-  GLuint framebuffer = 0;
-  glGenFramebuffers(1, &framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, luminance, 0);
-  if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
-  if (ids) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, ids, 0);
+// Without depth or ids when null.
+void attach(const GlFramebuffer& framebuffer, const GlTexture& luminance, const GlTexture* depth,
+            const GlTexture* ids) {
+  const auto attach_one = [](GLenum where, const GlTexture& image) {
+    glFramebufferTexture2D(GL_FRAMEBUFFER, where, GL_TEXTURE_2D, image.name(), 0);
+  };
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  attach_one(GL_COLOR_ATTACHMENT0, luminance);
+  if (depth) attach_one(GL_DEPTH_ATTACHMENT, *depth);
+  if (ids) attach_one(GL_COLOR_ATTACHMENT1, *ids);
   const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   glDrawBuffers(ids ? 2 : 1, buffers);
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw SimulationError("OpenGL cannot draw into a floating-point image.");
   }
-  return framebuffer;
 }
 
 // OpenGL takes an offset into the bound buffer in the guise of a pointer.
@@ -114,12 +115,12 @@ const void* buffer_offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
 }
 
-unsigned upload_texture(const LuminanceTexture& texture, bool trilinear) {
-  GLuint name = 0;
-  glGenTextures(1, &name);
+GlTexture upload_texture(const LuminanceTexture& texture, bool trilinear) {
+  GlTexture uploaded;
   const GLenum target = texture.cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D;
-  glBindTexture(target, name);
+  glBindTexture(target, uploaded.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);  // the texture's own width
   const GLint wrap = texture.cube ? GL_CLAMP_TO_EDGE : GL_REPEAT;
   glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
   glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
@@ -141,7 +142,7 @@ unsigned upload_texture(const LuminanceTexture& texture, bool trilinear) {
                  texture.texels.data() + static_cast<std::size_t>(face) * face_texels);
   }
   glGenerateMipmap(target);
-  return name;
+  return uploaded;
 }
 
 }  // namespace
@@ -160,7 +161,8 @@ TextureKind SceneTextures::kind_of(int texture) const {
 void SceneTextures::bind(int texture) const {
   if (texture < 0) return;
   const Texture& bound = textures_[static_cast<std::size_t>(texture)];
-  glBindTexture(bound.kind == TextureKind::kCube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D, bound.name);
+  glBindTexture(bound.kind == TextureKind::kCube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D,
+                bound.texture.name());
 }
 
 void set_camera(const GlProgram& program, const Intrinsics& intrinsics) {
@@ -171,10 +173,8 @@ void set_camera(const GlProgram& program, const Intrinsics& intrinsics) {
 VertexBuffer upload_vertices(const std::vector<Vertex>& vertices) {
   VertexBuffer vertex_buffer;
   vertex_buffer.count = static_cast<int>(vertices.size());
-  glGenVertexArrays(1, &vertex_buffer.array);
-  glBindVertexArray(vertex_buffer.array);
-  glGenBuffers(1, &vertex_buffer.buffer);
-  glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer.buffer);
+  glBindVertexArray(vertex_buffer.array.name());
+  glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer.buffer.name());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
                vertices.data(), GL_STATIC_DRAW);
   const struct {
@@ -192,27 +192,28 @@ VertexBuffer upload_vertices(const std::vector<Vertex>& vertices) {
   return vertex_buffer;
 }
 
-GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene) {
-  const GLuint name = link_program(triangle_vertex_shader(count_lights(scene)),
-                                   triangle_fragment_shader(texture, count_lights(scene)));
+GlProgram make_triangle_program(ProgramCache& programs, TextureKind texture,
+                                const SceneGeometry& scene) {
+  const GLuint name = programs.program(triangle_vertex_shader(count_lights(scene)),
+                                       triangle_fragment_shader(texture, count_lights(scene)));
   glUseProgram(name);
   set_lights(name, scene);
   return locate(name);
 }
 
-GlProgram make_primitive_program(mjtGeom type, TextureKind texture, bool hard,
-                                 const SceneGeometry& scene, const DepthRange& depth) {
+GlProgram make_primitive_program(ProgramCache& programs, mjtGeom type, TextureKind texture,
+                                 bool hard, const SceneGeometry& scene, const DepthRange& depth) {
   const GLuint name =
-      link_program(primitive_vertex_shader(),
-                   primitive_fragment_shader(type, texture, count_lights(scene), hard));
+      programs.program(primitive_vertex_shader(),
+                       primitive_fragment_shader(type, texture, count_lights(scene), hard));
   glUseProgram(name);
   set_lights(name, scene);
   set_floats(name, "u_depth", {depth.offset(), depth.slope()});
   return locate(name);
 }
 
-GlProgram make_sky_program(TextureKind texture, double luminance) {
-  const GLuint name = link_program(sky_vertex_shader(), sky_fragment_shader(texture));
+GlProgram make_sky_program(ProgramCache& programs, TextureKind texture, double luminance) {
+  const GLuint name = programs.program(sky_vertex_shader(), sky_fragment_shader(texture));
   glUseProgram(name);
   set_floats(name, "u_sky_luminance", {luminance});
   return locate(name);
@@ -220,10 +221,8 @@ GlProgram make_sky_program(TextureKind texture, double luminance) {
 
 VertexBuffer make_edge_buffer(std::size_t capacity) {
   VertexBuffer buffer;
-  glGenVertexArrays(1, &buffer.array);
-  glBindVertexArray(buffer.array);
-  glGenBuffers(1, &buffer.buffer);
-  glBindBuffer(GL_ARRAY_BUFFER, buffer.buffer);
+  glBindVertexArray(buffer.array.name());
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.buffer.name());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity * sizeof(EdgeInstance)), nullptr,
                GL_STREAM_DRAW);
   const struct {
@@ -241,12 +240,9 @@ VertexBuffer make_edge_buffer(std::size_t capacity) {
   return buffer;
 }
 
-GlProgram make_edge_program(const Intrinsics& intrinsics, const DepthRange& depth) {
-  const GLuint name = link_program(edge_vertex_shader(), edge_fragment_shader());
+GlProgram make_edge_program(ProgramCache& programs, const DepthRange& depth) {
+  const GLuint name = programs.program(edge_vertex_shader(), edge_fragment_shader());
   glUseProgram(name);
-  set_floats(name, "u_camera", {intrinsics.f, intrinsics.cx(), intrinsics.cy()});
-  set_floats(name, "u_image",
-             {static_cast<double>(intrinsics.width), static_cast<double>(intrinsics.height)});
   set_floats(name, "u_near", {depth.near_m});
   set_floats(name, "u_depth", {depth.offset(), depth.slope()});
   glUniform1i(glGetUniformLocation(name, "u_luminance"), 0);
@@ -256,13 +252,13 @@ GlProgram make_edge_program(const Intrinsics& intrinsics, const DepthRange& dept
 
 GlTarget make_target(int width, int height) {
   GlTarget target;
-  target.luminance = make_image(GL_R32F, GL_RED, GL_FLOAT, width, height);
-  const GLuint ids = make_image(GL_R32I, GL_RED_INTEGER, GL_INT, width, height);
-  target.luminance_copy = make_image(GL_R32F, GL_RED, GL_FLOAT, width, height);
-  target.depth = make_image(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width, height);
-  target.without_ids = make_framebuffer(target.luminance, target.depth, 0);
-  target.with_ids = make_framebuffer(target.luminance, target.depth, ids);
-  target.without_depth = make_framebuffer(target.luminance, 0, 0);
+  allocate(target.luminance, GL_R32F, GL_RED, GL_FLOAT, width, height);
+  allocate(target.ids, GL_R32I, GL_RED_INTEGER, GL_INT, width, height);
+  allocate(target.luminance_copy, GL_R32F, GL_RED, GL_FLOAT, width, height);
+  allocate(target.depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width, height);
+  attach(target.without_ids, target.luminance, &target.depth, nullptr);
+  attach(target.with_ids, target.luminance, &target.depth, &target.ids);
+  attach(target.without_depth, target.luminance, nullptr, nullptr);
   return target;
 }
 

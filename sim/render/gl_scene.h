@@ -1,11 +1,14 @@
 // The OpenGL objects of a scene: textures, vertex buffers, programs with their uniform locations.
-// They live as long as the context that was current when they were made.
+// They belong to the context that was current when they were made, which must be current again when
+// they are destroyed.
 #pragma once
 
 #include <Eigen/Dense>
 #include <vector>
 
 #include "sim/render/camera.h"
+#include "sim/render/gl_objects.h"
+#include "sim/render/program_cache.h"
 #include "sim/render/scene_geometry.h"
 #include "sim/render/shaders.h"
 
@@ -18,18 +21,18 @@ struct DepthRange {
   double slope() const { return -far_m * near_m / (far_m - near_m); }
 };
 
+// Of a ProgramCache: kept by it, and used by one renderer at a time.
 struct GlProgram {
   unsigned name = 0;
   int lod_bias;
-  int camera;                                // f, cx, cy [px]: primitives and sky
+  int camera;                                // f, cx, cy [px]: all but triangles
   int clip_from_G, X_WG, texture_shift, id;  // triangles (and primitives)
   int rectangle, R_GC, eye_G, size, texture_scale, texture_offset, albedo_emission, margin;
   int conic, conic_origin;  // ellipsoids
   int R_WC;                 // sky
-  int X_CW;                 // edges
+  int X_CW, image;          // edges; image: width, height [px]
 };
 
-// Uploads. All are GL names.
 // The textures of a scene.
 class SceneTextures {
  public:
@@ -41,14 +44,15 @@ class SceneTextures {
 
  private:
   struct Texture {
-    unsigned name;
+    GlTexture texture;
     TextureKind kind;
   };
   std::vector<Texture> textures_;
 };
 
 struct VertexBuffer {
-  unsigned array = 0, buffer = 0;
+  GlVertexArray array;
+  GlBuffer buffer;
   int count = 0;
 };
 VertexBuffer upload_vertices(const std::vector<Vertex>& vertices);
@@ -63,22 +67,24 @@ static_assert(sizeof(EdgeInstance) == 8 * sizeof(float));
 // Room for `capacity` instances.
 VertexBuffer make_edge_buffer(std::size_t capacity);
 
-// Links a program and sets the uniforms that never change: lights, depth range.
-GlProgram make_triangle_program(TextureKind texture, const SceneGeometry& scene);
-GlProgram make_primitive_program(mjtGeom type, TextureKind texture, bool hard,
-                                 const SceneGeometry& scene, const DepthRange& depth);
-GlProgram make_sky_program(TextureKind texture, double luminance);
+// Takes a program and sets the uniforms that a renderer never changes: lights, depth range. All
+// others must be set before each use.
+GlProgram make_triangle_program(ProgramCache& programs, TextureKind texture,
+                                const SceneGeometry& scene);
+GlProgram make_primitive_program(ProgramCache& programs, mjtGeom type, TextureKind texture,
+                                 bool hard, const SceneGeometry& scene, const DepthRange& depth);
+GlProgram make_sky_program(ProgramCache& programs, TextureKind texture, double luminance);
+GlProgram make_edge_program(ProgramCache& programs, const DepthRange& depth);
 
 void set_camera(const GlProgram& program, const Intrinsics& intrinsics);
-GlProgram make_edge_program(const Intrinsics& intrinsics, const DepthRange& depth);
 
 // Off-screen image: luminance (R32F), ids (R32I), depth. Binding one of the two framebuffers
 // chooses whether ids are written.
 struct GlTarget {
-  unsigned without_ids = 0, with_ids = 0;
-  unsigned without_depth = 0;         // framebuffer for passes that read the depth
-  unsigned luminance = 0, depth = 0;  // textures
-  unsigned luminance_copy = 0;        // texture of the same size
+  GlTexture luminance, ids, depth;
+  GlTexture luminance_copy;
+  GlFramebuffer without_ids, with_ids;
+  GlFramebuffer without_depth;  // for passes that read the depth
 };
 GlTarget make_target(int width, int height);
 

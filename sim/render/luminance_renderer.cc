@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "sim/render/context_lease.h"
 #include "sim/render/edge_smoother.h"
 #include "sim/render/gl_scene.h"
-#include "sim/render/osmesa_context.h"
 #include "sim/render/primitive_painter.h"
 #include "sim/render/scene_geometry.h"
 #include "sim/render/triangle_painter.h"
@@ -45,12 +45,17 @@ void set_scissor(const Rect& region) {
   glScissor(region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0);
 }
 
+// All that is not set before each use, whatever another renderer has left.
 void set_state() {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
+  glDepthMask(GL_TRUE);
   glEnable(GL_SCISSOR_TEST);
   glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  glDisable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glActiveTexture(GL_TEXTURE0);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }
@@ -61,13 +66,16 @@ class LuminanceRenderer::Impl {
  public:
   Impl(const mjModel& model, const std::vector<int>& object_bodies, const Intrinsics& intrinsics,
        const RenderSpec& spec);
+  ~Impl() { lease_.context().make_current(); }  // the OpenGL objects in it are deleted now
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
   void render(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
               float* luminance, std::int32_t* object_id);
   void render_static(const Intrinsics& intrinsics, const Eigen::Isometry3d& X_WC, double lod_bias,
                      float* luminance, float* inverse_depth);
   void draw_objects(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
                     bool behind_static, float* luminance, std::int32_t* object_id);
-  const OsmesaContext& context() const { return context_; }
+  const OsmesaContext& context() const { return lease_.context(); }
 
  private:
   // Images of one size, with what depends on the camera's intrinsics.
@@ -84,8 +92,8 @@ class LuminanceRenderer::Impl {
 
   Intrinsics intrinsics_;
   DepthRange depth_;
-  OsmesaContext context_;
   SceneGeometry scene_;
+  ContextLease lease_;
   SceneTextures textures_;
   TrianglePainter triangles_;
   PrimitivePainter primitives_;
@@ -96,11 +104,10 @@ LuminanceRenderer::Impl::Impl(const mjModel& model, const std::vector<int>& obje
                               const Intrinsics& intrinsics, const RenderSpec& spec)
     : intrinsics_(intrinsics),
       depth_{spec.near_m, 2.0 * spec.far_m},  // the corners of unbounded planes stay visible
-      context_(GlProfile::kCore33, 1, 1),
       scene_(collect_scene(model, object_bodies, spec.texel_encoding == "srgb")),
       textures_(scene_.textures, spec.texture_filter == "trilinear"),
-      triangles_(scene_, textures_, depth_, spec.far_m, spec.sky_luminance),
-      primitives_(scene_, textures_, depth_) {
+      triangles_(scene_, textures_, lease_.programs(), depth_, spec.far_m, spec.sky_luminance),
+      primitives_(scene_, textures_, lease_.programs(), depth_) {
   set_state();
 }
 
@@ -108,15 +115,14 @@ LuminanceRenderer::Impl::Canvas& LuminanceRenderer::Impl::canvas(const Intrinsic
   for (const auto& canvas : canvases_) {
     if (canvas->intrinsics == intrinsics) return *canvas;
   }
-  canvases_.push_back(std::make_unique<Canvas>());
-  Canvas& made = *canvases_.back();
-  made.intrinsics = intrinsics;
-  made.target = make_target(intrinsics.width, intrinsics.height);
-  return made;
+  canvases_.push_back(std::make_unique<Canvas>(
+      Canvas{intrinsics, make_target(intrinsics.width, intrinsics.height), std::nullopt}));
+  return *canvases_.back();
 }
 
 void LuminanceRenderer::Impl::bind(const Canvas& canvas, bool with_ids) {
-  glBindFramebuffer(GL_FRAMEBUFFER, with_ids ? canvas.target.with_ids : canvas.target.without_ids);
+  glBindFramebuffer(GL_FRAMEBUFFER,
+                    (with_ids ? canvas.target.with_ids : canvas.target.without_ids).name());
   glViewport(0, 0, canvas.intrinsics.width, canvas.intrinsics.height);
   glPixelStorei(GL_PACK_ROW_LENGTH, canvas.intrinsics.width);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, canvas.intrinsics.width);
@@ -125,7 +131,9 @@ void LuminanceRenderer::Impl::bind(const Canvas& canvas, bool with_ids) {
 // With smoothed edges.
 void LuminanceRenderer::Impl::draw_static_triangles(Canvas& canvas, const Shot& shot,
                                                     bool with_ids) {
-  if (!canvas.edges) canvas.edges.emplace(scene_.static_edges, canvas.intrinsics, depth_);
+  if (!canvas.edges) {
+    canvas.edges.emplace(scene_.static_edges, lease_.programs(), canvas.intrinsics, depth_);
+  }
   Shot wide = shot;
   wide.region = widened(shot.region, kSmoothingPx, shot.intrinsics);
   bind(canvas, with_ids);
@@ -142,7 +150,7 @@ void LuminanceRenderer::Impl::render(const Snapshot& snapshot, const Eigen::Isom
                                      std::int32_t* object_id) {
   const Shot shot{intrinsics_, X_WC, clipped(region, intrinsics_)};
   if (shot.region.empty()) return;
-  context_.make_current();
+  lease_.context().make_current();
   Canvas& view = canvas(intrinsics_);
   draw_static_triangles(view, shot, object_id != nullptr);
   triangles_.draw_objects(shot, snapshot);
@@ -154,7 +162,7 @@ void LuminanceRenderer::Impl::render_static(const Intrinsics& intrinsics,
                                             const Eigen::Isometry3d& X_WC, double lod_bias,
                                             float* luminance, float* inverse_depth) {
   const Shot shot{intrinsics, X_WC, {0, 0, intrinsics.width, intrinsics.height}, lod_bias};
-  context_.make_current();
+  lease_.context().make_current();
   Canvas& whole = canvas(intrinsics);
   draw_static_triangles(whole, shot, false);
   primitives_.draw_static(shot);
@@ -176,7 +184,7 @@ void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen
                                            std::int32_t* object_id) {
   const Shot shot{intrinsics_, X_WC, clipped(region, intrinsics_)};
   if (shot.region.empty()) return;
-  context_.make_current();
+  lease_.context().make_current();
   Canvas& view = canvas(intrinsics_);
   bind(view, object_id != nullptr);
   set_scissor(shot.region);
@@ -198,7 +206,7 @@ void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen
 // Writes a region of the canvas.
 void LuminanceRenderer::Impl::put(const Canvas& canvas, const Rect& region,
                                   const float* luminance) {
-  glBindTexture(GL_TEXTURE_2D, canvas.target.luminance);
+  glBindTexture(GL_TEXTURE_2D, canvas.target.luminance.name());
   glTexSubImage2D(GL_TEXTURE_2D, 0, region.x0, region.y0, region.x1 - region.x0,
                   region.y1 - region.y0, GL_RED, GL_FLOAT,
                   luminance + offset_of(region, canvas.intrinsics));

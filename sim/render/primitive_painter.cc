@@ -30,7 +30,7 @@ void write_id(bool on) { glColorMaski(1, on, on, on, on); }
 }  // namespace
 
 PrimitivePainter::PrimitivePainter(const SceneGeometry& scene, const SceneTextures& textures,
-                                   const DepthRange& depth)
+                                   ProgramCache& programs, const DepthRange& depth)
     : scene_(scene),
       textures_(textures),
       depth_(depth),
@@ -38,21 +38,21 @@ PrimitivePainter::PrimitivePainter(const SceneGeometry& scene, const SceneTextur
       poses_(scene.primitives.size()) {
   static_assert(std::size(kTypesInOrder) == kTypes);
   order_.reserve(scene.primitives.size());
-  glGenVertexArrays(1, &no_vertices_);
-  make_programs();
+  make_programs(programs);
 }
 
-void PrimitivePainter::make_programs() {
+void PrimitivePainter::make_programs(ProgramCache& programs) {
   for (const Primitive& primitive : scene_.primitives) {
     const TextureKind kind = textures_.kind_of(primitive.surface.texture);
     const std::size_t type = type_index(primitive.type);
     GlProgram& program = programs_[type][static_cast<std::size_t>(kind)];
     if (!program.name) {
-      program = make_primitive_program(primitive.type, kind, false, scene_, depth_);
+      program = make_primitive_program(programs, primitive.type, kind, false, scene_, depth_);
     }
     GlProgram& hard = hard_programs_[type];
     if (!hard.name) {
-      hard = make_primitive_program(primitive.type, TextureKind::kNone, true, scene_, depth_);
+      hard = make_primitive_program(programs, primitive.type, TextureKind::kNone, true, scene_,
+                                    depth_);
     }
   }
 }
@@ -79,7 +79,7 @@ void PrimitivePainter::arrange(const Shot& shot, const Snapshot* snapshot, Wante
 }
 
 void PrimitivePainter::draw_arranged(const Shot& shot, bool last_depth_and_id) {
-  glBindVertexArray(no_vertices_);
+  glBindVertexArray(no_vertices_.name());
   for (const std::size_t index : order_) {
     draw_luminance(shot, index);
     if (last_depth_and_id || index != order_.back()) draw_depth_and_id(shot, index);
@@ -104,7 +104,7 @@ void PrimitivePainter::draw_all(const Shot& shot, const Snapshot& snapshot) {
 
 void PrimitivePainter::draw_static_depth(const Shot& shot) {
   arrange(shot, nullptr, {.statics = true, .objects = false});
-  glBindVertexArray(no_vertices_);
+  glBindVertexArray(no_vertices_.name());
   for (const std::size_t index : order_) draw_depth_and_id(shot, index);
 }
 

@@ -1,5 +1,5 @@
 // Draws the ray-cast solids with OpenGL: static ones and parts of thrown objects. Lives in the
-// context that was current when it was made.
+// context that was current when it was made, with programs of that context.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ namespace dodgesim {
 
 class PrimitivePainter {
  public:
-  // Both must outlive the painter.
+  // Scene and textures must outlive the painter.
   PrimitivePainter(const SceneGeometry& scene, const SceneTextures& textures,
-                   const DepthRange& depth);
+                   ProgramCache& programs, const DepthRange& depth);
 
   // Into the framebuffer that is bound, within the scissor. With depth and ids where a pixel's
   // centre is hit, which may be left out for what is drawn last.
@@ -34,7 +34,7 @@ class PrimitivePainter {
   struct Wanted {
     bool statics, objects;
   };
-  void make_programs();
+  void make_programs(ProgramCache& programs);
   void arrange(const Shot& shot, const Snapshot* snapshot, Wanted wanted);
   void draw_arranged(const Shot& shot, bool last_depth_and_id);
   void set_outline(const GlProgram& program, const Shot& shot, std::size_t index) const;
@@ -44,7 +44,7 @@ class PrimitivePainter {
   const SceneGeometry& scene_;
   const SceneTextures& textures_;
   DepthRange depth_;
-  unsigned no_vertices_ = 0;
+  GlVertexArray no_vertices_;
   std::array<std::array<GlProgram, kTextureKinds>, kTypes> programs_;
   std::array<GlProgram, kTypes> hard_programs_;
 

@@ -1,9 +1,5 @@
 #include "sim/render/shaders.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
-
-#include "sim/base/error.h"
 #include "sim/render/shader_parts.h"
 
 namespace dodgesim {
@@ -166,21 +162,6 @@ void main() {
 }
 )";
 
-GLuint compile(GLenum stage, const std::string& source) {
-  const GLuint shader = glCreateShader(stage);
-  const char* text = source.c_str();
-  glShaderSource(shader, 1, &text, nullptr);
-  glCompileShader(shader);
-  GLint good = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-  if (!good) {
-    char message[2000] = "";
-    glGetShaderInfoLog(shader, sizeof message, nullptr, message);
-    throw SimulationError(std::string("A shader of the renderer does not compile: ") + message);
-  }
-  return shader;
-}
-
 }  // namespace
 
 namespace glsl {
@@ -216,25 +197,6 @@ std::string edge_vertex_shader() { return std::string(glsl::kVersion) + kEdgeVer
 
 std::string edge_fragment_shader() {
   return std::string(glsl::kVersion) + glsl::kHalfPlane + kEdgeFragment;
-}
-
-unsigned link_program(const std::string& vertex, const std::string& fragment) {
-  const GLuint program = glCreateProgram();
-  const GLuint shaders[] = {compile(GL_VERTEX_SHADER, vertex),
-                            compile(GL_FRAGMENT_SHADER, fragment)};
-  for (const GLuint shader : shaders) {
-    glAttachShader(program, shader);
-    glDeleteShader(shader);  // lives on with the program
-  }
-  glLinkProgram(program);
-  GLint good = 0;
-  glGetProgramiv(program, GL_LINK_STATUS, &good);
-  if (!good) {
-    char message[2000] = "";
-    glGetProgramInfoLog(program, sizeof message, nullptr, message);
-    throw SimulationError(std::string("A shader of the renderer does not link: ") + message);
-  }
-  return program;
 }
 
 }  // namespace dodgesim

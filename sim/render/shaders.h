@@ -1,4 +1,4 @@
-// GLSL sources of the luminance renderer, and their compilation.
+// GLSL sources of the luminance renderer.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -29,8 +29,5 @@ std::string sky_fragment_shader(TextureKind texture);
 // Smooths the static scene along its edges; see luminance_renderer.h.
 std::string edge_vertex_shader();
 std::string edge_fragment_shader();
-
-// Returns the GL name of the linked program. Throws SimulationError with the compiler's message.
-unsigned link_program(const std::string& vertex, const std::string& fragment);
 
 }  // namespace dodgesim

@@ -45,22 +45,22 @@ Eigen::Matrix4d clip_from_camera(const Intrinsics& intrinsics, const DepthRange&
 }  // namespace
 
 TrianglePainter::TrianglePainter(const SceneGeometry& scene, const SceneTextures& textures,
-                                 const DepthRange& depth, double far_m, double sky_luminance)
+                                 ProgramCache& programs, const DepthRange& depth, double far_m,
+                                 double sky_luminance)
     : scene_(scene), textures_(textures), depth_(depth) {
   for (const TriangleBatch& batch : scene.static_triangles) {
     static_buffers_.push_back(upload_vertices(batch.vertices));
-    make_program_for(batch.texture);
+    make_program_for(programs, batch.texture);
   }
   for (const MovingTriangles& moving : scene.moving_triangles) {
     moving_buffers_.push_back(upload_vertices(moving.batch.vertices));
-    make_program_for(moving.batch.texture);
+    make_program_for(programs, moving.batch.texture);
   }
   for (const InfinitePlane& plane : scene.infinite_planes) {
     unbounded_buffers_.push_back(upload_vertices(tessellate_unbounded(plane.surface, far_m)));
-    make_program_for(plane.surface.texture);
+    make_program_for(programs, plane.surface.texture);
   }
-  glGenVertexArrays(1, &no_vertices_);
-  sky_program_ = make_sky_program(textures.kind_of(scene.sky_texture),
+  sky_program_ = make_sky_program(programs, textures.kind_of(scene.sky_texture),
                                   scene.sky_texture >= 0 ? 1.0 : sky_luminance);
 }
 
@@ -68,10 +68,10 @@ const GlProgram& TrianglePainter::program_for(int texture) const {
   return programs_[static_cast<std::size_t>(textures_.kind_of(texture))];
 }
 
-void TrianglePainter::make_program_for(int texture) {
+void TrianglePainter::make_program_for(ProgramCache& programs, int texture) {
   const TextureKind kind = textures_.kind_of(texture);
   GlProgram& program = programs_[static_cast<std::size_t>(kind)];
-  if (!program.name) program = make_triangle_program(kind, scene_);
+  if (!program.name) program = make_triangle_program(programs, kind, scene_);
 }
 
 void TrianglePainter::draw(const Shot& shot, const VertexBuffer& buffer, int texture,
@@ -87,7 +87,7 @@ void TrianglePainter::draw(const Shot& shot, const VertexBuffer& buffer, int tex
   glUniform1i(program.id, id);
   glUniform1f(program.lod_bias, static_cast<float>(shot.lod_bias));
   textures_.bind(texture);
-  glBindVertexArray(buffer.array);
+  glBindVertexArray(buffer.array.name());
   glDrawArrays(GL_TRIANGLES, 0, buffer.count);
 }
 
@@ -130,7 +130,7 @@ void TrianglePainter::draw_sky(const Shot& shot) {
   set_matrix(sky_program_.R_WC, Eigen::Matrix3d(shot.X_WC.linear()));
   glUniform1f(sky_program_.lod_bias, static_cast<float>(shot.lod_bias));
   textures_.bind(scene_.sky_texture);
-  glBindVertexArray(no_vertices_);
+  glBindVertexArray(no_vertices_.name());
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 

@@ -1,5 +1,5 @@
 // Draws what is made of triangles, unbounded planes and the sky with OpenGL. Lives in the context
-// that was current when it was made.
+// that was current when it was made, with programs of that context.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@ namespace dodgesim {
 
 class TrianglePainter {
  public:
-  // Both must outlive the painter. Unbounded planes end at far_m; `sky_luminance` is that of a sky
-  // without texture.
-  TrianglePainter(const SceneGeometry& scene, const SceneTextures& textures,
+  // Scene and textures must outlive the painter. Unbounded planes end at far_m; `sky_luminance` is
+  // that of a sky without texture.
+  TrianglePainter(const SceneGeometry& scene, const SceneTextures& textures, ProgramCache& programs,
                   const DepthRange& depth, double far_m, double sky_luminance);
 
   // Into the framebuffer that is bound, within the scissor.
@@ -27,7 +27,7 @@ class TrianglePainter {
   static constexpr std::size_t kTextureKinds = 3;
 
   const GlProgram& program_for(int texture) const;
-  void make_program_for(int texture);
+  void make_program_for(ProgramCache& programs, int texture);
   void draw(const Shot& shot, const VertexBuffer& buffer, int texture,
             const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& texture_shift, int id);
   void draw_unbounded(const Shot& shot);
@@ -37,7 +37,7 @@ class TrianglePainter {
   const SceneTextures& textures_;
   DepthRange depth_;
   std::vector<VertexBuffer> static_buffers_, moving_buffers_, unbounded_buffers_;
-  unsigned no_vertices_ = 0;
+  GlVertexArray no_vertices_;
   std::array<GlProgram, kTextureKinds> programs_;
   GlProgram sky_program_;
 };

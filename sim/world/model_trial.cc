@@ -44,7 +44,7 @@ std::string complaint_about(const WorldSpec& spec, const TrialLimits& limits) {
   return "";
 }
 
-void limit_memory(int memory_mb) {
+void limit_memory([[maybe_unused]] int memory_mb) {
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   const auto bytes = static_cast<rlim_t>(memory_mb) << 20;
   const rlimit memory = {bytes, bytes};
