@@ -77,6 +77,7 @@ void add_answer(const Testimony& testimony, const Testimony::Object& object, boo
   evidence.command_W = mean_evasion(commands);
   if (evidence.undisturbed) {
     evidence.commanded_path_W = path(commands, evidence.undisturbed->contact_us);
+    evidence.last_command_W = commands.back().v_W - commands.front().vehicle_v_W;
   }
   for (const Testimony::Object::Detection& detection : object.detections) {
     if (detection.output_us <= *evidence.command_us) evidence.position_error_W = detection.error_W;

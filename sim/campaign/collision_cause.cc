@@ -8,8 +8,11 @@ namespace {
 // commanded along the object's flight only shifts the time of the contact.
 bool commanded_enough(const CollisionEvidence& evidence) {
   const Eigen::Vector3d flight = evidence.undisturbed->velocity_W().normalized();
-  const Eigen::Vector3d& path_W = evidence.commanded_path_W;
-  return passes(*evidence.undisturbed, path_W - path_W.dot(flight) * flight);
+  const auto across = [&flight](const Eigen::Vector3d& v_W) -> Eigen::Vector3d {
+    return v_W - v_W.dot(flight) * flight;
+  };
+  return passes(*evidence.undisturbed, across(evidence.commanded_path_W),
+                across(evidence.last_command_W));
 }
 
 }  // namespace

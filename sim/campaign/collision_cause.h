@@ -4,7 +4,8 @@
 //   not seen              the object was never in view of a camera
 //   not detected          in view, but no detection was of it
 //   second object         the pilot had detected another object before this one
-//   seen late             when the evasive command arrived, if it did, no manoeuvre was left that
+//   seen late             when the evasive command arrived, if it did, none of the manoeuvres was
+//   left that
 //                         would have brought the vehicle out of the way in time
 //   wrong position        some manoeuvre was left, but none that led where the commands did, which
 //                         would have been right had the object been where it was detected
@@ -79,6 +80,8 @@ struct CollisionEvidence {
   // command, from then to the contact of `undisturbed`. Each command holds until the next, the last
   // to the contact.
   Eigen::Vector3d commanded_path_W = Eigen::Vector3d::Zero();
+  // The last command before that contact, likewise.
+  Eigen::Vector3d last_command_W = Eigen::Vector3d::Zero();
   // Of the object's newest detection before that command: detected less true position.
   Eigen::Vector3d position_error_W = Eigen::Vector3d::Zero();
 };

@@ -13,13 +13,14 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kPathStepS = 1e-3;
+constexpr double kPathStepS = 2e-3;
 constexpr double kPrecisionS = 1e-3;
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 
-// The manoeuvres that are tried, besides straight up and straight down.
+// The manoeuvres that are tried, besides those without a tilt.
 constexpr int kAzimuths = 16;
-constexpr double kTiltsDeg[] = {20, 45, 70, 90};
+constexpr double kTiltsDeg[] = {20, 45, 70, 90, 120, 150};
+constexpr double kThrustShares[] = {1, 0.5, 0};
 
 constexpr double kTowardsDeg = 30;
 
@@ -105,7 +106,7 @@ Vector3d acceleration_mps2(const Manoeuvre& manoeuvre, double thrust_mps2, doubl
 }
 
 double last_thrust_mps2(const Agility& agility, const Manoeuvre& manoeuvre) {
-  return manoeuvre.full_thrust ? agility.max_thrust_mps2 : 0;
+  return manoeuvre.thrust_share * agility.max_thrust_mps2;
 }
 
 // Whether a manoeuvre leads towards a direction, both taken across the object's flight.
@@ -131,10 +132,13 @@ double turning_point(const Predicate& serves, double high_s) {
 }
 
 std::vector<Manoeuvre> make_manoeuvres() {
-  std::vector<Manoeuvre> all = {{0, 0, true}, {0, 0, false}};
-  for (const double tilt_deg : kTiltsDeg) {
-    for (int i = 0; i < kAzimuths; ++i) {
-      all.push_back({2 * std::numbers::pi * i / kAzimuths, tilt_deg * kRadPerDeg, true});
+  std::vector<Manoeuvre> all;
+  for (const double thrust_share : kThrustShares) {
+    all.push_back({0, 0, thrust_share});
+    for (const double tilt_deg : kTiltsDeg) {
+      for (int i = 0; i < kAzimuths; ++i) {
+        all.push_back({2 * std::numbers::pi * i / kAzimuths, tilt_deg * kRadPerDeg, thrust_share});
+      }
     }
   }
   return all;
@@ -152,7 +156,7 @@ Agility agility_of(const VehicleParameters& vehicle, const MotorSpec& motors) {
     pitch_nm += 0.5 * vehicle.max_thrust_n * std::abs(p_B.x());
   }
   agility.tilt_acceleration_radps2 =
-      std::min(roll_nm / vehicle.inertia_kgm2.x(), pitch_nm / vehicle.inertia_kgm2.y());
+      std::max(roll_nm / vehicle.inertia_kgm2.x(), pitch_nm / vehicle.inertia_kgm2.y());
   agility.lag_s = std::min(motors.time_constant_up_s, motors.time_constant_down_s);
   agility.delay_s = 1e-6 * motors.esc_delay_us;
   return agility;
@@ -193,10 +197,13 @@ Isometry3d ManoeuvrePath::at(double t_s) const {
   return moved;
 }
 
-bool passes(const Encounter& encounter, const Vector3d& displacement_W) {
-  Isometry3d shift = Isometry3d::Identity();
-  shift.translation() = displacement_W;
-  return passes_moved(encounter, -around_contact_s(encounter), [&](double) { return shift; });
+bool passes(const Encounter& encounter, const Vector3d& displacement_W,
+            const Vector3d& velocity_W) {
+  return passes_moved(encounter, -around_contact_s(encounter), [&](double t_s) {
+    Isometry3d shift = Isometry3d::Identity();
+    shift.translation() = displacement_W + t_s * velocity_W;
+    return shift;
+  });
 }
 
 double least_time_to_escape_s(const Agility& agility, const Encounter& encounter,

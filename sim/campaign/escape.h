@@ -3,9 +3,9 @@
 //
 // The vehicle hovers, and from a command on follows a manoeuvre as fast as rotors with a
 // first-order lag can turn and lift it: it tilts with the torque of full thrust on one side and
-// none on the other, stops there at once, and meanwhile all rotors go to full thrust, or to none.
-// No vehicle has both at a time, nor stops at once: what does not get out of the way so does not at
-// all.
+// none on the other, stops there at once, and meanwhile all rotors go to full thrust, to half of it
+// or to none. No vehicle has both at a time, nor stops at once: what does not get out of the way by
+// any of some 300 such manoeuvres hardly does at all.
 #pragma once
 
 #include <Eigen/Dense>
@@ -23,7 +23,7 @@ namespace dodgesim {
 // What the rotors of a hovering vehicle allow.
 struct Agility {
   double max_thrust_mps2 = 0;           // of all rotors together, per mass
-  double tilt_acceleration_radps2 = 0;  // greatest about the slower of the roll and pitch axes
+  double tilt_acceleration_radps2 = 0;  // greatest about the faster of the roll and pitch axes
   double lag_s = 0;                     // time constant of the rotors' thrust
   double delay_s = 0;                   // before it begins to change
 };
@@ -33,7 +33,7 @@ Agility agility_of(const VehicleParameters& vehicle, const MotorSpec& motors);
 struct Manoeuvre {
   double azimuth_rad = 0;   // about z_W from x_W: towards which the vehicle tilts
   double tilt_rad = 0;      // how far
-  bool full_thrust = true;  // otherwise none: it drops
+  double thrust_share = 1;  // of the greatest thrust; with 0 it drops
 };
 
 // Where a manoeuvre has brought the vehicle, seen from a vehicle that hovers on.
@@ -50,7 +50,7 @@ class ManoeuvrePath {
 
   Agility agility_;
   Manoeuvre manoeuvre_;
-  std::vector<Eigen::Vector3d> p_W_;  // a millisecond apart
+  std::vector<Eigen::Vector3d> p_W_;  // two milliseconds apart
 };
 
 // How object and vehicle meet if the vehicle does not evade: their first contact.
@@ -62,13 +62,15 @@ struct Encounter {
   Eigen::Vector3d velocity_W() const { return object.v_W - vehicle.v_W; }  // of the object
 };
 
-// Whether the object passes without contact if the vehicle is displaced by this from its place.
-bool passes(const Encounter& encounter, const Eigen::Vector3d& displacement_W);
+// Whether the object passes without contact if the vehicle is displaced by this from its place at
+// the time of the contact, and moves on at this velocity, both against a vehicle that hovers on.
+bool passes(const Encounter& encounter, const Eigen::Vector3d& displacement_W,
+            const Eigen::Vector3d& velocity_W = Eigen::Vector3d::Zero());
 
 // Least time before the contact at which a manoeuvre must be commanded for the object to pass
-// without contact, to within a millisecond; kLongestEscapeS if none would do. With `towards_W`, of
-// the manoeuvres that accelerate it within 30 degrees of it in the end, both taken across the
-// object's flight.
+// without contact, to within a millisecond; kLongestEscapeS if none would do. (A longer time than
+// one that does is taken to do, too.) With `towards_W`, of the manoeuvres that accelerate it within
+// 30 degrees of it in the end, both taken across the object's flight.
 inline constexpr double kLongestEscapeS = 1;
 double least_time_to_escape_s(const Agility& agility, const Encounter& encounter,
                               const std::optional<Eigen::Vector3d>& towards_W = std::nullopt);

@@ -14,15 +14,19 @@ namespace dodgesim {
 
 namespace {
 
+constexpr double kMeanBallRadiusM = 0.1;
+
 // The scenario's vehicle.
 struct Body {
   Agility agility;
   std::vector<Convex> hull;
+  double camera_m = 0;  // how far the first camera is ahead of its centre
 };
 
 Body body_of(const Scenario& scenario) {
   const World world(world_spec(scenario, {}));
-  return {agility_of(world.vehicle(), scenario.motors), Referee(world).hull()};
+  return {agility_of(world.vehicle(), scenario.motors), Referee(world).hull(),
+          world.vehicle().X_BC.at(0).translation().x()};
 }
 
 // A ball that comes along -x at the middle of the vehicle, at the instant at which it touches it.
@@ -75,8 +79,8 @@ AvoidanceBound point_bound(const Scenario& scenario, double range_m) {
 AvoidanceBound rotors_bound(const Scenario& scenario, double range_m) {
   return {range_m, [body = body_of(scenario)](double speed_mps) {
             const Encounter encounter = head_on(body.hull, speed_mps);
-            return encounter.object.p_W.x() / speed_mps +
-                   least_time_to_escape_s(body.agility, encounter);
+            const double not_flown_m = encounter.object.p_W.x() - body.camera_m;
+            return not_flown_m / speed_mps + least_time_to_escape_s(body.agility, encounter);
           }};
 }
 

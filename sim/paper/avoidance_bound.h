@@ -18,21 +18,19 @@ struct AvoidanceBound {
   double greatest_latency_s(double speed_mps) const {
     return range_m / speed_mps - escape_s(speed_mps);
   }
-  // To within 1 mm/s, at most 100 m/s.
+  // To within 1 mm/s and what t_a is known to, at most 100 m/s.
   double greatest_speed_mps(double latency_s) const;
 };
-
-// Mean radius of balls of 10, 20 and 30 cm.
-inline constexpr double kMeanBallRadiusM = 0.1;
 
 // t_a of a point that accelerates at once and evenly: sqrt(2 r / u).
 double point_avoidance_s(double distance_m, double acceleration_mps2);
 
-// Bounds for the scenario's vehicle, at rest, and a ball of kMeanBallRadiusM that comes level and
-// ahead at its centre.
+// Bounds for the scenario's vehicle, at rest, and a ball of 20 cm (the mean of 10, 20 and 30) that
+// comes level and ahead at its centre.
 // A point: to the side, with all the vehicle's thrust but what keeps its height, at once.
 AvoidanceBound point_bound(const Scenario& scenario, double range_m);
-// Its rotors, by the manoeuvres of escape.h. The ball arrives when it touches the hull.
+// Its rotors, by the manoeuvres of escape.h. s is the distance from the first camera, and
+// the ball arrives when it touches the hull. t_a is known to a millisecond.
 AvoidanceBound rotors_bound(const Scenario& scenario, double range_m);
 
 // From light to the rotors' command, without what the pilot takes: the pixel's latency, transport,

@@ -19,7 +19,8 @@ constexpr const char* kProtocol = R"(How to read it:
 - *Landed*: touched the floor at no more than 1 m/s and 15 degrees, on purpose; *crashed*: touched the
   room otherwise. *Landing began*: median of the first commands to land (least to greatest).
 - *Balls*: at 1.8 s, 20 cm, 5 m/s, from 3 m. At 0.5 m/s of drift the pilot gives up before they come,
-  and on its way down it dodges nobody; a throw after that does not count as dodged.
+  and on its way down it dodges nobody; a throw after that does not count as dodged. These flights end
+  0.2 s after the ball, before anybody could touch the floor.
 )";
 
 struct Outcome {

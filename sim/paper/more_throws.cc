@@ -11,7 +11,8 @@ namespace {
 constexpr const char* kProtocol = R"(How to read it:
 
 - All at the hovering vehicle of outdoor.md, at 4, 5, 6 and 8 m/s; the first row is a row of outdoor.md.
-  From 4 to 5 m slow balls are lobs that come from above the view.
+  From 4 to 5 m slow balls are lobs that come from above the view. Two thirds of the throws of *from
+  3 to 5 m* are those from the nearer metre.
 - *Aimed less well*: at points around the vehicle's middle with a standard deviation of 0.4 m across
   and up, from 3 to 4 m, so that most balls miss a vehicle that stays.
 - *Unharmed*: of all throws, those that left the vehicle unharmed, which is what the paper's outdoor

@@ -92,6 +92,15 @@ TEST(CollisionCause, CommandsThatLeadTooShortAWayAreTooLittle) {
   EXPECT_EQ(cause(timid), CollisionCause::kNotEnoughThrust);
 }
 
+// The ball needs 17 ms from the contact to the box's middle.
+TEST(CollisionCause, TheLastCommandGoesOnWhileTheBallPasses) {
+  CollisionEvidence going_on = evidence(500000, kLeft);
+  going_on.commanded_path_W = 0.25 * kLeft;
+  EXPECT_EQ(cause(going_on), CollisionCause::kCommandedTooLittle);
+  going_on.last_command_W = 5 * kLeft;
+  EXPECT_EQ(cause(going_on), CollisionCause::kNotEnoughThrust);
+}
+
 TEST(CollisionCause, TheCommandedWayAlongTheFlightDoesNotCount) {
   CollisionEvidence swerving = evidence(500000, kLeft);
   swerving.commanded_path_W = {-3, 0.2, 0};

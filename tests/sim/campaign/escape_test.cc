@@ -37,22 +37,22 @@ Encounter head_on(double speed_mps = 6) {
 }
 
 TEST(ManoeuvrePath, StraightUpFollowsTheLagOfTheRotors) {
-  const ManoeuvrePath path(kAgility, {0, 0, true}, 0.3);
+  const ManoeuvrePath path(kAgility, {0, 0, 1}, 0.3);
   for (const double t_s : {0.0, 0.001, 0.02, 0.1, 0.3}) {
     const double z_m = (38 - kGravity) * lagged(std::max(0.0, t_s - 0.001), 0.04);
-    EXPECT_NEAR(path.at(t_s).translation().z(), z_m, 2e-4 * t_s + 1e-6) << t_s;
+    EXPECT_NEAR(path.at(t_s).translation().z(), z_m, 4e-4 * t_s + 1e-6) << t_s;
     EXPECT_TRUE(path.at(t_s).linear().isIdentity(1e-12));
   }
 }
 
 TEST(ManoeuvrePath, WithoutThrustTheVehicleEndsInFreeFall) {
-  const ManoeuvrePath path(kAgility, {0, 0, false}, 0.3);
+  const ManoeuvrePath path(kAgility, {0, 0, 0}, 0.3);
   EXPECT_NEAR(path.at(0.3).translation().z(), -kGravity * lagged(0.299, 0.04), 1e-4);
 }
 
 TEST(ManoeuvrePath, TiltsTowardsTheAzimuthAsFastAsTheTorqueAllowsAndStops) {
   const double azimuth = 0.7, tilt = kPi / 3;
-  const ManoeuvrePath path(kAgility, {azimuth, tilt, true}, 0.3);
+  const ManoeuvrePath path(kAgility, {azimuth, tilt, 1}, 0.3);
   const Vector3d early = path.at(0.05).linear() * kUp, late = path.at(0.3).linear() * kUp;
   EXPECT_NEAR(std::acos(early.z()), 404 * lagged(0.049, 0.04), 1e-9);
   EXPECT_NEAR(std::acos(late.z()), tilt, 1e-12);
@@ -77,7 +77,7 @@ TEST(Agility, ComesFromRotorsAndInertia) {
   motors.esc_delay_us = 1000;
   const Agility agility = agility_of(vehicle, motors);
   EXPECT_DOUBLE_EQ(agility.max_thrust_mps2, 20);
-  EXPECT_DOUBLE_EQ(agility.tilt_acceleration_radps2, 2 * 10 * 0.1 / 0.01);
+  EXPECT_DOUBLE_EQ(agility.tilt_acceleration_radps2, 2 * 10 * 0.2 / 0.01);
   EXPECT_DOUBLE_EQ(agility.lag_s, 0.05);
   EXPECT_DOUBLE_EQ(agility.delay_s, 0.001);
 }
@@ -112,36 +112,38 @@ TEST(Passes, AnObjectThatTurnsComesWithAnotherSide) {
 // By a second, slower reckoning: two balls, times and places in fine steps.
 bool balls_pass(const ManoeuvrePath& path, double left_s, const Vector3d& offset, const Vector3d& v,
                 double sum_of_radii) {
-  for (double t_s = -std::min(left_s, 0.5); t_s < 0.5; t_s += 1e-4) {
+  constexpr double kAroundS = 0.15;
+  for (double t_s = -std::min(left_s, kAroundS); t_s < kAroundS; t_s += 5e-4) {
     const Vector3d object = offset + t_s * v - 0.5 * kGravity * t_s * t_s * kUp;
-    const Vector3d vehicle = path.at(std::min(left_s + t_s, 1.4)).translation();
-    if ((object - vehicle).norm() < sum_of_radii) return false;
+    if ((object - path.at(left_s + t_s).translation()).norm() < sum_of_radii) return false;
   }
   return true;
 }
 
-double least_time_of_balls(const Vector3d& offset, const Vector3d& v, double sum_of_radii) {
-  double least_s = 1;
-  const auto improve = [&](const Manoeuvre& manoeuvre) {
-    const ManoeuvrePath path(kAgility, manoeuvre, 1.5);
-    while (least_s > 1e-3 && balls_pass(path, least_s - 1e-3, offset, v, sum_of_radii)) {
-      least_s -= 1e-3;
+// Every manoeuvre of a finer set at every time, shorter than `most_s`.
+double least_time_of_balls(const Vector3d& offset, const Vector3d& v, double sum_of_radii,
+                           double most_s) {
+  double least_s = most_s;
+  for (const double thrust_share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
+    for (int tilt_deg = 0; tilt_deg <= 180; tilt_deg += 15) {
+      for (int i = 0; i < (tilt_deg == 0 ? 1 : 20); ++i) {
+        const ManoeuvrePath path(kAgility, {2 * kPi * i / 20, tilt_deg * kPi / 180, thrust_share},
+                                 0.5);
+        for (double left_s = 0; left_s < least_s; left_s += 2e-3) {
+          if (balls_pass(path, left_s, offset, v, sum_of_radii)) least_s = left_s;
+        }
+      }
     }
-  };
-  improve({0, 0, true});
-  improve({0, 0, false});
-  for (const double tilt_deg : {20, 45, 70, 90}) {
-    for (int i = 0; i < 16; ++i) improve({2 * kPi * i / 16, tilt_deg * kPi / 180, true});
   }
   return least_s;
 }
 
-TEST(LeastTimeToEscape, OfTwoBallsIsWhatFineStepsSay) {
+TEST(LeastTimeToEscape, IsNearlyThatOfAFinerSetOfManoeuvres) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int n = 0; n < 6; ++n) {
-    const Vector3d v = 6 * Vector3d(-1, 0.3 * unit(random), 0.5 * unit(random));
-    Vector3d away = -v.normalized() + 0.6 * Vector3d(0, unit(random), unit(random));
+    const Vector3d v = 8 * Vector3d(-1, 0.3 * unit(random), 0.5 * unit(random));
+    const Vector3d away = -v.normalized() + 0.6 * Vector3d(0, unit(random), unit(random));
     const double sum_of_radii = 0.3;
     const Vector3d offset = sum_of_radii * away.normalized();
     Encounter encounter;
@@ -149,10 +151,23 @@ TEST(LeastTimeToEscape, OfTwoBallsIsWhatFineStepsSay) {
     encounter.object.v_W = v;
     encounter.hull = {Convex::sphere(Vector3d::Zero(), 0.2)};
     encounter.shape = {Convex::sphere(Vector3d::Zero(), 0.1)};
-    EXPECT_NEAR(least_time_to_escape_s(kAgility, encounter),
-                least_time_of_balls(offset, v, sum_of_radii), 4e-3)
-        << n;
+    const double least_s = least_time_to_escape_s(kAgility, encounter);
+    const double finer_s = least_time_of_balls(offset, v, sum_of_radii, least_s + 0.01);
+    EXPECT_GT(finer_s, least_s - 0.012) << n;
+    EXPECT_LT(finer_s, least_s + 0.005) << n;
   }
+}
+
+TEST(LeastTimeToEscape, DownwardTheRotorsHelpToFall) {
+  Encounter above = head_on(8);
+  above.object.p_W = {0.2, 0, 0.13};
+  above.object.v_W.z() = -1;
+  const double down_s = least_time_to_escape_s(kAgility, above, -kUp);
+  double fall_s =
+      0;  // of the 2 cm that the ball reaches below the box's upper face, and its way on
+  while (kGravity * lagged(fall_s, 0.04) < 0.3) fall_s += 1e-4;
+  EXPECT_LT(down_s, fall_s);
+  EXPECT_GT(down_s, 0.02);
 }
 
 TEST(LeastTimeToEscape, AFlatVehicleGetsAwayFastestUpward) {

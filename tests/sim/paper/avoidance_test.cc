@@ -50,7 +50,7 @@ TEST(AvoidanceTables, OneSetHasNoRowsOfAllSets) {
   EXPECT_THAT(indoor_experiment().analyse({one, one}).markdown, Not(HasSubstr("all sets")));
 }
 
-TEST(AvoidanceTables, KeepLossesOfPerceptionApartFromThoseOfActuation) {
+TEST(AvoidanceTables, KeepLossesOfPerceptionApartFromWhatTheOracleLosesToo) {
   ThrowResult missed = thrown(0, true, true, "not detected"),
               late = thrown(1, true, true, "seen late");
   late.oracle.hit = true;
