@@ -4,9 +4,8 @@
 //   not seen              the object was never in view of a camera
 //   not detected          in view, but no detection was of it
 //   second object         the pilot had detected another object before this one
-//   seen late             when the evasive command arrived, if it did, none of the manoeuvres was
-//   left that
-//                         would have brought the vehicle out of the way in time
+//   seen late             when the evasive command arrived, if it did, none of the manoeuvres that
+//                         are tried would have brought the vehicle out of the way in time
 //   wrong position        some manoeuvre was left, but none that led where the commands did, which
 //                         would have been right had the object been where it was detected
 //   wrong direction       some manoeuvre was left, but none that led where the commands did; or
@@ -89,7 +88,7 @@ struct CollisionEvidence {
 // Both empty where they have no meaning.
 struct EscapeTimes {
   std::optional<double> left_s;    // from the command's arrival to the contact without evasion
-  std::optional<double> needed_s;  // least time to escape, by any manoeuvre
+  std::optional<double> needed_s;  // least_time_to_escape_s()
 };
 EscapeTimes escape_times(const Agility& agility, const CollisionEvidence& evidence);
 
