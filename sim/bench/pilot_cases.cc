@@ -1,11 +1,11 @@
 // The flight core alone, as Table 3 of Falanga et al. 2020 times it: one camera, one thread, on
 // events of flights that were recorded before.
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <opencv2/core.hpp>
 
 #include "dodge/dodger.h"
+#include "sim/base/error.h"
 #include "sim/bench/bench_case.h"
 #include "sim/bench/stage_curves.h"
 #include "sim/loop.h"
@@ -83,14 +83,9 @@ struct MeanAndSd {
 };
 
 MeanAndSd mean_and_sd(const std::vector<double>& sample) {
-  const auto count = static_cast<double>(sample.size());
-  double sum = 0, squares = 0;
-  for (const double value : sample) {
-    sum += value;
-    squares += value * value;
-  }
-  const double mean = sum / count;
-  return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
+  cv::Scalar mean, sd;
+  cv::meanStdDev(sample, mean, sd);
+  return {mean[0], sd[0]};
 }
 
 // Where the cameras of the nominal vehicle are does not matter to a single one.
@@ -168,6 +163,10 @@ struct Player {
   // In the order of add_quantities().
   std::vector<double> run(const Load& load) const {
     const std::vector<dodge::StageTimes> times = times_under(load);
+    if (times.empty()) {
+      throw SimulationError("No window of the bench's flights has as many events as the case " +
+                            std::string(load.name) + " asks for.");
+    }
     const auto of = [&times](const auto& time_us) {
       std::vector<double> sample_ms;
       sample_ms.reserve(times.size());

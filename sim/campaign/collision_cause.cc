@@ -4,15 +4,11 @@ namespace dodgesim {
 
 namespace {
 
-// Whether a vehicle that followed every command at once would have got out of the way. What it is
-// commanded along the object's flight only shifts the time of the contact.
+// Whether a vehicle that followed every command at once would have got out of the way.
 bool commanded_enough(const CollisionEvidence& evidence) {
-  const Eigen::Vector3d flight = evidence.undisturbed->velocity_W().normalized();
-  const auto across = [&flight](const Eigen::Vector3d& v_W) -> Eigen::Vector3d {
-    return v_W - v_W.dot(flight) * flight;
-  };
-  return passes(*evidence.undisturbed, across(evidence.commanded_path_W),
-                across(evidence.last_command_W));
+  const Encounter& encounter = *evidence.undisturbed;
+  return passes(encounter, encounter.across_flight(evidence.commanded_path_W),
+                encounter.across_flight(evidence.last_command_W));
 }
 
 }  // namespace
@@ -65,18 +61,21 @@ CollisionCause collision_cause(const Agility& agility, const CollisionEvidence& 
   if (evidence.perceives && !evidence.in_view) return CollisionCause::kNotSeen;
   if (evidence.perceives && !evidence.detected) return CollisionCause::kNotDetected;
   if (!evidence.undisturbed) return CollisionCause::kWrongDirection;
-  if (!times.left_s || *times.left_s < *times.needed_s) return CollisionCause::kSeenLate;
-
-  const auto in_time = [&](const Encounter& encounter) {
-    return *times.left_s >= least_time_to_escape_s(agility, encounter, evidence.command_W);
+  const auto in_time = [&times](const std::optional<double>& needed_s) {
+    return times.left_s && needed_s && *times.left_s >= *needed_s;
   };
-  if (in_time(*evidence.undisturbed)) {
+  if (!in_time(times.needed_s)) return CollisionCause::kSeenLate;
+
+  const auto led_away = [&](const Encounter& encounter) {
+    return in_time(least_time_to_escape_s(agility, encounter, evidence.command_W));
+  };
+  if (led_away(*evidence.undisturbed)) {
     return commanded_enough(evidence) ? CollisionCause::kNotEnoughThrust
                                       : CollisionCause::kCommandedTooLittle;
   }
   Encounter believed = *evidence.undisturbed;
   believed.object.p_W += evidence.position_error_W;
-  return in_time(believed) ? CollisionCause::kWrongPosition : CollisionCause::kWrongDirection;
+  return led_away(believed) ? CollisionCause::kWrongPosition : CollisionCause::kWrongDirection;
 }
 
 }  // namespace dodgesim

@@ -81,14 +81,15 @@ struct CollisionEvidence {
   Eigen::Vector3d commanded_path_W = Eigen::Vector3d::Zero();
   // The last command before that contact, likewise.
   Eigen::Vector3d last_command_W = Eigen::Vector3d::Zero();
-  // Of the object's newest detection before that command: detected less true position.
+  // Of the object's newest detection before that command: detected less true position. What lies
+  // along the flight means that it was believed to come that much sooner or later.
   Eigen::Vector3d position_error_W = Eigen::Vector3d::Zero();
 };
 
-// Both empty where they have no meaning.
 struct EscapeTimes {
-  std::optional<double> left_s;    // from the command's arrival to the contact without evasion
-  std::optional<double> needed_s;  // least_time_to_escape_s()
+  // From the command's arrival to the contact without evasion. Empty without either.
+  std::optional<double> left_s;
+  std::optional<double> needed_s;  // least_time_to_escape_s(); empty without that contact, too
 };
 EscapeTimes escape_times(const Agility& agility, const CollisionEvidence& evidence);
 

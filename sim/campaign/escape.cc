@@ -26,39 +26,16 @@ constexpr double kTowardsDeg = 30;
 
 // Surfaces nearer than this touch.
 constexpr double kTouchingM = 1e-4;
-// The object flies on for as long as the gap lasts if everything on the vehicle is this fast, and
-// for no less than this.
-constexpr double kVehicleMps = 10;
+// The object flies on for as long as the gap, of at most kFarM, lasts if everything on the vehicle
+// moves at this speed against it, and for no less than this.
+constexpr double kFarM = 1;
+constexpr double kVehicleMps = 15;
 constexpr double kLeastStepS = 5e-4;
-
-// The part of v across the unit vector `along`.
-Vector3d across(const Vector3d& v, const Vector3d& along) { return v - v.dot(along) * along; }
-
-// Of the sphere about a body's origin that encloses it.
-double radius_m(const std::vector<Convex>& parts) {
-  double radius_m = 0;
-  for (const Convex& part : parts) {
-    radius_m = std::max(radius_m, part.centre().norm() + part.extent_m());
-  }
-  return radius_m;
-}
 
 // How long before and after the contact without evasion another contact may come.
 double around_contact_s(const Encounter& encounter) {
   const double reach_m = radius_m(encounter.hull) + radius_m(encounter.shape);
   return std::min(2 * reach_m / encounter.velocity_W().norm(), kLongestEscapeS);
-}
-
-// Between the surfaces, or `most_m` if they are farther apart.
-double gap_m(const Encounter& encounter, const Isometry3d& X_BO, double most_m) {
-  double least_m = most_m;
-  for (const Convex& a : encounter.hull) {
-    for (const Convex& b : encounter.shape) {
-      const double at_least = (a.centre() - X_BO * b.centre()).norm() - a.extent_m() - b.extent_m();
-      if (at_least < least_m) least_m = std::min(least_m, convex_gap(a, b, X_BO).distance_m);
-    }
-  }
-  return least_m;
 }
 
 // The object t_s after the contact without evasion, seen from a vehicle that hovers on.
@@ -76,15 +53,18 @@ Isometry3d object_at(const Encounter& encounter, double t_s) {
 template <class Moved>
 bool passes_moved(const Encounter& encounter, double from_s, const Moved& moved) {
   const double to_s = around_contact_s(encounter);
-  const double closing_mps = encounter.velocity_W().norm() + kVehicleMps;
+  const double object_mps = encounter.velocity_W().norm() +
+                            kGravityMps2 * around_contact_s(encounter) +
+                            encounter.object.w_W.norm() * radius_m(encounter.shape);
   for (double t_s = from_s; t_s < to_s;) {
     const Isometry3d shift = moved(t_s);
     Isometry3d X_WB = encounter.vehicle.pose();
     X_WB.linear() = shift.linear() * X_WB.linear();
     X_WB.translation() += shift.translation();
-    const double gap = gap_m(encounter, X_WB.inverse() * object_at(encounter, t_s), 1);
-    if (gap < kTouchingM) return false;
-    t_s += std::max(gap / closing_mps, kLeastStepS);
+    const Isometry3d X_BO = X_WB.inverse() * object_at(encounter, t_s);
+    const double gap_m = convex_gap(encounter.hull, encounter.shape, X_BO, kFarM).distance_m;
+    if (gap_m < kTouchingM) return false;
+    t_s += std::max(gap_m / (object_mps + kVehicleMps), kLeastStepS);
   }
   return true;
 }
@@ -112,10 +92,9 @@ double last_thrust_mps2(const Agility& agility, const Manoeuvre& manoeuvre) {
 // Whether a manoeuvre leads towards a direction, both taken across the object's flight.
 bool leads(const Agility& agility, const Manoeuvre& manoeuvre, const Vector3d& towards_W,
            const Encounter& encounter) {
-  const Vector3d flight = encounter.velocity_W().normalized();
   const Vector3d a_W =
       acceleration_mps2(manoeuvre, last_thrust_mps2(agility, manoeuvre), manoeuvre.tilt_rad);
-  const Vector3d a = across(a_W, flight), towards = across(towards_W, flight);
+  const Vector3d a = encounter.across_flight(a_W), towards = encounter.across_flight(towards_W);
   if (towards.norm() <= 1e-6 * towards_W.norm()) return false;
   return a.dot(towards) > std::cos(kTowardsDeg * kRadPerDeg) * a.norm() * towards.norm();
 }
@@ -197,6 +176,11 @@ Isometry3d ManoeuvrePath::at(double t_s) const {
   return moved;
 }
 
+Vector3d Encounter::across_flight(const Vector3d& v_W) const {
+  const Vector3d flight = velocity_W().normalized();
+  return v_W - v_W.dot(flight) * flight;
+}
+
 bool passes(const Encounter& encounter, const Vector3d& displacement_W,
             const Vector3d& velocity_W) {
   return passes_moved(encounter, -around_contact_s(encounter), [&](double t_s) {
@@ -206,18 +190,21 @@ bool passes(const Encounter& encounter, const Vector3d& displacement_W,
   });
 }
 
-double least_time_to_escape_s(const Agility& agility, const Encounter& encounter,
-                              const std::optional<Vector3d>& towards_W) {
+std::optional<double> least_time_to_escape_s(const Agility& agility, const Encounter& encounter,
+                                             const std::optional<Vector3d>& towards_W) {
   static const std::vector<Manoeuvre> manoeuvres = make_manoeuvres();
-  double least_s = kLongestEscapeS;
+  double least_s = kLongestEscapeS + kPrecisionS;
+  bool any = false;
   for (const Manoeuvre& manoeuvre : manoeuvres) {
     if (towards_W && !leads(agility, manoeuvre, *towards_W, encounter)) continue;
     const ManoeuvrePath path(agility, manoeuvre, least_s + around_contact_s(encounter));
     const auto serves = [&](double left_s) { return passes_path(encounter, path, left_s); };
     // Only what serves later than the best so far.
-    if (serves(least_s - kPrecisionS)) least_s = turning_point(serves, least_s - kPrecisionS);
+    if (!serves(least_s - kPrecisionS)) continue;
+    least_s = turning_point(serves, least_s - kPrecisionS);
+    any = true;
   }
-  return least_s;
+  return any ? std::optional(least_s) : std::nullopt;
 }
 
 }  // namespace dodgesim

@@ -60,6 +60,8 @@ struct Encounter {
   std::vector<Convex> hull, shape;  // of the vehicle and of the object, each in its frame
 
   Eigen::Vector3d velocity_W() const { return object.v_W - vehicle.v_W; }  // of the object
+  // The part of a vector across that velocity: what lies along it only shifts the contact in time.
+  Eigen::Vector3d across_flight(const Eigen::Vector3d& v_W) const;
 };
 
 // Whether the object passes without contact if the vehicle is displaced by this from its place at
@@ -68,11 +70,12 @@ bool passes(const Encounter& encounter, const Eigen::Vector3d& displacement_W,
             const Eigen::Vector3d& velocity_W = Eigen::Vector3d::Zero());
 
 // Least time before the contact at which a manoeuvre must be commanded for the object to pass
-// without contact, to within a millisecond; kLongestEscapeS if none would do. (A longer time than
-// one that does is taken to do, too.) With `towards_W`, of the manoeuvres that accelerate it within
-// 30 degrees of it in the end, both taken across the object's flight.
+// without contact, to within a millisecond; empty if none commanded kLongestEscapeS before it would
+// do. (A longer time than one that does is taken to do, too.) With `towards_W`, of the manoeuvres
+// that accelerate it within 30 degrees of it in the end, both taken across the object's flight.
 inline constexpr double kLongestEscapeS = 1;
-double least_time_to_escape_s(const Agility& agility, const Encounter& encounter,
-                              const std::optional<Eigen::Vector3d>& towards_W = std::nullopt);
+std::optional<double> least_time_to_escape_s(
+    const Agility& agility, const Encounter& encounter,
+    const std::optional<Eigen::Vector3d>& towards_W = std::nullopt);
 
 }  // namespace dodgesim

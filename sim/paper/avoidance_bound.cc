@@ -1,9 +1,9 @@
 #include "sim/paper/avoidance_bound.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "sim/base/error.h"
 #include "sim/base/gravity.h"
 #include "sim/base/time.h"
 #include "sim/campaign/escape.h"
@@ -35,13 +35,15 @@ Encounter head_on(const std::vector<Convex>& hull, double speed_mps) {
   constexpr double kTouchingM = 1e-6;
   Eigen::Isometry3d X_BO = Eigen::Isometry3d::Identity();
   X_BO.translation().x() = reach_m(hull, Eigen::Vector3d::UnitX()) + kMeanBallRadiusM;
+  const double behind_m = reach_m(hull, -Eigen::Vector3d::UnitX()) + kMeanBallRadiusM;
   double gap_m = 0;
   do {
-    gap_m = std::numeric_limits<double>::infinity();
-    for (const Convex& part : hull) {
-      gap_m = std::min(gap_m, convex_gap(part, ball, X_BO).distance_m);
-    }
+    gap_m = convex_gap(hull, {ball}, X_BO).distance_m;
     X_BO.translation().x() -= gap_m;
+    if (X_BO.translation().x() < -behind_m) {
+      throw ScenarioError("A ball of 20 cm flies through the middle of the vehicle's hull: there " +
+                          std::string("is no bound of what it can dodge."));
+    }
   } while (gap_m > kTouchingM);
   Encounter encounter;
   encounter.hull = hull;
@@ -80,7 +82,8 @@ AvoidanceBound rotors_bound(const Scenario& scenario, double range_m) {
   return {range_m, [body = body_of(scenario)](double speed_mps) {
             const Encounter encounter = head_on(body.hull, speed_mps);
             const double not_flown_m = encounter.object.p_W.x() - body.camera_m;
-            return not_flown_m / speed_mps + least_time_to_escape_s(body.agility, encounter);
+            return not_flown_m / speed_mps + least_time_to_escape_s(body.agility, encounter)
+                                                 .value_or(std::numeric_limits<double>::infinity());
           }};
 }
 

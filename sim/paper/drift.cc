@@ -46,6 +46,12 @@ std::string spread_text(const Measured& sample) {
   return at(0.5) + " (" + at(0) + " to " + at(1) + ")";
 }
 
+std::string on_or_off(bool on) { return on ? "on" : "off"; }
+
+std::string monitor_text(const LoadedCampaign& campaign) {
+  return on_or_off(campaign.scenario.dodger.height_monitor.enabled);
+}
+
 void add_row(const std::string& name, const std::string& drift_mps, const std::string& monitor,
              const Outcome& outcome, TextTable& table) {
   table.rows.push_back({name, drift_mps, monitor, of_all(outcome.landed), of_all(outcome.crashed),
@@ -57,10 +63,12 @@ void add_hover(const LoadedCampaign& campaign, TextTable& table) {
   for (const Part& part : parts_of(campaign)) {
     Outcome outcome;
     for (const ThrowResult* result : part.results) outcome.add(*result);
-    const bool on =
-        part.values.empty() || sweep_value(part, "dodger.height_monitor.enabled") == "true";
-    add_row("hover", to_text(campaign.scenario.sensors.state_estimate.height_drift_mps),
-            on ? "on" : "off", outcome, table);
+    const std::string monitor =
+        part.values.empty()
+            ? monitor_text(campaign)
+            : on_or_off(sweep_value(part, "dodger.height_monitor.enabled") == "true");
+    add_row("hover", to_text(campaign.scenario.sensors.state_estimate.height_drift_mps), monitor,
+            outcome, table);
   }
 }
 
@@ -71,7 +79,7 @@ void add_thrown_at(const LoadedCampaign& campaign, TextTable& table) {
     for (const ThrowResult& result : campaign.results) {
       if (drifts.of(result) == i) outcome.add(result);
     }
-    add_row("balls", drifts.values()[i], "on", outcome, table);
+    add_row("balls", drifts.values()[i], monitor_text(campaign), outcome, table);
   }
 }
 

@@ -122,10 +122,11 @@ TextTable bound_table(const std::vector<double>& range_m, const Scenario& scenar
   const double tau_s = latency_s(scenario);
   TextTable table;
   table.head = {"range", "bound, point [m/s]", "bound, rotors [m/s]"};
+  AvoidanceBound point = point_bound(scenario, 0), rotors = rotors_bound(scenario, 0);
   for (const double s : range_m) {
-    table.rows.push_back({fixed_text(s, 2) + " m",
-                          fixed_text(point_bound(scenario, s).greatest_speed_mps(tau_s), 1),
-                          fixed_text(rotors_bound(scenario, s).greatest_speed_mps(tau_s), 1)});
+    point.range_m = rotors.range_m = s;
+    table.rows.push_back({fixed_text(s, 2) + " m", fixed_text(point.greatest_speed_mps(tau_s), 1),
+                          fixed_text(rotors.greatest_speed_mps(tau_s), 1)});
   }
   return table;
 }

@@ -24,6 +24,7 @@ struct DepthRange {
 // Of a ProgramCache: kept by it, and used by one renderer at a time.
 struct GlProgram {
   unsigned name = 0;
+  // Of the uniforms, of which a program has those that it needs.
   int lod_bias;
   int camera;                                // f, cx, cy [px]: all but triangles
   int clip_from_G, X_WG, texture_shift, id;  // triangles (and primitives)
@@ -78,8 +79,8 @@ GlProgram make_edge_program(ProgramCache& programs, const DepthRange& depth);
 
 void set_camera(const GlProgram& program, const Intrinsics& intrinsics);
 
-// Off-screen image: luminance (R32F), ids (R32I), depth. Binding one of the two framebuffers
-// chooses whether ids are written.
+// Off-screen image: luminance (R32F), ids (R32I), depth. Binding a framebuffer chooses
+// whether ids are written.
 struct GlTarget {
   GlTexture luminance, ids, depth;
   GlTexture luminance_copy;

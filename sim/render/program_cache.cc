@@ -9,6 +9,15 @@ namespace dodgesim {
 
 namespace {
 
+// `good`: what OpenGL says of it; `log`: glGetShaderInfoLog or glGetProgramInfoLog.
+template <class Log>
+void check(GLint good, GLuint object, const Log& log, const std::string& step) {
+  if (good) return;
+  char message[2000] = "";
+  log(object, sizeof message, nullptr, message);
+  throw SimulationError("A shader of the renderer does not " + step + ": " + message);
+}
+
 GLuint compile(GLenum stage, const std::string& source) {
   const GLuint shader = glCreateShader(stage);
   const char* text = source.c_str();
@@ -16,11 +25,7 @@ GLuint compile(GLenum stage, const std::string& source) {
   glCompileShader(shader);
   GLint good = 0;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-  if (!good) {
-    char message[2000] = "";
-    glGetShaderInfoLog(shader, sizeof message, nullptr, message);
-    throw SimulationError(std::string("A shader of the renderer does not compile: ") + message);
-  }
+  check(good, shader, glGetShaderInfoLog, "compile");
   return shader;
 }
 
@@ -35,11 +40,7 @@ GLuint link_program(const std::string& vertex, const std::string& fragment) {
   glLinkProgram(program);
   GLint good = 0;
   glGetProgramiv(program, GL_LINK_STATUS, &good);
-  if (!good) {
-    char message[2000] = "";
-    glGetProgramInfoLog(program, sizeof message, nullptr, message);
-    throw SimulationError(std::string("A shader of the renderer does not link: ") + message);
-  }
+  check(good, program, glGetProgramInfoLog, "link");
   return program;
 }
 

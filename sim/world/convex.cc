@@ -216,6 +216,14 @@ double reach_m(const std::vector<Convex>& parts, const Eigen::Vector3d& directio
   return farthest_m;
 }
 
+double radius_m(const std::vector<Convex>& parts) {
+  double radius_m = 0;
+  for (const Convex& part : parts) {
+    radius_m = std::max(radius_m, part.centre().norm() + part.extent_m());
+  }
+  return radius_m;
+}
+
 ConvexGap convex_gap(const Convex& a, const Convex& b, const Eigen::Isometry3d& X_AB) {
   const Eigen::Matrix3d R_BA = X_AB.linear().transpose();
   // v is the point of the core difference a - b that is nearest to the origin so far.
@@ -246,6 +254,22 @@ ConvexGap convex_gap(const Convex& a, const Convex& b, const Eigen::Isometry3d& 
   if (core_distance > 0) out.p_A -= a.radius_m() / core_distance * v;
   out.distance_m = std::max(0.0, core_distance - a.radius_m() - b.radius_m());
   return out;
+}
+
+ConvexGap convex_gap(const std::vector<Convex>& a, const std::vector<Convex>& b,
+                     const Eigen::Isometry3d& X_AB, double most_m) {
+  ConvexGap least;
+  least.distance_m = most_m;
+  for (const Convex& part : a) {
+    for (const Convex& other : b) {
+      const double at_least =
+          (part.centre() - X_AB * other.centre()).norm() - part.extent_m() - other.extent_m();
+      if (at_least >= least.distance_m) continue;
+      const ConvexGap gap = convex_gap(part, other, X_AB);
+      if (gap.distance_m < least.distance_m) least = gap;
+    }
+  }
+  return least;
 }
 
 }  // namespace dodgesim

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,10 @@ class Convex {
 // vector; 0 if none does.
 double reach_m(const std::vector<Convex>& parts, const Eigen::Vector3d& direction);
 
+// Radius [m] of a sphere about the frame's origin that encloses the parts, each by its own sphere;
+// 0 without parts.
+double radius_m(const std::vector<Convex>& parts);
+
 struct ConvexGap {
   double distance_m = 0;                          // between the surfaces, 0 if they touch
   Eigen::Vector3d p_A = Eigen::Vector3d::Zero();  // the nearest point on a, in a's frame
@@ -61,5 +66,11 @@ struct ConvexGap {
 // X_AB: pose of b's frame in a's frame. Exact to about 1e-9 m for bodies with corners, 1e-6 m for
 // cylinders and ellipsoids.
 ConvexGap convex_gap(const Convex& a, const Convex& b, const Eigen::Isometry3d& X_AB);
+
+// The least of the gaps between the parts of two bodies. Without a point, and `most_m`, if they are
+// at least that far apart.
+ConvexGap convex_gap(const std::vector<Convex>& a, const std::vector<Convex>& b,
+                     const Eigen::Isometry3d& X_AB,
+                     double most_m = std::numeric_limits<double>::infinity());
 
 }  // namespace dodgesim

@@ -1,6 +1,5 @@
 #include "sim/world/referee.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -50,9 +49,8 @@ Referee::Body Referee::read_body(const World& world, int body) {
   for (int g = first; g < first + model.body_geomnum[body]; ++g) {
     if (!world.can_collide(g)) continue;
     out.parts.push_back(Convex::from_geom(model, g, "The body " + label));
-    const Convex& part = out.parts.back();
-    out.radius_m = std::max(out.radius_m, part.centre().norm() + part.extent_m());
   }
+  out.radius_m = radius_m(out.parts);
   if (out.parts.empty())
     throw ScenarioError("The body " + label + " has no geom that can collide.");
   return out;
@@ -66,18 +64,8 @@ void Referee::reset() {
 Referee::Gap Referee::gap(const BodyState& vehicle, const BodyState& object,
                           const Body& body) const {
   const Eigen::Isometry3d X_WB = vehicle.pose();
-  const Eigen::Isometry3d X_BO = X_WB.inverse() * object.pose();
-  Gap best;
-  best.distance_m = std::numeric_limits<double>::infinity();
-  for (const Convex& a : hull_.parts) {
-    for (const Convex& b : body.parts) {
-      const double at_least = (a.centre() - X_BO * b.centre()).norm() - a.extent_m() - b.extent_m();
-      if (at_least >= best.distance_m) continue;
-      const ConvexGap found = convex_gap(a, b, X_BO);
-      if (found.distance_m < best.distance_m) best = {found.distance_m, X_WB * found.p_A};
-    }
-  }
-  return best;
+  const ConvexGap gap = convex_gap(hull_.parts, body.parts, X_WB.inverse() * object.pose());
+  return {gap.distance_m, X_WB * gap.p_A};
 }
 
 double Referee::clearance(const World& world, int object) const {

@@ -30,7 +30,7 @@ Encounter head_on() {
 // The latest instant at which a command leads out of the way.
 TimeUs last_us(const std::optional<Vector3d>& towards_W = std::nullopt,
                const Encounter& encounter = head_on()) {
-  return kContactUs - std::lround(1e6 * least_time_to_escape_s(kAgility, encounter, towards_W));
+  return kContactUs - std::lround(1e6 * *least_time_to_escape_s(kAgility, encounter, towards_W));
 }
 
 CollisionEvidence evidence(TimeUs command_us, const Vector3d& command_W) {
@@ -78,7 +78,9 @@ TEST(CollisionCause, ADirectionThatTakesTooLongIsWrongWhereAnotherWouldNot) {
   ASSERT_LT(last_us(kLeft) + 10000, last_us());
   EXPECT_EQ(cause(evidence(last_us(kLeft) + 2, kLeft)), CollisionCause::kWrongDirection);
   EXPECT_EQ(cause(evidence(last_us(kLeft) - 2, kLeft)), CollisionCause::kNotEnoughThrust);
-  EXPECT_EQ(cause(evidence(100000, {-5, 0, 0})), CollisionCause::kWrongDirection);
+  for (const TimeUs command_us : {100000, -500000}) {
+    EXPECT_EQ(cause(evidence(command_us, {-5, 0, 0})), CollisionCause::kWrongDirection);
+  }
 }
 
 // To the left the ball's radius and the hull's reach are 0.27 m.
@@ -126,6 +128,20 @@ TEST(CollisionCause, ADirectionThatFitsWhatWasDetectedIsAWrongPosition) {
   EXPECT_EQ(cause(misled), CollisionCause::kWrongPosition);
   misled.position_error_W = {0, 0.1, 0};
   EXPECT_EQ(cause(misled), CollisionCause::kWrongDirection);
+}
+
+TEST(CollisionCause, AnObjectDetectedTooFarAwayIsBelievedToComeLater) {
+  CollisionEvidence misled = evidence(last_us(kLeft) + 2, kLeft);
+  misled.position_error_W = {0.4, 0, 0};
+  EXPECT_EQ(cause(misled), CollisionCause::kWrongPosition);
+  misled.position_error_W = {-0.4, 0, 0};
+  EXPECT_EQ(cause(misled), CollisionCause::kWrongDirection);
+}
+
+TEST(CollisionCause, WhatNoManoeuvreEscapesIsAlwaysSeenLate) {
+  const Agility weak{9.82, 1e-3, 10, 0.9};
+  const CollisionEvidence early = evidence(-500000, kUp);
+  EXPECT_EQ(collision_cause(weak, early, escape_times(weak, early)), CollisionCause::kSeenLate);
 }
 
 TEST(CollisionCause, AHitThatOnlyTheEvasionBroughtIsAWrongDirection) {

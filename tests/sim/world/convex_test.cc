@@ -174,5 +174,40 @@ TEST(ConvexTest, ABodyOfSeveralPartsReachesAsFarAsTheFarthest) {
   EXPECT_EQ(reach_m({}, Vector3d::UnitX()), 0);
 }
 
+TEST(ConvexTest, TheSphereAboutABodyOfSeveralPartsTouchesTheFarthest) {
+  const Convex box = Convex::box(Isometry3d(Eigen::Translation3d(-0.3, 0, 0)), {0.03, 0, 0.04});
+  const Convex ball = Convex::sphere(Vector3d(0, 0.1, 0), 0.2);
+  EXPECT_NEAR(radius_m({ball}), 0.3, 1e-12);
+  EXPECT_NEAR(radius_m({box, ball}), 0.35, 1e-12);
+  EXPECT_EQ(radius_m({}), 0);
+}
+
+TEST(ConvexTest, TheGapBetweenBodiesOfSeveralPartsIsTheLeastBetweenTheParts) {
+  RandomStream random(7, 0, "convex");
+  const auto body = [&random] {
+    std::vector<Convex> parts;
+    for (int k = 0; k < 3; ++k) {
+      parts.push_back(Convex::box(random_pose(random, 0.3), Vector3d(0.05, 0.1, 0.02)));
+      parts.push_back(Convex::capsule(random_pose(random, 0.3), 0.02, 0.1));
+    }
+    return parts;
+  };
+  for (int i = 0; i < 100; ++i) {
+    const std::vector<Convex> a = body(), b = body();
+    const Isometry3d X_AB = random_pose(random, 2);
+    ConvexGap expected = convex_gap(a[0], b[0], X_AB);
+    for (const Convex& part : a) {
+      for (const Convex& other : b) {
+        const ConvexGap gap = convex_gap(part, other, X_AB);
+        if (gap.distance_m < expected.distance_m) expected = gap;
+      }
+    }
+    const ConvexGap gap = convex_gap(a, b, X_AB);
+    EXPECT_NEAR(gap.distance_m, expected.distance_m, 1e-6);
+    EXPECT_NEAR((gap.p_A - expected.p_A).norm(), 0, 1e-6);
+    EXPECT_EQ(convex_gap(a, b, X_AB, 0.1).distance_m, std::min(gap.distance_m, 0.1));
+  }
+}
+
 }  // namespace
 }  // namespace dodgesim
