@@ -1,9 +1,10 @@
 #include "dodge/config.h"
 
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <string>
+
+#include "dodge/check_ranges.h"
 
 namespace dodge {
 
@@ -12,51 +13,6 @@ namespace {
 constexpr double kRectifiedTolerance = 1e-3;  // [rad] and relative to the baseline
 
 [[noreturn]] void fail(const std::string& sentence) { throw std::invalid_argument(sentence); }
-
-// Checks each value against the range its struct states; knows the path of nested names.
-class RangeChecker {
- public:
-  void operator()(const char* name, double& value, double min, double max, const char*) {
-    check(name, value, min, max);
-  }
-  void operator()(const char* name, int& value, int min, int max, const char*) {
-    check(name, value, min, max);
-  }
-  void operator()(const char* name, std::int64_t& value, std::int64_t min, std::int64_t max,
-                  const char*) {
-    check(name, value, min, max);
-  }
-  void operator()(const char*, bool&, const char*) {}
-  void operator()(const char* name, std::string& value, std::initializer_list<const char*> allowed,
-                  const char*) {
-    std::string choices;
-    for (const char* choice : allowed) {
-      if (value == choice) return;
-      choices += std::string(choices.empty() ? "" : ", ") + choice;
-    }
-    fail("The parameter " + path_ + name + " is \"" + value + "\" but must be one of " + choices +
-         ".");
-  }
-  template <class Nested>
-  void operator()(const char* name, Nested& nested, const char*) {
-    const std::string outer = path_;
-    path_ += std::string(name) + ".";
-    nested.visit(*this);
-    path_ = outer;
-  }
-
- private:
-  template <class Number>
-  void check(const char* name, Number value, Number min, Number max) const {
-    if (value >= min && value <= max) return;  // false for NaN
-    std::ostringstream sentence;
-    sentence << "The parameter " << path_ << name << " is " << value << " but must lie between "
-             << min << " and " << max << ".";
-    fail(sentence.str());
-  }
-
-  std::string path_;
-};
 
 void check_odd(const char* name, int size) {
   if (size % 2 == 0 && size != 0) {
@@ -92,10 +48,7 @@ void check_rectified(const CameraModel& top, const CameraModel& bottom) {
 }  // namespace
 
 void validate(const Config& config) {
-  Config copy = config;  // visit() is not const
-  RangeChecker checker;
-  copy.visit(checker);
-
+  check_ranges(config);
   check_odd("time_image.blur_px", config.time_image.blur_px);
   check_odd("flow.window_px", config.flow.window_px);
   if (config.position.min_range_m >= config.position.max_range_m) {
@@ -108,6 +61,8 @@ void validate(const Config& config) {
   if (config.range_sensor.min_range_m >= config.range_sensor.max_range_m) {
     fail("The parameter range_sensor.min_range_m must be less than range_sensor.max_range_m.");
   }
+  validate(config.repulsive);
+  validate(config.escape);
   if (config.landing.touchdown_mps > config.landing.descent_mps) {
     fail("The parameter landing.touchdown_mps must not exceed landing.descent_mps.");
   }

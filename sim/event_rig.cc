@@ -8,7 +8,7 @@
 #include <string>
 
 #include "sim/base/random.h"
-#include "sim/events/event_log.h"
+#include "sim/events/event_hash.h"
 
 namespace dodgesim {
 

@@ -269,6 +269,7 @@ double Flight::true_range_m() const {
 }
 
 const Snapshot* Flight::truth_at(TimeUs t_us) const {
+  if (history_.empty() || t_us < history_.front().t_us) return nullptr;
   const auto after = std::lower_bound(history_.begin(), history_.end(), t_us,
                                       [](const Snapshot& s, TimeUs t) { return s.t_us < t; });
   return after == history_.end() ? nullptr : &*after;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "sim/files/base64.h"
+
 namespace dodgesim::foxglove {
 
 namespace schema {
@@ -257,24 +259,6 @@ Json log(TimeUs t_us, Level level, const std::string& message) {
           {"name", "dodgesim"},
           {"file", ""},
           {"line", 0}};
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      bits = bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      const bool padding = k > bytes.size() - i;
-      text += padding ? '=' : kDigits[bits >> (18 - 6 * k) & 63];
-    }
-  }
-  return text;
 }
 
 }  // namespace dodgesim::foxglove

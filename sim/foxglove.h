@@ -71,6 +71,4 @@ Json camera_calibration(TimeUs t_us, const std::string& frame, int width, int he
 enum class Level { kInfo = 2, kWarning = 3, kError = 4 };
 Json log(TimeUs t_us, Level level, const std::string& message);
 
-std::string base64(const std::string& bytes);
-
 }  // namespace dodgesim::foxglove

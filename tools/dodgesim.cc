@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/base/error.h"
+#include "sim/base/shell.h"
 #include "tools/commands/command.h"
 
 namespace {
@@ -12,7 +13,7 @@ using namespace dodgesim;
 
 std::string joined(int argc, char** argv) {
   std::string line = "dodgesim";
-  for (int i = 1; i < argc; ++i) line += std::string(" ") + argv[i];
+  for (int i = 1; i < argc; ++i) line += " " + shell_quoted(argv[i]);
   return line;
 }
 

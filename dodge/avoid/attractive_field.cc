@@ -1,15 +1,8 @@
 #include "dodge/avoid/attractive_field.h"
 
 #include <cmath>
-#include <stdexcept>
 
 namespace dodge {
-
-void validate(const AttractiveConfig& config) {
-  if (!(config.e_0_m > 0) || !(config.gamma_a >= 0)) {
-    throw std::invalid_argument("The attractive field needs e_0_m > 0 and gamma_a >= 0.");
-  }
-}
 
 double attractive_potential(const AttractiveConfig& config, double k_a, const Eigen::Vector3d& e) {
   const double distance = e.norm(), e_0 = config.e_0_m, gamma_a = config.gamma_a;

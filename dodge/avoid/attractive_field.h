@@ -20,12 +20,9 @@ struct AttractiveConfig {
   }
 };
 
-// Throws std::invalid_argument on values out of range.
-void validate(const AttractiveConfig& config);
-
 // Potential (35) of the error e = goal - vehicle [m], with k_a the desired speed [m/s]. As printed
 // it jumps at e_0; the inner branch is raised by k_a e_0 gamma_a / (gamma_a + 1), which leaves (36)
-// as it is.
+// as it is. The pilot needs the force alone; the tests hold it against this.
 double attractive_potential(const AttractiveConfig& config, double k_a, const Eigen::Vector3d& e);
 
 // Force (36), in units of velocity (39).

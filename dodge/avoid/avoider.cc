@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "dodge/check_ranges.h"
+
 namespace dodge {
 namespace {
 
@@ -26,8 +28,8 @@ Avoider::Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attra
       limit_(limit),
       escape_(escape, limit.max_speed_mps),
       predicts_(escape.law == "closest_approach") {
-  validate(attractive);
-  validate(limit);
+  check_ranges(attractive, "attractive.");
+  check_ranges(limit, "velocity_limit.");
 }
 
 VelocityCommand Avoider::command(TimeUs now, const StateEstimate& state, const Goal& goal,

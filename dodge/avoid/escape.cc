@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "dodge/check_ranges.h"
+
 namespace dodge {
 namespace {
 
@@ -89,15 +91,10 @@ Vector3d upward_across(const Vector3d& along) {
 }  // namespace
 
 void validate(const EscapeConfig& config) {
-  if (config.law != "potential_field" && config.law != "closest_approach") {
-    throw std::invalid_argument("The law of escape has an unknown name.");
-  }
-  if (!(config.hull_radius_m >= 0) || !(config.control_sigma_m > 0) ||
-      !(config.min_probability >= 0 && config.min_probability <= 1) ||
-      !(config.min_speed_mps >= 0) || !(config.horizon_s > 0) || !(config.acceleration_mps2 > 0) ||
-      !(config.dead_time_s >= 0) || !(config.tilt_time_s >= 0) ||
-      !(config.steepest_descent_deg >= 0 && config.steepest_descent_deg <= 90)) {
-    throw std::invalid_argument("A parameter of the escape is out of range.");
+  check_ranges(config, "escape.");
+  if (config.keep_probability > config.min_probability) {
+    throw std::invalid_argument(
+        "The parameter escape.keep_probability must not exceed escape.min_probability.");
   }
 }
 

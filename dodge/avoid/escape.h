@@ -59,7 +59,7 @@ struct EscapeConfig {
   }
 };
 
-// Throws std::invalid_argument on values out of range.
+// Throws std::invalid_argument on values out of range or that contradict each other.
 void validate(const EscapeConfig& config);
 
 // What the vehicle is told to do.

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "dodge/check_ranges.h"
+
 namespace dodge {
 namespace {
 
@@ -15,30 +17,15 @@ Eigen::Vector3d without_component_along(const Eigen::Vector3d& v, const Eigen::V
   return v - v.dot(unit) * unit;
 }
 
-template <class... Names>
-bool one_of(const std::string& value, Names... names) {
-  return ((value == names) || ...);
-}
+}  // namespace
 
 void validate(const RepulsiveConfig& config) {
-  if (!one_of(config.field, "falanga", "khosla") ||
-      !one_of(config.obstacle_velocity, "world", "relative") ||
-      !one_of(config.direction, "cross", "away")) {
-    throw std::invalid_argument("The repulsive field has an option with an unknown name.");
-  }
-  if (!(config.k_r0 >= 0) || !(config.eta_0_m > 0) || !(config.gamma > 0) ||
-      !(config.lambda_decay_1ps > 0) || !(config.k_tau > 0) || !(config.quadrotor_radius_m >= 0) ||
-      !(config.head_on_sine >= 0 && config.head_on_sine <= 1) ||
-      !(config.steep_deg >= 0 && config.steep_deg <= 90)) {
-    throw std::invalid_argument("A parameter of the repulsive field is out of range.");
-  }
+  check_ranges(config, "repulsive.");
   if (config.field == "khosla" && config.gamma < 1) {
     throw std::invalid_argument(
         "gamma must be at least 1 for the khosla field; below, its force is infinite at eta_0.");
   }
 }
-
-}  // namespace
 
 double decay_lifetime_s(const RepulsiveConfig& config) {
   return std::max(0.0, std::log(config.k_r0 / config.k_tau) / config.lambda_decay_1ps);

@@ -1,15 +1,6 @@
 #include "dodge/avoid/velocity_command.h"
 
-#include <stdexcept>
-
 namespace dodge {
-
-void validate(const VelocityLimitConfig& config) {
-  if (!(config.max_speed_mps > 0) || !(config.evading_threshold_mps >= 0)) {
-    throw std::invalid_argument(
-        "The velocity command needs max_speed_mps > 0 and evading_threshold_mps >= 0.");
-  }
-}
 
 VelocityCommand velocity_command(const VelocityLimitConfig& config, TimeUs t_us,
                                  const Eigen::Vector3d& repulsive_W,

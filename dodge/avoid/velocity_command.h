@@ -21,9 +21,6 @@ struct VelocityLimitConfig {
   }
 };
 
-// Throws std::invalid_argument on values out of range.
-void validate(const VelocityLimitConfig& config);
-
 // Sum of the forces as a velocity (39), shortened to the limit; its direction is kept.
 VelocityCommand velocity_command(const VelocityLimitConfig& config, TimeUs t_us,
                                  const Eigen::Vector3d& repulsive_W,

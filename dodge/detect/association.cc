@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <tuple>
+
+#include "dodge/check_ranges.h"
 
 namespace dodge {
 
@@ -11,18 +12,8 @@ namespace {
 constexpr std::size_t kUsual = 1024;  // pairs within the radii, detections and obstacles
 }
 
-void validate(const AssociationConfig& config) {
-  if (!(config.first_radius_m > 0) || !(config.radius_m > 0) || !(config.widen_sigmas >= 0) ||
-      config.min_detections < 1 || !(config.max_velocity_sigma_mps > 0) ||
-      config.tentative_timeout_us < 0) {
-    throw std::invalid_argument(
-        "Association needs radii and max_velocity_sigma_mps > 0, widen_sigmas and "
-        "tentative_timeout_us >= 0 and min_detections >= 1.");
-  }
-}
-
 Associator::Associator(const AssociationConfig& config) : config_(config) {
-  validate(config);
+  check_ranges(config, "association.");
   pairs_.reserve(kUsual);
   obstacle_of_.reserve(kUsual);
   taken_.reserve(kUsual);

@@ -39,9 +39,6 @@ struct AssociationConfig {
   }
 };
 
-// Throws std::invalid_argument on values out of range.
-void validate(const AssociationConfig& config);
-
 // An obstacle as association sees it, at the detections' instant.
 struct PredictedObstacle {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]

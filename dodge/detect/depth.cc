@@ -41,7 +41,7 @@ DepthEstimator::DepthEstimator(const DepthConfig& config, std::span<const Camera
   bottom_taken_.reserve(most);
   if (cameras.size() > 1) {
     const Eigen::Vector3d baseline = cameras[1].X_BC.translation() - cameras[0].X_BC.translation();
-    focal_baseline_ = camera_.mean_focal_px() * baseline.norm();
+    focal_baseline_ = camera_.fy * baseline.norm();  // a vertical pair
   }
 }
 

@@ -1,7 +1,6 @@
 #include "dodge/detect/kalman.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace dodge {
 namespace {
@@ -10,15 +9,6 @@ namespace {
 constexpr double kNoDirectionM = 1e-9;
 
 }  // namespace
-
-void validate(const KalmanConfig& config) {
-  if (!(config.acceleration_noise >= 0) || !(config.initial_speed_sigma_mps > 0) ||
-      !(config.lateral_sigma_m > 0) || !(config.min_depth_sigma_m > 0)) {
-    throw std::invalid_argument(
-        "The Kalman filter needs acceleration_noise >= 0 and initial_speed_sigma_mps, "
-        "lateral_sigma_m and min_depth_sigma_m > 0.");
-  }
-}
 
 Eigen::Matrix3d measurement_covariance(const KalmanConfig& config, const Detection& detection) {
   const double lateral = config.lateral_sigma_m;

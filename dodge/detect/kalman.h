@@ -42,9 +42,6 @@ struct KalmanConfig {
   }
 };
 
-// Throws std::invalid_argument on values out of range.
-void validate(const KalmanConfig& config);
-
 // R of (23) for a detection [m^2], in W: depth_sigma_m along the line of sight (through the near
 // and the far centre), lateral_sigma_m across it.
 Eigen::Matrix3d measurement_covariance(const KalmanConfig& config, const Detection& detection);

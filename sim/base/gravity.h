@@ -1,4 +1,4 @@
-// The one value of gravity.
+// Gravity. The flight core has a constant of its own, because it builds alone.
 #pragma once
 
 namespace dodgesim {

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include "sim/base/gravity.h"
+
 namespace dodgesim {
+
+static_assert(dodge::kGravityMps2 == kGravityMps2);
 
 namespace {
 

@@ -53,8 +53,7 @@ Isometry3d object_at(const Encounter& encounter, double t_s) {
 template <class Moved>
 bool passes_moved(const Encounter& encounter, double from_s, const Moved& moved) {
   const double to_s = around_contact_s(encounter);
-  const double object_mps = encounter.velocity_W().norm() +
-                            kGravityMps2 * around_contact_s(encounter) +
+  const double object_mps = encounter.velocity_W().norm() + kGravityMps2 * to_s +
                             encounter.object.w_W.norm() * radius_m(encounter.shape);
   for (double t_s = from_s; t_s < to_s;) {
     const Isometry3d shift = moved(t_s);

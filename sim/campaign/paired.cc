@@ -76,16 +76,6 @@ double mcnemar(const PairedCounts& counts, Alternative alternative) {
   return std::min(1.0, 2 * one_sided(std::max(lost, gained), lost + gained));
 }
 
-double mcnemar_mid_p(const PairedCounts& counts, Alternative alternative) {
-  check(counts);
-  const std::int64_t lost = counts.only_first, gained = counts.only_second;
-  if (lost + gained == 0) return 1;
-  const double seen = binomial_pmf(lost, lost + gained, 0.5);
-  if (alternative != Alternative::kDifferent) return mcnemar(counts, alternative) - 0.5 * seen;
-  if (lost == gained) return 1 - 0.5 * seen;
-  return mcnemar(counts) - seen;
-}
-
 Interval tango(const PairedCounts& counts, double confidence) {
   check(counts);
   check_confidence(confidence);

@@ -27,11 +27,6 @@ struct PairedCounts {
 // differs.
 double mcnemar(const PairedCounts& counts, Alternative alternative = Alternative::kDifferent);
 
-// The same less half of the probability of the outcome seen (there, equation 2): closer to its
-// level, which it exceeded in none of the paper's 9595 cases, but it is not proven to keep it. 1
-// when no outcome differs.
-double mcnemar_mid_p(const PairedCounts& counts, Alternative alternative = Alternative::kDifferent);
-
 // Interval of second rate - first rate: Tango's score interval (Tango 1998, Statistics in Medicine
 // 17:891), one of those that Fagerland, Lydersen and Laake 2014 (Statistics in Medicine 33:2850)
 // recommend. Chosen over Newcombe's paired interval because it belongs to the statistic by which

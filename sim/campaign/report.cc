@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "sim/base/shell.h"
 #include "sim/campaign/axis.h"
 #include "sim/campaign/collision_cause.h"
 #include "sim/campaign/report_files.h"
@@ -211,17 +211,6 @@ Json section_of(const Part& part, const Axes& axes) {
           {"detected", rate_of(all.detected)}, {"false_alarms", rate_of(all.false_alarms)}};
 }
 
-// An argument as a shell takes it.
-std::string quoted(const std::string& text) {
-  const auto plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("_-./=+,", c) != nullptr;
-  };
-  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
   const Scenario& scenario = campaign.scenario;
   const std::vector<ThrowResult>& results = campaign.results;
@@ -251,7 +240,7 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
           {"program", "dodgesim " + campaign.program},
           {"wanted", campaign.wanted()},
           {"stop", campaign.stop ? campaign.stop->text() : ""},
-          {"replay", "dodgesim replay " + quoted(directory) + " --throw "},
+          {"replay", "dodgesim replay " + shell_quoted(directory) + " --throw "},
           {"real_time_factor", computing_s > 0 ? simulated_s / computing_s : 0.0},
           {"heat", std::move(heat)},
           {"cells", {{"keys", std::move(grid_keys)}, {"values", axes.cells}}},

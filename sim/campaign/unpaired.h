@@ -16,7 +16,7 @@ enum class Alternative { kDifferent, kLower, kHigher };
 // Fisher's exact test (Fisher 1935), p-value: given how many of all throws succeeded, the
 // probability of a table at least as extreme. kDifferent adds all tables that are no more likely
 // than the one seen (the same rule as R's fisher.test). Never rejects a true null too often, and
-// often too seldom. 1 when a group is empty.
+// often too seldom; `compare` uses the next one instead. 1 when a group is empty.
 double fisher(const Proportion& first, const Proportion& second,
               Alternative alternative = Alternative::kDifferent);
 

@@ -2,7 +2,9 @@
 
 #include <stdexcept>
 
+#include "sim/base/time.h"
 #include "sim/config/expand.h"
+#include "sim/config/numbers.h"
 
 namespace dodgesim {
 
@@ -94,6 +96,38 @@ void check_height_monitor(const Scenario& scenario, ReadContext& context) {
                            "dodger.height_monitor.enabled: false.");
 }
 
+void check_rate(const std::string& key, int rate_hz, ReadContext& context) {
+  constexpr int kTickRateHz = static_cast<int>(1000000 / kTickUs);
+  if (kTickRateHz % rate_hz == 0) return;
+  context.problems.add(position_of(context, key), key + " is " + std::to_string(rate_hz) +
+                                                      ", but must divide " +
+                                                      std::to_string(kTickRateHz) + ".");
+}
+
+void check_rates(const Scenario& scenario, ReadContext& context) {
+  check_rate("sensors.imu.rate_hz", scenario.sensors.imu.rate_hz, context);
+  check_rate("sensors.state_estimate.rate_hz", scenario.sensors.state_estimate.rate_hz, context);
+  check_rate("sensors.range.rate_hz", scenario.sensors.range.rate_hz, context);
+  const int period_us = scenario.flight_controller.period_us;
+  if (period_us % kTickUs != 0) {
+    const std::string key = "flight_controller.period_us";
+    context.problems.add(position_of(context, key), key + " is " + std::to_string(period_us) +
+                                                        ", but must be a multiple of " +
+                                                        std::to_string(kTickUs) + ".");
+  }
+}
+
+// Of a rotor's thrusts that the scenario sets. What a model says is known only to the simulation.
+void check_thrust(const Scenario& scenario, ReadContext& context) {
+  const double least_n = scenario.motors.min_thrust_n;
+  const double most_n = scenario.vehicle_overrides.max_thrust_n;
+  if (most_n == 0 || least_n < most_n) return;
+  context.problems.add(position_of(context, "motors.min_thrust_n"),
+                       "motors.min_thrust_n is " + to_text(least_n) +
+                           ", but must be less than vehicle_overrides.max_thrust_n, which is " +
+                           to_text(most_n) + ".");
+}
+
 void check_keys_together(const Scenario& scenario, ReadContext& context) {
   const MissionSpec& mission = scenario.mission;
   check_mission_key(scenario, "goal", "mission.goal_m", mission.goal_m.has_value(), context);
@@ -102,6 +136,8 @@ void check_keys_together(const Scenario& scenario, ReadContext& context) {
   check_throws(scenario, context);
   check_dodger(scenario, context);
   check_height_monitor(scenario, context);
+  check_rates(scenario, context);
+  check_thrust(scenario, context);
 }
 
 std::int64_t product(const VariedKeys& axes) {

@@ -72,8 +72,6 @@ class FlightController {
   const std::array<double, 4>& step(TimeUs t_us, const RateThrustCommand& command,
                                     const Eigen::Vector3d& gyro_B_radps);
 
-  const Mixer& mixer() const { return mixer_; }
-
  private:
   FlightControllerSpec spec_;
   Mixer mixer_;

@@ -25,8 +25,6 @@ VelocityController::VelocityController(const ControllerSpec& spec, const Vehicle
       max_thrust_mps2_(spec.max_thrust_fraction * 4 * vehicle.max_thrust_n / vehicle.mass_kg),
       max_tilt_tan_(std::tan(spec.max_tilt_deg * std::numbers::pi / 180)) {}
 
-void VelocityController::reset() { last_us_.reset(); }
-
 void VelocityController::start(const StateReading& state) {
   const Eigen::Vector3d x_W = state.q_W * Eigen::Vector3d::UnitX();
   yaw_rad_ = std::atan2(x_W.y(), x_W.x());

@@ -112,9 +112,6 @@ class VelocityController {
  public:
   VelocityController(const ControllerSpec& spec, const VehicleParameters& vehicle);
 
-  // Forgets reference and heading; the next estimate sets them.
-  void reset();
-
   // Call with each new estimate, in the order of their instants.
   RateThrustCommand update(const StateReading& state, const VelocityReference& reference);
 
@@ -124,7 +121,6 @@ class VelocityController {
   // Of the last update.
   const Eigen::Vector3d& reference_p_W() const { return p_ref_W_; }
   const Eigen::Vector3d& desired_a_W() const { return a_des_W_; }
-  const Eigen::Quaterniond& desired_q_W() const { return q_des_W_; }
 
  private:
   void start(const StateReading& state);

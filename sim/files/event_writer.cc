@@ -2,10 +2,10 @@
 
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cstring>
 
 #include "sim/base/error.h"
-#include "sim/events/event_log.h"
 #include "sim/files/hdf5_event_writer.h"
 #include "sim/files/npy_header.h"
 #include "sim/files/output_file.h"
@@ -16,6 +16,14 @@ static_assert(std::endian::native == std::endian::little);
 
 namespace {
 
+void append_number(std::string& text, std::int64_t value) {
+  std::array<char, 24> digits{};
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  text.append(digits.data(), static_cast<std::size_t>(result.ptr - digits.data()));
+}
+
+// A line an event: t_us x y p and, if it is kept, the cause; p is 1 for ON and 0 for OFF, as common
+// readers want it.
 class TextWriter : public EventWriter {
  public:
   TextWriter(const std::filesystem::path& path, TimeUs t_offset_us)
@@ -23,12 +31,17 @@ class TextWriter : public EventWriter {
 
   void add(std::span<const Event> events, std::span<const Cause> causes) override {
     for (std::size_t i = 0; i < events.size(); ++i) {
-      Event event = events[i];
-      event.t_us += t_offset_us_;
       line_.clear();
-      append_line(line_, event);
-      if (!causes.empty())
-        line_.replace(line_.size() - 1, 1, " " + std::to_string(causes[i]) + "\n");
+      append_number(line_, events[i].t_us + t_offset_us_);
+      for (const int value : {+events[i].x, +events[i].y, events[i].polarity > 0 ? 1 : 0}) {
+        line_ += ' ';
+        append_number(line_, value);
+      }
+      if (!causes.empty()) {
+        line_ += ' ';
+        append_number(line_, causes[i]);
+      }
+      line_ += '\n';
       file_.write(line_);
     }
   }

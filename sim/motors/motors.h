@@ -50,9 +50,6 @@ class Motors {
   // t_us - esc_delay_us have no effect yet.
   const std::array<double, 4>& step(TimeUs t_us);
 
-  double min_thrust_n() const { return spec_.min_thrust_n; }
-  double max_thrust_n() const { return max_thrust_n_; }
-
  private:
   struct Command {
     TimeUs acts_us;

@@ -1,19 +1,10 @@
 #include "sim/paper/experiment.h"
 
 #include <algorithm>
-#include <cctype>
+
+#include "sim/base/shell.h"
 
 namespace dodgesim {
-
-std::string shell_quoted(const std::string& word) {
-  const bool plain = std::all_of(word.begin(), word.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '=' || c == '-';
-  });
-  if (plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
 
 std::string PaperFlight::arguments() const {
   std::string text = "scenarios/paper/" + scenario;

@@ -21,9 +21,6 @@ struct PaperFlight {
   std::string arguments() const;
 };
 
-// A word of a shell's command: in quotes unless it is plain.
-std::string shell_quoted(const std::string& word);
-
 // The setting "KEY=VALUE".
 Setting paper_setting(const std::string& key, const std::string& value);
 

@@ -84,6 +84,7 @@ void MissObserver::on_tick(const World& world) {
 }
 
 const Snapshot* MissObserver::state_at(TimeUs t_us) const {
+  if (history_.empty() || t_us < history_.front().t_us) return nullptr;
   const auto at = std::lower_bound(history_.begin(), history_.end(), t_us,
                                    [](const Snapshot& s, TimeUs t) { return s.t_us < t; });
   return at == history_.end() || !at->launched.front() ? nullptr : &*at;

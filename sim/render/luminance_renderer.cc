@@ -250,6 +250,5 @@ void LuminanceRenderer::draw_objects(const Snapshot& snapshot, const Eigen::Isom
 }
 
 const std::string& LuminanceRenderer::gl_renderer() const { return impl_->context().renderer(); }
-const std::string& LuminanceRenderer::gl_version() const { return impl_->context().version(); }
 
 }  // namespace dodgesim

@@ -87,7 +87,6 @@ class LuminanceRenderer {
 
   // OpenGL's names for itself, for the manifest of a run.
   const std::string& gl_renderer() const;
-  const std::string& gl_version() const;
 
  private:
   class Impl;

@@ -40,7 +40,6 @@ class RangeSensor {
       : spec_(spec), clock_(spec.rate_hz, "range sensor"), random_(seed, throw_index, "range") {}
 
   bool due(TimeUs t_us) const { return clock_.due(t_us); }
-  TimeUs period_us() const { return clock_.period_us(); }
 
   // true_range_m: distance along -z of B to the first surface; infinite when there is none. Nothing
   // when the distance is out of range.

@@ -93,6 +93,22 @@ TEST_F(FaultsTest, InterruptAndTerminationStopCleanlyAndResumably) {
   }
 }
 
+// As timeout(1) sends them: one to the program, one to its process group.
+TEST_F(FaultsTest, TwoSignalsAtOnceCountAsOne) {
+  const pid_t child = start(run_arguments("stopped", "-j 1"), path("output.txt"));
+  while (!fs::exists(root_ / "stopped" / "results.bin")) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  for (int i = 0; i < 2; ++i) {
+    ::kill(child, SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+}
+
 // Runs shell commands as root of a mount namespace of their own, where file systems can be mounted
 // that end with it. False where that is not permitted.
 bool in_own_namespace(const std::string& script) {

@@ -310,8 +310,8 @@ TEST(Loop, AnErrorInsideTheSimulationCostsThatFlightOnly) {
   Scenario s = thrown_at(kHover, "0");
   s.pilot = "oracle";
   s.fly_oracle = false;
-  // The pilot's first evasive command is not a number.
-  s.dodger.repulsive.k_r0 = std::numeric_limits<double>::infinity();
+  // The controller's answer to the first evasive command is not a number.
+  s.controller.evading_velocity_gain_1ps = std::numeric_limits<double>::infinity();
   const ThrowResult result = fly_throw(s, 0);
   EXPECT_EQ(result.flown.status, "error");
   EXPECT_THAT(result.flown.error, HasSubstr("diverged"));

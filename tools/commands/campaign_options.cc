@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <ctime>
 #include <iostream>
 #include <thread>
 
@@ -16,15 +17,28 @@ namespace dodgesim {
 
 namespace {
 
-// Set by a signal that asks for the end. A second one ends the program at once.
+// Set by a signal that asks for the end. A second one ends the program at once, unless it comes
+// with the first: a supervisor such as timeout(1) sends one to the program and one to its group.
 volatile std::sig_atomic_t stop_signal = 0;
+timespec stopped_at{};  // the handler's own
 
-void ask_to_stop(int signal) { stop_signal = signal; }
+void ask_to_stop(int signal) {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  if (stop_signal == 0) {
+    stop_signal = signal;
+    stopped_at = now;
+  } else if (now.tv_sec - stopped_at.tv_sec > 1) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
 
 void watch_signals() {
   struct sigaction action {};
   action.sa_handler = ask_to_stop;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaddset(&action.sa_mask, SIGINT);
+  sigaddset(&action.sa_mask, SIGTERM);
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
 }
@@ -66,6 +80,21 @@ void add_campaign_options(CLI::App& command, CampaignOptions& options) {
       ->capture_default_str();
 }
 
+void add_repeat_options(CLI::App& command, RepeatOptions& options, const std::string& throws_help,
+                        const std::string& seed_help) {
+  command.add_option("--throws", options.throws, throws_help)->type_name("INT");
+  command.add_option("--seed", options.seed, seed_help)->type_name("UINT");
+}
+
+void append_settings(const RepeatOptions& options, std::vector<Setting>& settings) {
+  const auto append = [&settings](const std::string& option, const char* key,
+                                  const std::string& value) {
+    if (!value.empty()) settings.push_back({key, value, option + " " + value});
+  };
+  append("--throws", "repeats", options.throws);
+  append("--seed", "seed", options.seed);
+}
+
 CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options) {
   try_models(scenario);
   options.models = digest_of_models(scenario);
@@ -79,10 +108,10 @@ CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options) 
   });
 }
 
-int report_stop(const CampaignSummary& summary) {
+int report_stop(const CampaignSummary& summary, const CampaignOptions& options) {
   std::cerr << "Stopped after " << summary.wanted - summary.missing << " of "
-            << count_of_throws(summary.wanted) << "; the same command with --resume flies the "
-            << "rest.\n";
+            << count_of_throws(summary.wanted) << "; the same command with --resume"
+            << (options.force ? " in place of --force" : "") << " flies the rest.\n";
   return kIncomplete;
 }
 

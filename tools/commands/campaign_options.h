@@ -1,7 +1,9 @@
-// What the commands that fly campaigns (run, sweep, gate) share.
+// What the commands that fly campaigns (run, sweep, gate, paper) share.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 #include "sim/campaign/campaign.h"
 #include "sim/config/scenario.h"
@@ -11,11 +13,20 @@ namespace dodgesim {
 // Adds --out, -j, --force, --resume and the limits of a worker.
 void add_campaign_options(CLI::App& command, CampaignOptions& options);
 
+// --throws and --seed, which stand for keys of the scenario; as written, empty if not given.
+struct RepeatOptions {
+  std::string throws, seed;
+};
+
+void add_repeat_options(CLI::App& command, RepeatOptions& options, const std::string& throws_help,
+                        const std::string& seed_help);
+void append_settings(const RepeatOptions& options, std::vector<Setting>& settings);
+
 // Tries the models, then flies the throws in workers, with progress on a terminal, until done or
 // until the user asks for the end (SIGINT, SIGTERM).
 CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options);
 
 // Says that the campaign was stopped and how it goes on; returns the exit code.
-int report_stop(const CampaignSummary& summary);
+int report_stop(const CampaignSummary& summary, const CampaignOptions& options);
 
 }  // namespace dodgesim

@@ -1,4 +1,5 @@
 // dodgesim compare: two campaigns side by side.
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -34,13 +35,23 @@ std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& d
   return parts;
 }
 
+// "0, 1, 3"
+std::string names(const std::map<int, std::vector<ThrowOutcome>>& parts) {
+  std::string text;
+  for (const auto& [sweep, outcomes] : parts) {
+    text += (text.empty() ? "" : ", ") + std::to_string(sweep);
+  }
+  return text;
+}
+
 int compare_campaigns(const Arguments& arguments) {
   const auto first = parts_of(arguments.first);
   const auto second = parts_of(arguments.second);
-  if (first.size() != second.size()) {
-    throw ScenarioError(arguments.first.string() + " has " + std::to_string(first.size()) +
-                        " sweep values, " + arguments.second.string() + " has " +
-                        std::to_string(second.size()) + "; they cannot be compared one by one.");
+  if (!std::equal(first.begin(), first.end(), second.begin(), second.end(),
+                  [](const auto& a, const auto& b) { return a.first == b.first; })) {
+    throw ScenarioError(arguments.first.string() + " has the sweep values " + names(first) + ", " +
+                        arguments.second.string() + " has " + names(second) +
+                        "; they cannot be compared one by one.");
   }
   for (const auto& [sweep, outcomes] : first) {
     if (first.size() > 1) std::cout << (sweep > 0 ? "\n" : "") << "Sweep value " << sweep << ":\n";

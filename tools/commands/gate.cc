@@ -185,7 +185,7 @@ int gate(const Arguments& arguments) {
   if (!arguments.update) expect_same_throws(scenario, *baseline, arguments.baseline);
 
   const CampaignSummary summary = fly_campaign(scenario, arguments.options);
-  if (!summary.complete()) return report_stop(summary);
+  if (!summary.complete()) return report_stop(summary, arguments.options);
   if (arguments.update) return update(arguments, rules, summary);
 
   const fs::path& out = arguments.options.out;

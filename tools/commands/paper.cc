@@ -2,9 +2,9 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
-#include <optional>
 
 #include "sim/base/error.h"
+#include "sim/base/shell.h"
 #include "sim/paper/paper_tables.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
@@ -17,19 +17,14 @@ struct Arguments {
   std::vector<std::string> experiments;
   std::string models_dir;
   CampaignOptions options;
-  std::optional<int> throws;
-  std::optional<std::uint64_t> seed;
+  RepeatOptions repeat;
   std::vector<std::string> set;
 };
 
 // The experiments as the command line wants them.
 std::vector<PaperExperiment> chosen_experiments(const Arguments& arguments) {
   std::vector<Setting> settings = parse_settings("--set", arguments.set);
-  const auto add = [&](const std::string& option, const char* key, const auto& number) {
-    if (number) settings.push_back({key, std::to_string(*number), option});
-  };
-  add("--throws", "repeats", arguments.throws);
-  add("--seed", "seed", arguments.seed);
+  append_settings(arguments.repeat, settings);
   std::vector<PaperExperiment> experiments = experiments_named(arguments.experiments);
   for (PaperExperiment& experiment : experiments) {
     for (PaperFlight& flight : experiment.flights) {
@@ -44,8 +39,9 @@ std::string table_command(const Arguments& arguments) {
   std::string line = "dodgesim paper";
   for (const std::string& name : arguments.experiments) line += " " + name;
   for (const std::string& set : arguments.set) line += " --set " + shell_quoted(set);
-  if (arguments.throws) line += " --throws " + std::to_string(*arguments.throws);
-  if (arguments.seed) line += " --seed " + std::to_string(*arguments.seed);
+  const auto& [throws, seed] = arguments.repeat;
+  if (!throws.empty()) line += " --throws " + throws;
+  if (!seed.empty()) line += " --seed " + seed;
   return line;
 }
 
@@ -65,7 +61,7 @@ int paper(const Arguments& arguments) {
     options.truth = flights[i].truth;
     std::cerr << "Flying " << flights[i].name << " (" << i + 1 << " of " << flights.size() << ")\n";
     const CampaignSummary summary = fly_campaign(scenarios[i], options);
-    if (!summary.complete()) return report_stop(summary);
+    if (!summary.complete()) return report_stop(summary, options);
     errors += summary.errors;
   }
   std::cout << write_paper_tables(arguments.options.out, experiments, arguments.models_dir,
@@ -87,13 +83,10 @@ void add_paper_command(CLI::App& program, const std::string& command_line, int& 
   command->add_option("experiments", arguments->experiments, "Which ones; all of them without any")
       ->type_name("EXPERIMENT");
   add_campaign_options(*command, arguments->options);
-  command
-      ->add_option("--throws", arguments->throws,
-                   "Repeats of every scenario, in place of its own: for a quick look")
-      ->check(CLI::Range(1, 1000000));
-  command->add_option("--seed", arguments->seed,
-                      "Seed of every scenario: for trying something out, as no parameter may be\n"
-                      "tuned on the throws that are reported");
+  add_repeat_options(*command, arguments->repeat,
+                     "Repeats of every scenario, in place of its own: for a quick look",
+                     "Seed of every scenario: for trying something out, as no parameter may be\n"
+                     "tuned on the throws that are reported");
   add_set_option(*command, arguments->set);
   add_models_option(*command, arguments->models_dir);
   std::string list = "Experiments:\n";

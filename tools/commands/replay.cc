@@ -224,7 +224,7 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->type_name("DIR");
   command->add_option("--throw", arguments->throw_index, "Number of the throw, from 0")
       ->required()
-      ->check(CLI::Range(0, 999999));
+      ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--video", arguments->video,
                    "Write a video (H.264): the scene and both event streams")

@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <set>
 
 #include "sim/base/error.h"
@@ -21,8 +20,7 @@ struct Arguments {
   std::string scenario;
   std::string models_dir;
   CampaignOptions options;
-  std::optional<int> throws;
-  std::optional<std::uint64_t> seed;
+  RepeatOptions repeat;
   std::vector<std::string> set;
   std::vector<std::string> over;
   std::string shard;
@@ -66,13 +64,7 @@ std::vector<Setting> settings_of(const Arguments& arguments) {
     if (!setting.value.starts_with("[")) setting.value = "[" + setting.value + "]";
     settings.push_back(std::move(setting));
   }
-  const auto add_number = [&](const std::string& option, const char* key, const auto& number) {
-    if (!number) return;
-    const std::string text = std::to_string(*number);
-    settings.push_back({key, text, option + " " + text});
-  };
-  add_number("--throws", "repeats", arguments.throws);
-  add_number("--seed", "seed", arguments.seed);
+  append_settings(arguments.repeat, settings);
   return settings;
 }
 
@@ -86,7 +78,7 @@ int run(const Arguments& arguments) {
         parse_shard(arguments.shard, [](const char* name) { return std::getenv(name); });
   }
   const CampaignSummary summary = fly_campaign(scenario, options);
-  if (!summary.complete()) return report_stop(summary);
+  if (!summary.complete()) return report_stop(summary, options);
   std::cout << summary.table;
   std::printf(
       "%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n"
@@ -115,11 +107,9 @@ CLI::App* add_campaign_command(CLI::App& program, const std::string& name, const
       ->required()
       ->type_name("SCENARIO.yaml");
   add_campaign_options(*command, options);
-  command
-      ->add_option("--throws", arguments->throws,
-                   "Number of throws (with a grid, of each cell), in place of repeats")
-      ->check(CLI::Range(1, 1000000));
-  command->add_option("--seed", arguments->seed, "Seed, in place of the scenario's");
+  add_repeat_options(*command, arguments->repeat,
+                     "Number of throws (with a grid, of each cell), in place of repeats",
+                     "Seed, in place of the scenario's");
   add_set_option(*command, arguments->set);
   command
       ->add_option("--shard", arguments->shard,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "dodge/check_ranges.h"
+
 namespace dodge {
 namespace {
 
@@ -48,9 +50,9 @@ TEST(AttractivePotential, HasTheForceAsItsSlope) {
 }
 
 TEST(AttractiveConfig, RefusesANegativeCrossoverOrExponent) {
-  EXPECT_THROW(validate(AttractiveConfig{0, 2}), std::invalid_argument);
-  EXPECT_THROW(validate(AttractiveConfig{0.2, -1}), std::invalid_argument);
-  EXPECT_THROW(validate(AttractiveConfig{std::nan(""), 2}), std::invalid_argument);
+  EXPECT_THROW(check_ranges(AttractiveConfig{0, 2}), std::invalid_argument);
+  EXPECT_THROW(check_ranges(AttractiveConfig{0.2, -1}), std::invalid_argument);
+  EXPECT_THROW(check_ranges(AttractiveConfig{std::nan(""), 2}), std::invalid_argument);
 }
 
 }  // namespace

@@ -245,6 +245,9 @@ TEST(EscapeConfig, RefusesValuesThatMakeNoSense) {
   config = {};
   config.acceleration_mps2 = 0;
   EXPECT_THROW(EscapePlanner(config, kSpeedMps), std::invalid_argument);
+  config = {};
+  config.keep_probability = 2 * config.min_probability;  // it would end as soon as it starts
+  EXPECT_THROW(EscapePlanner(config, kSpeedMps), std::invalid_argument);
 }
 
 }  // namespace

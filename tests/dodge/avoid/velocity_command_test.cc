@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "dodge/check_ranges.h"
+
 namespace dodge {
 namespace {
 
@@ -28,8 +30,8 @@ TEST(VelocityCommand, IsNoEvasionWithoutARepulsiveForce) {
 }
 
 TEST(VelocityLimitConfig, RefusesALimitOfZero) {
-  EXPECT_THROW(validate(VelocityLimitConfig{0, 0.1}), std::invalid_argument);
-  EXPECT_THROW(validate(VelocityLimitConfig{5, -0.1}), std::invalid_argument);
+  EXPECT_THROW(check_ranges(VelocityLimitConfig{0, 0.1}), std::invalid_argument);
+  EXPECT_THROW(check_ranges(VelocityLimitConfig{5, -0.1}), std::invalid_argument);
 }
 
 }  // namespace

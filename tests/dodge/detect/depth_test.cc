@@ -66,6 +66,14 @@ TEST_F(DepthTest, stereo_recovers_position_and_size) {
   EXPECT_LT((d.centre_W - (state_.p_WB + state_.q_WB * p_B)).norm(), 1e-4);
 }
 
+TEST_F(DepthTest, a_vertical_pair_measures_depth_by_the_vertical_focal_length) {
+  for (CameraModel& camera : cameras_) camera.fy = 1.2 * camera.fx;
+  const Eigen::Vector3d p_B(1.3, 0.2, -0.1);
+  const auto detections = locate(centres(), {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
+  ASSERT_EQ(detections.size(), 1U);
+  EXPECT_NEAR(detections[0].depth_m, 1.2, 1e-4);
+}
+
 TEST_F(DepthTest, speaks_of_the_time_of_the_events_and_the_place_of_the_vehicle_then) {
   state_.t_us = 500000;
   state_.v_WB = {4, 0, 0};

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "dodge/check_ranges.h"
 #include "tests/dodge/generator.h"
 
 namespace dodge {
@@ -252,7 +253,7 @@ TEST(KalmanConfig, RefusesWhatIsNotADeviation) {
   const auto refused = [](auto change) {
     KalmanConfig config;
     change(config);
-    EXPECT_THROW(validate(config), std::invalid_argument);
+    EXPECT_THROW(check_ranges(config), std::invalid_argument);
   };
   refused([](KalmanConfig& c) { c.acceleration_noise = -1; });
   refused([](KalmanConfig& c) { c.initial_speed_sigma_mps = 0; });

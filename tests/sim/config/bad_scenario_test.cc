@@ -283,6 +283,18 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:1:28: sensors.range.rate_hz is 10, too slow for dodger.height_monitor.max_gap_us, "
      "which is 50000: the pilot would never land; raise it, or set "
      "dodger.height_monitor.enabled: false."},
+    {"ImuRateOffTheTicks", "sensors: {imu: {rate_hz: 300}}\n",
+     "bad.yaml:1:26: sensors.imu.rate_hz is 300, but must divide 4000."},
+    {"RangeSensorRateOffTheTicks", "sensors: {range: {rate_hz: 240}}\n",
+     "bad.yaml:1:28: sensors.range.rate_hz is 240, but must divide 4000."},
+    {"StateEstimateRateOffTheTicks", "sensors: {state_estimate: {rate_hz: 260}}\n",
+     "bad.yaml:1:37: sensors.state_estimate.rate_hz is 260, but must divide 4000."},
+    {"FlightControllerOffTheTicks", "flight_controller: {period_us: 300}\n",
+     "bad.yaml:1:32: flight_controller.period_us is 300, but must be a multiple of 250."},
+    {"IdleThrustAboveTheGreatest",
+     "motors: {min_thrust_n: 5}\nvehicle_overrides: {max_thrust_n: 4.9}\n",
+     "bad.yaml:1:24: motors.min_thrust_n is 5, but must be less than "
+     "vehicle_overrides.max_thrust_n, which is 4.9."},
     {"SweptToTooSlowARangeSensor", "sweep: {sensors.range.rate_hz: [200, 10]}\n", "bad.yaml:1:"},
 };
 

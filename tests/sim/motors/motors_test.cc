@@ -67,18 +67,19 @@ TEST(Motors, ThrustDoesNotDependOnHowOftenItIsRead) {
 }
 
 TEST(Motors, ThrustStaysWithinItsLimits) {
+  const double kMinThrustN = MotorSpec().min_thrust_n;
   Motors motors(MotorSpec(), kMaxThrustN);
   motors.reset(0, all(-1));
   RandomStream random(2, 0, "test");
   for (TimeUs t = 0; t < 1000000; t += kTickUs) {
     motors.set_command(t, {random.uniform(-50, 50), -100, 100, random.uniform(0, 12)});
     for (double thrust_n : motors.step(t + kTickUs)) {
-      EXPECT_GE(thrust_n, motors.min_thrust_n());
-      EXPECT_LE(thrust_n, motors.max_thrust_n());
+      EXPECT_GE(thrust_n, kMinThrustN);
+      EXPECT_LE(thrust_n, kMaxThrustN);
     }
   }
-  EXPECT_NEAR(motors.step(1000000)[1], motors.min_thrust_n(), 1e-9);
-  EXPECT_NEAR(motors.step(1000000)[2], motors.max_thrust_n(), 1e-9);
+  EXPECT_NEAR(motors.step(1000000)[1], kMinThrustN, 1e-9);
+  EXPECT_NEAR(motors.step(1000000)[2], kMaxThrustN, 1e-9);
 }
 
 TEST(Motors, ResetForgetsCommandsUnderWay) {

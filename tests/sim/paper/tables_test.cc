@@ -135,7 +135,6 @@ TEST(PaperExperiments, FlyScenariosThatAreRight) {
 TEST(PaperExperiments, AreWrittenSoThatAShellReadsThem) {
   const PaperFlight flight{"x", "x.yaml", {paper_setting("throw.speed_mps", "!uniform [4, 6]")}};
   EXPECT_EQ(flight.arguments(), "scenarios/paper/x.yaml --set 'throw.speed_mps=!uniform [4, 6]'");
-  EXPECT_EQ(shell_quoted("it's"), "'it'\\''s'");
 }
 
 }  // namespace

@@ -1,12 +1,9 @@
-#include "sim/events/event_log.h"
+#include "sim/events/event_hash.h"
 
 #include <xxhash.h>
 
 #include <array>
-#include <charconv>
 #include <new>
-
-#include "sim/base/error.h"
 
 namespace dodgesim {
 
@@ -29,13 +26,6 @@ std::array<unsigned char, kEventBytes> packed(const Event& event) {
   return bytes;
 }
 
-void append_number(std::string& text, std::int64_t value, char end) {
-  std::array<char, 24> digits{};
-  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  text.append(digits.data(), static_cast<std::size_t>(result.ptr - digits.data()));
-  text.push_back(end);
-}
-
 }  // namespace
 
 void EventHash::Free::operator()(XXH64_state_s* state) const { XXH64_freeState(state); }
@@ -55,27 +45,5 @@ void EventHash::add(std::span<const Event> events) {
 }
 
 std::uint64_t EventHash::value() const { return XXH64_digest(state_.get()); }
-
-void append_line(std::string& text, const Event& event) {
-  append_number(text, event.t_us, ' ');
-  append_number(text, event.x, ' ');
-  append_number(text, event.y, ' ');
-  append_number(text, event.polarity > 0 ? 1 : 0, '\n');
-}
-
-EventLog::EventLog(const std::filesystem::path& path) : path_(path), file_(path) {
-  if (!file_) throw IoError("The event log " + path_.string() + " cannot be created.");
-}
-
-void EventLog::add(std::span<const Event> events) {
-  buffer_.clear();
-  for (const Event& event : events) append_line(buffer_, event);
-  file_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-}
-
-void EventLog::close() {
-  file_.close();
-  if (!file_) throw IoError("The event log " + path_.string() + " could not be written.");
-}
 
 }  // namespace dodgesim

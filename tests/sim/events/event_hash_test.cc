@@ -1,39 +1,15 @@
-#include "sim/events/event_log.h"
+#include "sim/events/event_hash.h"
 
 #include <gtest/gtest.h>
 #include <xxhash.h>
 
 #include <cstring>
-#include <sstream>
 #include <vector>
-
-#include "sim/base/error.h"
 
 namespace dodgesim {
 namespace {
 
 const std::vector<Event> kEvents = {{12, 3, 4, 1}, {13, 319, 239, -1}, {5000000000, 0, 65535, 1}};
-
-TEST(EventLog, WritesOneLineAnEvent) {
-  const auto path = std::filesystem::path(::testing::TempDir()) / "event_log_test.txt";
-  EventLog log(path);
-  log.add(std::span(kEvents).first(1));
-  log.add(std::span(kEvents).subspan(1));
-  log.close();
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  EXPECT_EQ(text.str(), "12 3 4 1\n13 319 239 0\n5000000000 0 65535 1\n");
-  std::filesystem::remove(path);
-}
-
-TEST(EventLog, SaysWhenItCannotWrite) {
-  EXPECT_THROW(EventLog("/nonexistent/folder/events.txt"), IoError);
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
-  EventLog log("/dev/full");
-  log.add(kEvents);
-  EXPECT_THROW(log.close(), IoError);
-}
 
 TEST(EventHash, IsTheHashOfTheEventsHoweverTheyAreSplit) {
   std::vector<unsigned char> bytes;
