@@ -44,7 +44,7 @@ RateThrustCommand VelocityController::update(const StateReading& state,
   const Eigen::Vector3d drag_W =
       state.q_W * drag_1ps_.cwiseProduct(state.q_W.conjugate() * v_ref_W_);
   a_des_W_ = limited(feedback + Eigen::Vector3d(0, 0, kGravityMps2) + drag_W);
-  q_des_W_ = attitude(a_des_W_);
+  q_des_W_ = attitude(thrust_direction(a_des_W_, reference.evading));
 
   RateThrustCommand command;
   command.w_B_radps = body_rates(state.q_W);
@@ -118,6 +118,13 @@ Eigen::Vector3d VelocityController::limited(const Eigen::Vector3d& a_W) const {
   const double limited_lateral = a.head<2>().norm();
   if (limited_lateral > most_lateral) a.head<2>() *= most_lateral / limited_lateral;
   return a;
+}
+
+// Where the rotors are to point, not normalised: along a_W, but see min_tilt_lift_mps2.
+Eigen::Vector3d VelocityController::thrust_direction(const Eigen::Vector3d& a_W,
+                                                     bool evading) const {
+  if (evading) return a_W;
+  return {a_W.x(), a_W.y(), std::max(a_W.z(), spec_.min_tilt_lift_mps2)};
 }
 
 Eigen::Quaterniond VelocityController::attitude(const Eigen::Vector3d& a_W) const {

@@ -38,6 +38,7 @@ struct ControllerSpec {
   double max_tilt_deg = 75;
   double min_thrust_mps2 = 1;
   double max_thrust_fraction = 0.9;
+  double min_tilt_lift_mps2 = 5;
   bool drag_compensation = true;
 
   template <class Visitor>
@@ -90,6 +91,10 @@ struct ControllerSpec {
     v("max_thrust_fraction", max_thrust_fraction, 0.3, 1,
       "Share of the four rotors' greatest thrust that may be commanded; the rest is left to turn "
       "the vehicle.");
+    v("min_tilt_lift_mps2", min_tilt_lift_mps2, 0, 9.81,
+      "While not evading, the tilt is that for at least this vertical thrust (PX4's "
+      "MPC_ACC_DECOUPLE takes gravity's). With 0 a small demand sideways under little thrust turns "
+      "the vehicle far: after an escape upward it swings by 60 deg for a second and climbs on.");
     v("drag_compensation", drag_compensation,
       "Whether the rotor drag at the commanded velocity is fed forward.");
   }
@@ -105,9 +110,10 @@ struct ControllerSpec {
 // are their own; p_ref and the filter follow the estimate so that the position loop closes again
 // without a jump. The heading is held at that of the first estimate.
 //
-// When the thrust does not suffice, the height has priority: the part of a_des beyond g z_W
-// shrinks, keeping its direction. When the tilt limit is met, a commanded descent gives way first
-// (up to hover thrust), the lateral acceleration after it.
+// When little thrust is wanted while not evading, the tilt is bounded (min_tilt_lift_mps2). When
+// the thrust does not suffice, the height has priority: the part of a_des beyond g z_W shrinks,
+// keeping its direction. When the tilt limit is met, a commanded descent gives way first (up to
+// hover thrust), the lateral acceleration after it.
 class VelocityController {
  public:
   VelocityController(const ControllerSpec& spec, const VehicleParameters& vehicle);
@@ -128,6 +134,7 @@ class VelocityController {
   Eigen::Vector3d feedback_normal(const StateReading& state, const Eigen::Vector3d& v_W,
                                   double dt_s);
   Eigen::Vector3d feedback_evading(const StateReading& state, const Eigen::Vector3d& v_W);
+  Eigen::Vector3d thrust_direction(const Eigen::Vector3d& a_W, bool evading) const;
   Eigen::Quaterniond attitude(const Eigen::Vector3d& a_W) const;
   Eigen::Vector3d body_rates(const Eigen::Quaterniond& q_W) const;
 

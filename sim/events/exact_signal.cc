@@ -64,10 +64,6 @@ class ExactSignal : public PixelSignal {
     }
   }
 
-  void knots(const Candidate& candidate, double t1_us, std::vector<Knot>& knots) const override {
-    knots.push_back({t1_us, candidate.s1});
-  }
-
   void set_bounds(std::size_t index, double low, double high) override {
     bounds_.set(index, response_.inverse(low), response_.inverse(high));
   }

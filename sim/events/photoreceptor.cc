@@ -189,22 +189,14 @@ Charge Photoreceptor::at(const Charge& before, double luminance, double u1, doub
 
 double Photoreceptor::straight_s(const Charge& now, double luminance, double slope_1s,
                                  double tolerance) const {
-  constexpr double kForEver = std::numeric_limits<double>::infinity();
-  if (order_ == 0) return kForEver;
-  const double w1 = cutoff_rad_s(luminance);
+  const double w1 = cutoff_rad_s(luminance), w2 = follower_rad_s_;
   // y is a straight line plus p exp(-w1 t).
   const double p_w1 = std::abs(w1 * (now.y - now.u) + slope_1s);
-  double curvature = p_w1 * w1;
-  if (order_ == 1) {
-    if (p_w1 < tolerance * w1) return kForEver;
-  } else {
-    const double w2 = follower_rad_s_;
-    const double from_line = std::abs(now.z - now.u + slope_1s * (1 / w1 + 1 / w2));
-    if (p_w1 / w1 + from_line < tolerance) return kForEver;
-    // z'' = w2 (y' - z'), and (y' - z')' = y'' - w2 (y' - z').
-    const double apart = std::abs(w1 * (now.u - now.y) - w2 * (now.y - now.z));
-    curvature = w2 * (apart + p_w1 * (w1 / std::max(w1, w2)));
-  }
+  const double from_line = std::abs(now.z - now.u + slope_1s * (1 / w1 + 1 / w2));
+  if (p_w1 / w1 + from_line < tolerance) return std::numeric_limits<double>::infinity();
+  // z'' = w2 (y' - z'), and (y' - z')' = y'' - w2 (y' - z').
+  const double apart = std::abs(w1 * (now.u - now.y) - w2 * (now.y - now.z));
+  const double curvature = w2 * (apart + p_w1 * (w1 / std::max(w1, w2)));
   // A chord over h strays by up to curvature h^2/8, and the curvature only falls.
   return std::sqrt(8 * tolerance / curvature);
 }

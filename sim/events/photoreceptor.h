@@ -39,8 +39,9 @@ class Photoreceptor {
   // response is u1.
   Charge at(const Charge& before, double luminance, double u1, double dt_s, double t_s) const;
 
-  // How long z may be taken to run straight from `now` on without straying by more than
-  // `tolerance`, while u rises by slope_1s at that luminance. Infinite: for ever.
+  // Of a low-pass of second order: how long z may be taken to run straight from `now` on without
+  // straying by more than `tolerance`, while u rises by slope_1s at that luminance. Infinite: for
+  // ever.
   double straight_s(const Charge& now, double luminance, double slope_1s, double tolerance) const;
 
   // A row of pixels.

@@ -23,9 +23,9 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 // Of an OFF and an ON event.
 constexpr std::array<double, 2> kSign = {-1, 1};
 
-// A bandwidth bends S between samples; it is followed to within this share of the thresholds that
-// are set, before mismatch.
-constexpr double kCurveShare = 0.02;
+// A bandwidth of second order bends S between samples; it is followed to within this share of the
+// thresholds that are set, before mismatch.
+constexpr double kCurveShare = 0.005;
 
 // Flags are looked at eight at a time.
 constexpr std::size_t kWord = 8;
@@ -229,52 +229,59 @@ void PixelArray::fire_once(std::size_t candidate, double t1_us, Cause cause, Run
 }
 
 void PixelArray::run(const Candidate& candidate, double t1_us, Cause cause, Run& run) {
+  if (candidate.decay_per_us >= 0) {
+    for (const SignalPiece& piece : pieces_of(candidate.t0_us, t1_us, candidate.s0, candidate.s1,
+                                              candidate.rise_per_us, candidate.decay_per_us)) {
+      run_piece(candidate.index, piece, cause, run);
+    }
+    return;
+  }
   knots_.clear();
   signal_->knots(candidate, t1_us, knots_);
-  Line line = {candidate.t0_us, t1_us, candidate.s0, candidate.s1};
+  SignalPiece line = {candidate.t0_us, t1_us, candidate.s0, candidate.s1};
   for (const Knot& knot : knots_) {
     line.t1_us = knot.t_us;
     line.s1 = knot.s;
-    run_line(candidate.index, line, cause, run);
+    run_piece(candidate.index, line, cause, run);
     line.t0_us = knot.t_us;
     line.s0 = knot.s;
   }
 }
 
-void PixelArray::run_line(std::size_t index, const Line& line, Cause cause, Run& run) {
+void PixelArray::run_piece(std::size_t index, const SignalPiece& piece, Cause cause, Run& run) {
   Pixel& pixel = pixels_[index];
   for (; !run.noise.empty() && run.noise.front().pixel == index; run.noise = run.noise.subspan(1)) {
     const NoiseEvent& event = run.noise.front();
     const auto t_us = static_cast<double>(event.t_us - reset_us_);
-    if (t_us > line.t1_us) break;
-    fire_crossings(index, line, t_us, cause, run);
+    if (t_us > piece.t1_us) break;
+    fire_crossings(index, piece, t_us, cause, run);
     if (pixel.held_until_us != kArmed || pixel.dead()) continue;
     emit(index, event.t_us - reset_us_, event.on, event.cause, run);
-    pixel.reference = line.at(t_us);
+    pixel.reference = piece.at(t_us);
     if (refractory_us_ > 0) pixel.held_until_us = t_us + refractory_us_;
   }
-  fire_crossings(index, line, line.t1_us, cause, run);
+  fire_crossings(index, piece, piece.t1_us, cause, run);
 }
 
-// Moves the pixel along the line up to until_us, which must not go back from call to call.
-void PixelArray::fire_crossings(std::size_t index, const Line& line, double until_us, Cause cause,
-                                Run& run) {
+// Moves the pixel along the piece up to until_us, which must not go back from call to call.
+void PixelArray::fire_crossings(std::size_t index, const SignalPiece& piece, double until_us,
+                                Cause cause, Run& run) {
   Pixel& pixel = pixels_[index];
-  const double s_until = line.at(until_us);
-  const bool on = line.s1 > line.s0;
+  const double s_until = piece.at(until_us);
+  const bool on = piece.s1 > piece.s0;
   // Which of both it is cannot be predicted: no branches.
   const double change = pixel.change[on];
   const double sign = kSign[on];
   while (true) {
     if (pixel.held_until_us != kArmed) {
       if (pixel.held_until_us > until_us) return;
-      pixel.reference = line.at(pixel.held_until_us);
+      pixel.reference = piece.at(pixel.held_until_us);
       pixel.held_until_us = kArmed;
     }
     const double level = pixel.reference + change;
     if (sign * (s_until - level) < 0) return;
     pixel.reference = level;
-    const double crossing_us = line.time_of(level);
+    const double crossing_us = piece.time_of(level);
     fire(index, crossing_us, until_us, on, cause, run);
     if (refractory_us_ > 0) pixel.held_until_us = crossing_us + refractory_us_;
   }
@@ -331,15 +338,6 @@ void PixelArray::show(const Rect& region, const Picture& picture) {
 // A pixel that an object enters or leaves between two samples fires because of the object.
 Cause PixelArray::cause_at(std::size_t index, const Picture& picture) const {
   return shown_.empty() ? kCauseScene : std::max(shown_[index], picture.cause[index]);
-}
-
-double PixelArray::Line::at(double t_us) const {
-  if (t_us >= t1_us) return s1;
-  return s0 + (s1 - s0) * (t_us - t0_us) / (t1_us - t0_us);
-}
-
-double PixelArray::Line::time_of(double s) const {
-  return s1 != s0 ? t0_us + (s - s0) * (t1_us - t0_us) / (s1 - s0) : t0_us;
 }
 
 PixelState PixelArray::state(std::size_t index) const {

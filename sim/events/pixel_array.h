@@ -2,11 +2,11 @@
 //
 // A pixel answers to the signal S: the response L to the luminance (response.h), behind the
 // photoreceptor's bandwidth (photoreceptor.h), plus what the leak has added to it. From sample to
-// sample S runs linearly, or as a bandwidth bends it: exactly where a pixel makes one event and the
-// bandwidth is of first order (crossings.h), else in straight pieces that stay within kCurveShare
-// of the thresholds. A pixel fires an ON event when S reaches reference + C_on and an OFF event
-// when S falls to reference - C_off, stamped at that crossing (Lichtsteiner et al. 2008; the event
-// model (1) of Falanga et al. 2020); the reference then moves to the level that was crossed, so one
+// sample S runs linearly, or as a bandwidth bends it: exactly if that is of first order
+// (crossings.h, signal_piece.h), else in straight pieces that stay within kCurveShare of the
+// thresholds. A pixel fires an ON event when S reaches reference + C_on and an OFF event when S
+// falls to reference - C_off, stamped at that crossing (Lichtsteiner et al. 2008; the event model
+// (1) of Falanga et al. 2020); the reference then moves to the level that was crossed, so one
 // interval may hold several events of a pixel.
 //
 // Refractory period: as in the real pixel, whose differencing amplifier is kept in reset after an
@@ -35,6 +35,7 @@
 #include "sim/events/event_words.h"
 #include "sim/events/noise.h"
 #include "sim/events/pixel_signal.h"
+#include "sim/events/signal_piece.h"
 #include "sim/events/spec.h"
 #include "sim/render/camera.h"
 
@@ -89,13 +90,6 @@ class PixelArray {
     double threshold_on() const { return change[1]; }
     bool dead() const { return std::isinf(change[1]); }
   };
-  // Straight line of S. All times of the pixels count from the reset.
-  struct Line {
-    double t0_us, t1_us;
-    double s0, s1;
-    double at(double t_us) const;
-    double time_of(double s) const;
-  };
   // What run() needs besides the pixel.
   struct Run {
     std::span<const NoiseEvent> noise;  // not yet used
@@ -112,8 +106,9 @@ class PixelArray {
   void run_all(double t1_us, const Picture& picture, Run& run);
   void fire_once(std::size_t candidate, double t1_us, Cause cause, Run& run);
   void run(const Candidate& candidate, double t1_us, Cause cause, Run& run);
-  void run_line(std::size_t index, const Line& line, Cause cause, Run& run);
-  void fire_crossings(std::size_t index, const Line& line, double until_us, Cause cause, Run& run);
+  void run_piece(std::size_t index, const SignalPiece& piece, Cause cause, Run& run);
+  void fire_crossings(std::size_t index, const SignalPiece& piece, double until_us, Cause cause,
+                      Run& run);
   void fire(std::size_t index, double crossing_us, double until_us, bool on, Cause cause, Run& run);
   void emit(std::size_t index, TimeUs t_us, bool on, Cause cause, Run& run);
   void set_bounds(std::size_t index);

@@ -56,8 +56,10 @@ class PixelSignal {
                     std::vector<Candidate>& candidates) = 0;
   virtual void finish(std::span<Candidate> candidates) = 0;
 
-  // Straight pieces that follow a candidate's signal until t1_us: their ends, the last included.
-  virtual void knots(const Candidate& candidate, double t1_us, std::vector<Knot>& knots) const = 0;
+  // Straight pieces that follow the signal of a candidate with a decay below 0 until t1_us: their
+  // ends, the last included.
+  virtual void knots(const Candidate& /*candidate*/, double /*t1_us*/,
+                     std::vector<Knot>& /*knots*/) const {}
 
   // The pixel makes no event while low < S < high.
   virtual void set_bounds(std::size_t index, double low, double high) = 0;

@@ -297,6 +297,48 @@ TEST(VelocityController, EvadesKeepingHeightAndReengagesWhereItIs) {
   EXPECT_LT(flight.body.p_W.y(), y_end + 2);
 }
 
+// How the vehicle comes to rest after an escape that climbs.
+struct LevellingOut {
+  double climbed_m = 0;           // beyond what the least thrust cannot brake
+  double fastest_turn_radps = 0;  // roll and pitch, from 0.3 s after it on
+};
+
+LevellingOut level_out(const ControllerSpec& controller, const Vector3d& escape_W) {
+  constexpr TimeUs kEndUs = 600000;
+  FlightSetup setup;
+  setup.controller = controller;
+  setup.command_delay_us = 3250;
+  setup.state_error = StateEstimateSpec();
+  Flight flight(setup);
+  const auto pilot = [&](const StateReading& state) {
+    return state.t_us < kEndUs ? evade(escape_W) : normal(Vector3d::Zero());
+  };
+  flight.fly(kEndUs, pilot);
+  const double from_m = flight.body.p_W.z(), climb_mps = flight.body.v_W.z();
+  EXPECT_GT(climb_mps, 2);
+  LevellingOut out{0, 0};
+  flight.fly(2 * kEndUs + 900000, pilot, [&] {
+    out.climbed_m = std::max(out.climbed_m, flight.body.p_W.z() - from_m);
+    if (flight.t_us < kEndUs + 300000) return;
+    out.fastest_turn_radps = std::max(out.fastest_turn_radps, flight.body.w_B.head<2>().norm());
+  });
+  // What the least thrust leaves of gravity brakes the climb.
+  const double brake_mps2 = kGravityMps2 - controller.min_thrust_mps2;
+  out.climbed_m -= climb_mps * climb_mps / (2 * brake_mps2);
+  return out;
+}
+
+TEST(VelocityController, LevelsOutAfterAnEscapeThatClimbs) {
+  for (const Vector3d& escape_W : {Vector3d(0, 2, 4.5), Vector3d(-1, -3, 4), Vector3d(2, 0, 4.5)}) {
+    const LevellingOut out = level_out({}, escape_W);
+    EXPECT_LT(out.climbed_m, 1) << escape_W.transpose();
+    EXPECT_LT(out.fastest_turn_radps, 5) << escape_W.transpose();
+  }
+  ControllerSpec coupled;
+  coupled.min_tilt_lift_mps2 = 0;
+  EXPECT_GT(level_out(coupled, {0, 2, 4.5}).fastest_turn_radps, 8);
+}
+
 TEST(VelocityController, MirroredCommandsGiveMirroredFlights) {
   Flight left{FlightSetup()};
   Flight right{FlightSetup()};

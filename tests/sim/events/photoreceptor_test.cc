@@ -239,13 +239,12 @@ TEST(Photoreceptor, RowsAreTheSameBytesAtEveryVectorLevel) {
 TEST(Photoreceptor, PiecesFollowTheCurveToWithinTheTolerance) {
   constexpr double kTolerance = 0.004;
   RandomStream random(8, 0, "curves");
-  for (const double follower_hz : {0.0, 200.0, 2000.0}) {
+  for (const double follower_hz : {200.0, 2000.0}) {
     const Photoreceptor photoreceptor(slow(3000, follower_hz));
     for (int n = 0; n < 300; ++n) {
       const double luminance = std::exp(random.uniform(-6, 1));
       const double dt_s = std::exp(random.uniform(-10, -4));
-      Charge before = {random.uniform(-1, 1), random.uniform(-1, 1), 0};
-      before.z = follower_hz > 0 ? random.uniform(-1, 1) : before.y;
+      const Charge before = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
       const double u1 = random.uniform(-1, 1);
       const auto z = [&](double t_s) {
         return photoreceptor.at(before, luminance, u1, dt_s, t_s).z;
