@@ -47,6 +47,10 @@ Film::Film(std::string path, const Intrinsics& intrinsics, double slow)
       picture_every_us_(std::lround(static_cast<double>(kShownEveryUs) / slow / kTickUs) * kTickUs),
       picture_(kSceneHeight,
                kSceneWidth + intrinsics.width * (kSceneHeight / 2) / intrinsics.height, kBlack) {
+  // It would be gone, as the writer makes files anew.
+  if (std::filesystem::exists(path_) && !std::filesystem::is_regular_file(path_)) {
+    throw IoError(path_ + " is not a regular file.");
+  }
   // One by one: copies would share their pixels.
   for (int i = 0; i < 2; ++i) eyes_.emplace_back(intrinsics.width, intrinsics.height);
   // Exactly `slow` times slower, whatever became of the interval in whole ticks.

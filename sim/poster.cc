@@ -6,9 +6,11 @@
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "dodge/dodger.h"
 #include "sim/base/error.h"
+#include "sim/files/output_file.h"
 #include "sim/film.h"
 
 namespace dodgesim {
@@ -94,7 +96,9 @@ void Poster::save(const std::string& path) const {
   cv::resize(strip, strip, {scene_.cols, strip.rows * scene_.cols / strip.cols});
   cv::Mat3b picture;
   cv::vconcat(scene_, strip, picture);
-  if (!cv::imwrite(path, picture)) throw IoError("The picture " + path + " could not be written.");
+  std::vector<unsigned char> png;
+  cv::imencode(".png", picture, png);
+  write_file(path, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
 }  // namespace dodgesim

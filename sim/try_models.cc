@@ -1,9 +1,11 @@
 #include "sim/try_models.h"
 
+#include <algorithm>
 #include <array>
 #include <cinttypes>
 #include <cstdio>
 #include <map>
+#include <numbers>
 #include <set>
 #include <vector>
 
@@ -18,9 +20,22 @@ namespace {
 // A size that every kind of object can have.
 constexpr double kTrialSizeM = 0.2;
 
-// Every world that the campaign names, with all its objects.
-std::vector<WorldSpec> worlds_of(const Scenario& campaign) {
-  std::map<std::string, WorldSpec> worlds;  // each kind once
+struct Trial {
+  WorldSpec world;
+  std::vector<VehicleStart> starts;
+};
+
+void add_start(const MissionSpec& mission, std::vector<VehicleStart>& starts) {
+  const VehicleStart start = {mission.start_m, mission.heading_deg * std::numbers::pi / 180};
+  const auto same = [&start](const VehicleStart& other) {
+    return other.p_W == start.p_W && other.heading_rad == start.heading_rad;
+  };
+  if (std::none_of(starts.begin(), starts.end(), same)) starts.push_back(start);
+}
+
+// Every world that the campaign names, with all its objects, and where the vehicle starts in it.
+std::vector<Trial> trials_of(const Scenario& campaign) {
+  std::map<std::string, Trial> trials;  // each kind of world once
   std::set<std::string> kinds;
   const int throws_of_a_value = cell_count(campaign) * campaign.repeats;
   for (int sweep = 0; sweep < sweep_count(campaign); ++sweep) {
@@ -35,16 +50,16 @@ std::vector<WorldSpec> worlds_of(const Scenario& campaign) {
       const std::string name = scenario.room + "/" + scenario.vehicle + "/" +
                                std::to_string(o.mass_scale) + "/" + std::to_string(o.max_thrust_n) +
                                "/" + std::to_string(o.inertia_scale);
-      worlds.emplace(name, world);
+      add_start(scenario.mission, trials.try_emplace(name, Trial{world, {}}).first->second.starts);
       for (const ThrowSpec& spec : scenario.throw_specs()) {
         kinds.insert(spec.object.names.begin(), spec.object.names.end());
       }
     }
   }
-  std::vector<WorldSpec> all;
-  for (auto& [name, world] : worlds) {
-    for (const std::string& kind : kinds) world.objects.push_back({kind, kTrialSizeM});
-    all.push_back(world);
+  std::vector<Trial> all;
+  for (auto& [name, trial] : trials) {
+    for (const std::string& kind : kinds) trial.world.objects.push_back({kind, kTrialSizeM});
+    all.push_back(trial);
   }
   return all;
 }
@@ -52,12 +67,12 @@ std::vector<WorldSpec> worlds_of(const Scenario& campaign) {
 }  // namespace
 
 void try_models(const Scenario& campaign) {
-  for (const WorldSpec& world : worlds_of(campaign)) try_world(world);
+  for (const Trial& trial : trials_of(campaign)) try_world(trial.world, trial.starts);
 }
 
 std::string digest_of_models(const Scenario& campaign) {
   std::uint64_t digest = 0;
-  for (const WorldSpec& world : worlds_of(campaign)) digest = 31 * digest + models_digest(world);
+  for (const Trial& trial : trials_of(campaign)) digest = 31 * digest + models_digest(trial.world);
   std::array<char, 17> text{};
   std::snprintf(text.data(), text.size(), "%016" PRIx64, digest);
   return text.data();

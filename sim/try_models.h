@@ -7,8 +7,8 @@
 
 namespace dodgesim {
 
-// Tries every room with every vehicle and all objects that the campaign names, in child processes.
-// Throws ScenarioError as try_world() does.
+// Tries every room with every vehicle, all objects and every start that the campaign names, in
+// child processes. Throws ScenarioError as try_world() does.
 void try_models(const Scenario& campaign);
 
 // Hexadecimal digits that change with these models (models_digest.h). Throws ScenarioError.

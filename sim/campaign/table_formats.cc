@@ -163,7 +163,11 @@ CsvRow csv_row_of(const StatisticsTable& table, const StatisticsTable::Row& row,
   const ThrowStatistics nothing;
   const ThrowStatistics& perception = flown ? row.statistics : nothing;
   CsvRow csv;
-  for (std::size_t i = 0; i < table.keys.size(); ++i) csv.text(table.keys[i], row.values[i]);
+  for (std::size_t i = 0; i < table.keys.size(); ++i) {
+    // The next column is that of the pilot who flew.
+    const std::string& key = table.keys[i];
+    csv.text(key == "pilot" ? "sweep_pilot" : key, row.values[i]);
+  }
   csv.text("pilot", of.pilot);
   csv.count("throws", of.tally.throws);
   csv.count("would_have_hit", of.tally.would_have_hit);

@@ -10,11 +10,16 @@
 
 namespace dodgesim {
 
-StagedFile::StagedFile(std::filesystem::path path)
-    : path_(std::move(path)), partial_(partial_name(path_)) {
+StagedFile::StagedFile(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code ignored;
-  // Otherwise found out only by commit(), when all the work is done.
-  if (std::filesystem::is_directory(path_, ignored)) fail("could not be created", EISDIR);
+  const std::filesystem::file_status there = std::filesystem::status(path_, ignored);
+  // A file takes its place: a device or a pipe would be gone. A link stays, what it names is new.
+  if (std::filesystem::is_directory(there)) fail("could not be created", EISDIR);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+    fail("is not a regular file", 0);
+  }
+  if (std::filesystem::is_symlink(path_)) path_ = std::filesystem::weakly_canonical(path_);
+  partial_ = partial_name(path_);
   fd_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (fd_ < 0) fail("could not be created", errno);
 }

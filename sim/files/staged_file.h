@@ -9,7 +9,8 @@ namespace dodgesim {
 
 class StagedFile {
  public:
-  // Creates PATH.partial, empty. All functions throw IoError with the path and the system's reason.
+  // Creates PATH.partial, empty; PATH is followed if it is a link, and refused if it is a device, a
+  // pipe or a directory. All functions throw IoError with the path and the reason.
   explicit StagedFile(std::filesystem::path path);
   StagedFile(const StagedFile&) = delete;
   StagedFile& operator=(const StagedFile&) = delete;

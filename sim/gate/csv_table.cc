@@ -109,6 +109,12 @@ int CsvTable::integer(std::size_t row, const std::string& column) const {
   refuse(row, column, "an integer");
 }
 
+bool CsvTable::boolean(std::size_t row, const std::string& column) const {
+  const std::string& text = at(row, column);
+  if (text != "0" && text != "1") refuse(row, column, "0 or 1");
+  return text == "1";
+}
+
 void CsvTable::refuse(std::size_t row, const std::string& column, const char* what) const {
   throw IoError(name_ + ": " + column + " in row " + std::to_string(row) + " is \"" +
                 at(row, column) + "\", not " + what + ".");

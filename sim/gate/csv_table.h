@@ -25,6 +25,7 @@ class CsvTable {
   // at() as a number. Also throws IoError if it is none, or none of that type.
   double number(std::size_t row, const std::string& column) const;
   int integer(std::size_t row, const std::string& column) const;
+  bool boolean(std::size_t row, const std::string& column) const;  // 0 or 1
   // `name` or the file's path.
   const std::string& name() const { return name_; }
 

@@ -26,10 +26,6 @@ bool gave_up(const CsvTable& table, std::size_t row) {
          table.number(row, "landing_us") < table.number(row, "none_hit_us");
 }
 
-bool yes(const CsvTable& table, std::size_t row, const std::string& column) {
-  return table.at(row, column) == "1";
-}
-
 std::string label_of(const CsvTable& throws, std::size_t row) {
   const std::string& object = throws.at(row, "object");
   if (object.empty()) return "quiet flight";
@@ -80,16 +76,16 @@ class Draws {
 void judge(const CsvTable& table, std::size_t row, ThrowOutcome& out) {
   const bool thrown = !out.draw.empty();
   const bool judged = table.at(row, "none_status") == "ok";  // it is known whether it would hit
-  out.counts = !thrown || !judged || yes(table, row, "none_hit");
+  out.counts = !thrown || !judged || table.boolean(row, "none_hit");
   if (table.at(row, "flown_status") != "ok") {
     out.what = "error: " + table.at(row, "flown_error");
-  } else if (yes(table, row, "flown_hit")) {
+  } else if (table.boolean(row, "flown_hit")) {
     out.what = "hit";
-  } else if (yes(table, row, "flown_crashed")) {
+  } else if (table.boolean(row, "flown_crashed")) {
     out.what = "crashed";
   } else if (gave_up(table, row)) {
     out.what = "landed";
-  } else if (!thrown && yes(table, row, "evaded")) {
+  } else if (!thrown && table.boolean(row, "evaded")) {
     out.what = "evaded nothing";
   } else {
     out.what = thrown ? "dodged" : "quiet";

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <new>
+#include <sstream>
 #include <string>
 
 #include "sim/base/child_process.h"
@@ -22,11 +23,25 @@ std::string files_of(const WorldSpec& spec) {
   return spec.models_dir + " (" + files + ")";
 }
 
-// What is wrong with the models, or nothing.
-std::string complaint_about(const WorldSpec& spec, const TrialLimits& limits) {
+void check_start(const VehicleStart& start, World& world, Referee& referee) {
+  world.reset(start.p_W, start.heading_rad, Eigen::Vector3d::Zero());
+  referee.reset();
+  referee.observe(world, false);
+  if (!referee.verdict().crashed) return;
+  std::ostringstream message;
+  message << "The vehicle cannot start at (" << start.p_W.x() << ", " << start.p_W.y() << ", "
+          << start.p_W.z()
+          << ") m: it touches the room there, or is outside; move mission.start_m.";
+  throw ScenarioError(message.str());
+}
+
+// What is wrong with the models or the starts, or nothing.
+std::string complaint_about(const WorldSpec& spec, const std::vector<VehicleStart>& starts,
+                            const TrialLimits& limits) {
   try {
     World world(spec);
-    const Referee referee(world);
+    Referee referee(world);
+    for (const VehicleStart& start : starts) check_start(start, world, referee);
     for (int i = 0; i < world.object_count(); ++i) {
       BodyState state;
       state.p_W = Eigen::Vector3d(0, 0, 100 + 3 * i);
@@ -54,12 +69,13 @@ void limit_memory([[maybe_unused]] int memory_mb) {
 
 }  // namespace
 
-void try_world(const WorldSpec& spec, const TrialLimits& limits) {
+void try_world(const WorldSpec& spec, const std::vector<VehicleStart>& starts,
+               const TrialLimits& limits) {
   // First a byte that says whether they are good.
   const ChildAnswer answer = ask_child(
       [&] {
         limit_memory(limits.memory_mb);
-        const std::string complaint = complaint_about(spec, limits);
+        const std::string complaint = complaint_about(spec, starts, limits);
         return std::string(1, complaint.empty() ? 1 : 0) + complaint;
       },
       limits.wall_ms);

@@ -1,9 +1,18 @@
 // Builds a world where a crash does no harm.
 #pragma once
 
+#include <Eigen/Dense>
+#include <vector>
+
 #include "sim/world/compose.h"
 
 namespace dodgesim {
+
+// Where a vehicle is to start.
+struct VehicleStart {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]
+  double heading_rad = 0;
+};
 
 struct TrialLimits {
   int wall_ms = 30000;
@@ -12,8 +21,10 @@ struct TrialLimits {
 
 // Compiles the models in a child process, builds the world and lets it run for some ticks, because
 // MuJoCo may crash, hang or eat up the memory over a broken file. Throws ScenarioError with one
-// sentence if that happens or if the models are no good; SimulationError if no process can be made.
-// Call before the process has threads or a GL context.
-void try_world(const WorldSpec& spec, const TrialLimits& limits = {});
+// sentence if that happens, if the models are no good, or if the vehicle touches the room, or is
+// not in it, at one of the starts; SimulationError if no process can be made. Call before the
+// process has threads or a GL context.
+void try_world(const WorldSpec& spec, const std::vector<VehicleStart>& starts = {},
+               const TrialLimits& limits = {});
 
 }  // namespace dodgesim

@@ -32,7 +32,16 @@ std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& d
     const int sweep = outcome.sweep;
     parts[sweep].push_back(std::move(outcome));
   }
+  if (parts.empty()) throw IoError((directory / "throws.csv").string() + " holds no throw.");
   return parts;
+}
+
+// Whether nobody throws.
+bool is_quiet(const std::map<int, std::vector<ThrowOutcome>>& parts) {
+  return std::all_of(parts.begin(), parts.end(), [](const auto& part) {
+    return std::all_of(part.second.begin(), part.second.end(),
+                       [](const ThrowOutcome& outcome) { return outcome.draw.empty(); });
+  });
 }
 
 // "0, 1, 3"
@@ -47,6 +56,12 @@ std::string names(const std::map<int, std::vector<ThrowOutcome>>& parts) {
 int compare_campaigns(const Arguments& arguments) {
   const auto first = parts_of(arguments.first);
   const auto second = parts_of(arguments.second);
+  if (is_quiet(first) != is_quiet(second)) {
+    throw ScenarioError("In " + (is_quiet(first) ? arguments.first : arguments.second).string() +
+                        " nobody throws, in " +
+                        (is_quiet(first) ? arguments.second : arguments.first).string() +
+                        " somebody does: not to evade and to dodge cannot be compared.");
+  }
   if (!std::equal(first.begin(), first.end(), second.begin(), second.end(),
                   [](const auto& a, const auto& b) { return a.first == b.first; })) {
     throw ScenarioError(arguments.first.string() + " has the sweep values " + names(first) + ", " +

@@ -1,0 +1,64 @@
+#include "sim/files/staged_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "sim/base/error.h"
+#include "sim/files/output_file.h"
+#include "tests/sim/files/temporary_directory.h"
+
+namespace dodgesim {
+namespace {
+
+namespace fs = std::filesystem;
+
+using testing::contents;
+
+std::string complaint_about(const fs::path& path) {
+  try {
+    StagedFile file(path);
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(StagedFile, AppearsWholeOrNotAtAll) {
+  const testing::TemporaryDirectory directory;
+  const fs::path path = directory.path() / "file";
+  write_file(path, "old");
+  {
+    OutputFile unfinished(path);
+    unfinished.write("new");
+  }
+  EXPECT_EQ(contents(path), "old");
+  EXPECT_FALSE(fs::exists(StagedFile::partial_name(path)));
+  write_file(path, "new");
+  EXPECT_EQ(contents(path), "new");
+}
+
+TEST(StagedFile, LeavesDevicesPipesAndDirectoriesAsTheyAre) {
+  const testing::TemporaryDirectory directory;
+  const fs::path pipe = directory.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(complaint_about(pipe), pipe.string() + " is not a regular file.");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(complaint_about("/dev/null"), "/dev/null is not a regular file.");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_THAT(complaint_about(directory.path()), ::testing::HasSubstr("Is a directory"));
+}
+
+TEST(StagedFile, WritesToWhatALinkNames) {
+  const testing::TemporaryDirectory directory;
+  const fs::path target = directory.path() / "target", link = directory.path() / "link";
+  write_file(target, "old");
+  fs::create_symlink("target", link);
+  write_file(link, "new");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(contents(target), "new");
+}
+
+}  // namespace
+}  // namespace dodgesim
