@@ -60,7 +60,9 @@ std::vector<bool> answers(EventCamera& camera, const EventCameraSpec& spec,
 
 }  // namespace
 
-PixelsAfterFilm measure_conservation(const EventCameraSpec& spec, std::uint64_t seed) {
+PixelsAfterFilm measure_conservation(const EventCameraSpec& expected, std::uint64_t seed) {
+  EventCameraSpec spec = expected;
+  spec.readout_max_hz = 0;  // who waits in line is not stuck
   EventCamera camera(spec, kWidth, kHeight, seed, 0, "check", true);
   const DriftingTexture texture(kWidth, kHeight, kSpeedPxps, seed);
   const std::vector<TimeUs> times = irregular_times(seed);
@@ -86,7 +88,7 @@ Check judge(const PixelsAfterFilm& after, const EventCameraSpec& expected) {
       "A drifting texture is shown at irregular instants. Then no pixel outside of its "
       "refractory period may be farther from its reference than its threshold, and a "
       "large step up, or one of the steps down and up after it, must make every pixel that is not "
-      "dead fire. The plot shows how far "
+      "dead fire. The readout's limit is off. The plot shows how far "
       "the signals are from the references, in thresholds.",
       {},
       {}};

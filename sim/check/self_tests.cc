@@ -4,6 +4,7 @@
 #include "sim/check/convergence.h"
 #include "sim/check/noise_rates.h"
 #include "sim/check/readout_burst.h"
+#include "sim/check/refractory.h"
 #include "sim/check/stamps.h"
 #include "sim/check/step_response.h"
 #include "sim/check/thresholds.h"
@@ -16,6 +17,7 @@ std::vector<std::function<Check()>> sensor_checks(const EventCameraSpec& camera,
       [=] { return judge(measure_conservation(camera, seed), camera); },
       [=] { return judge(measure_thresholds(camera, seed), camera); },
       [=] { return judge(measure_stamps(camera, seed)); },
+      [=] { return judge(measure_ramp(camera, seed), camera); },
       [=] { return judge(measure_convergence(camera, seed)); },
       [=] { return judge(measure_step_response(camera, seed), camera); },
       [=] { return judge(measure_noise(camera, seed), camera); },

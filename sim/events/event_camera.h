@@ -68,6 +68,8 @@ class EventCamera {
   const std::vector<Cause>& causes() const { return causes_; }
   // Events that the saturated readout has lost since the reset.
   std::int64_t lost() const { return readout_.lost(); }
+  // Events of the time until the last update whose stamps lie behind it.
+  std::int64_t under_way() const { return readout_.under_way(); }
 
  private:
   void sample(TimeUs t_us, const Rect& region, const Picture& picture);

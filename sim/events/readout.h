@@ -34,6 +34,10 @@ class Readout {
 
   // Events that a waiting pixel did not make, since the reset.
   std::int64_t lost() const { return lost_; }
+  // Events that have not yet left it.
+  std::int64_t under_way() const {
+    return static_cast<std::int64_t>(to_arrive_.size() + to_leave_.size());
+  }
 
  private:
   // An event whose time has not yet come.

@@ -90,6 +90,10 @@ void report(const Video& video, const EventCamera& camera, const Counts& counts,
     std::printf("lost: %lld events, because readout_max_hz was exceeded\n",
                 static_cast<long long>(camera.lost()));
   }
+  if (camera.under_way() > 0) {
+    std::printf("not yet out at the end: %lld events, because of latency or readout\n",
+                static_cast<long long>(camera.under_way()));
+  }
   std::printf("video: %lld frames of %d x %d px, %.6f s\n",
               static_cast<long long>(video.frame_count()), video.width(), video.height(),
               seconds(video.duration_us()));

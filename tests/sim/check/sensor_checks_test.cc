@@ -9,6 +9,7 @@
 #include "sim/check/convergence.h"
 #include "sim/check/noise_rates.h"
 #include "sim/check/readout_burst.h"
+#include "sim/check/refractory.h"
 #include "sim/check/self_tests.h"
 #include "sim/check/stamps.h"
 #include "sim/check/step_response.h"
@@ -65,8 +66,26 @@ TEST(SensorChecks, SayThatWhatIsSwitchedOffIsOff) {
     const Names names = lines(make_check(), Outcome::kOff);
     off.insert(off.end(), names.begin(), names.end());
   }
-  EXPECT_EQ(off, (Names{"noise.leak", "noise.shot.dark", "noise.shot.bright", "noise.hot",
+  EXPECT_EQ(off, (Names{"clock", "noise.leak", "noise.shot.dark", "noise.shot.bright", "noise.hot",
                         "readout.rate"}));
+}
+
+TEST(RefractoryCheck, FailsForAnotherPeriodAndForAnotherClock) {
+  for (const std::int64_t refractory_us : {0, 100, 1000}) {
+    for (const std::int64_t resolution_us : {1, 10, 250}) {
+      EventCameraSpec spec;
+      spec.refractory_us = refractory_us;
+      spec.stamp_resolution_us = resolution_us;
+      const RampEvents measured = measure_ramp(spec, 1);
+      EXPECT_EQ(failures(judge(measured, spec)), Names()) << refractory_us << " " << resolution_us;
+      EventCameraSpec longer = spec;
+      longer.refractory_us = 2 * refractory_us + 10;
+      EXPECT_EQ(failures(judge(measured, longer)).front(), "refractory.interval");
+      EventCameraSpec finer = spec;
+      finer.stamp_resolution_us = resolution_us + 70;
+      EXPECT_FALSE(failures(judge(measured, finer)).empty());
+    }
+  }
 }
 
 TEST(ConservationCheck, FailsForAPixelBeyondItsThresholdUnlessItIsHeld) {

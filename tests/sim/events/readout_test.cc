@@ -189,6 +189,7 @@ TEST(Readout, UnderOverloadLosesOnlyWhatWaitingPixelsWouldSayAndCountsIt) {
       static_cast<std::int64_t>(requests.size() - events.size()) - bench.readout.lost();
   EXPECT_GT(waiting, 0);
   EXPECT_LE(waiting, static_cast<std::int64_t>(kSome));
+  EXPECT_EQ(waiting, bench.readout.under_way());
   // It comes when the light has gone.
   auto later = bench.serve(requests, 300000);
   EXPECT_EQ(static_cast<std::int64_t>(later.size()),
