@@ -65,6 +65,8 @@ Json state() {
                                    {"true_velocity_mps", vector()}});
 }
 
+Json range() { return object("dodgesim.Range", {{"timestamp", time()}, {"range_m", number()}}); }
+
 Json command() {
   return object("dodgesim.Command", {{"timestamp", time()},
                                      {"velocity_mps", vector()},
@@ -99,6 +101,7 @@ McapRecorder::McapRecorder(const std::string& path, const Intrinsics& intrinsics
   }
   add_topic("/imu", schema::imu());
   add_topic("/state", schema::state());
+  add_topic("/range", schema::range());
   add_topic("/command", schema::command());
   add_topic("/approach", schema::approach());
   add_topic("/log", schema::log());
@@ -256,6 +259,11 @@ void McapRecorder::on_state(const StateReading& reading) {
          {"velocity_mps", foxglove::vector(reading.v_W)},
          {"true_position_m", foxglove::vector(now_.vehicle.p_W)},
          {"true_velocity_mps", foxglove::vector(now_.vehicle.v_W)}});
+}
+
+void McapRecorder::on_range(const RangeReading& reading) {
+  write("/range", reading.t_us,
+        {{"timestamp", foxglove::time(reading.t_us)}, {"range_m", reading.range_m}});
 }
 
 void McapRecorder::on_events(int camera, const Packet& packet) {

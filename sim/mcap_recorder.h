@@ -7,7 +7,7 @@
 //   /scene/command              the velocity that the pilot wants; red while it evades
 //   /vehicle/truth, /estimate   poses
 //   /camera/top/events, /calibration; /camera/bottom/...   ON white, OFF black, 100 a second
-//   /imu, /state, /command, /approach   numbers to plot
+//   /imu, /state, /range, /command, /approach   numbers to plot
 //   /log                        what happens, in words
 #pragma once
 
@@ -31,6 +31,7 @@ class McapRecorder : public FlightObserver {
   void on_tick(const World& world) override;
   void on_imu(const ImuReading& reading) override;
   void on_state(const StateReading& reading) override;
+  void on_range(const RangeReading& reading) override;
   void on_events(int camera, const Packet& packet) override;
   void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
   void on_velocity(TimeUs now_us, const dodge::VelocityCommand& command) override;

@@ -13,8 +13,7 @@ struct AttractiveConfig {
   void visit(Visitor& v) {
     v("e_0_m", e_0_m, 1e-3, 100.0,
       "Distance to the goal at which the conical field goes over into the polynomial one. Not "
-      "given "
-      "by the paper; first value from the authors' group's open code.");
+      "given by the paper; first value from the authors' group's open code.");
     v("gamma_a", gamma_a, 0.0, 20.0,
       "How fast the attraction vanishes at the goal; 1: linearly. Same source as e_0_m.");
   }

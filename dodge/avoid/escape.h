@@ -38,12 +38,10 @@ struct EscapeConfig {
       "Standard deviation, per axis, of where the vehicle will be from where it is predicted.");
     v("min_probability", min_probability, 0.0, 1.0,
       "Least probability of a hit that starts an escape. The estimate of a far obstacle is so "
-      "vague "
-      "that no hit is probable; it earns its range as its covariance shrinks.");
+      "vague that no hit is probable; it earns its range as its covariance shrinks.");
     v("keep_probability", keep_probability, 0.0, 1.0,
       "An escape goes on while a hit is at least as probable: what is out of sight is predicted, "
-      "and "
-      "ever more vaguely.");
+      "and ever more vaguely.");
     v("min_speed_mps", min_speed_mps, 0.0, 100.0,
       "Obstacles slower than this in the world are not thrown: background that moves with the "
       "vehicle's estimate.");

@@ -63,8 +63,7 @@ struct RepulsiveConfig {
       "because upward would be along its path.");
     v("ignore_receding", ignore_receding,
       "Whether an obstacle that moves away from the vehicle stops pushing at once. The paper lets "
-      "it "
-      "decay only.");
+      "it decay only.");
   }
 };
 

@@ -47,8 +47,7 @@ struct ClusterConfig {
     v("min_pixels", min_pixels, 1, 100000, "A cluster with fewer pixels with events is noise.");
     v("min_events", min_events, 1, 100000,
       "A cluster with fewer events is noise. A ball of 10 cm at 1.5 m makes some 200 in a window, "
-      "a "
-      "patch of background noise a dozen.");
+      "a patch of background noise a dozen.");
     v("max_aspect", max_aspect, 1, 1000,
       "Clusters whose rectangle is longer than this times its width are edges of the background, "
       "not obstacles.");

@@ -32,15 +32,13 @@ struct DelaySpec {
       "USB packets of events end at multiples of this (1 ms: a USB frame).");
     v("cycle_us", cycle_us, 250, 1000000,
       "The pilot starts a cycle this often, or as soon as it has finished the last one (250 Hz, "
-      "the "
-      "rate of the state estimate).");
+      "the rate of the state estimate).");
     v("compute_us", compute_us, 0, 1000000,
       "One cycle of the pilot, from its newest data to its command (3.5 ms in the paper's Table "
       "3).");
     v("perception_us", perception_us, 0, 1000000,
       "Later than that by this: a slow perception that is pipelined, so that the pilot's cycles "
-      "stay "
-      "as frequent. Not part of the paper's chain, but for experiments with latency.");
+      "stay as frequent. Not part of the paper's chain, but for experiments with latency.");
     v("command_us", command_us, 0, 100000,
       "Serial link from the computer to the flight controller (3.0 ms measured by the authors).");
     v("flight_controller_us", flight_controller_us, 0, 100000,

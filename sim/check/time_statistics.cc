@@ -91,12 +91,11 @@ Check judge(const TimeStatistics& statistics) {
       "After the caption of figure S2 of Falanga et al. 2020 (the figure itself was not at hand): "
       "the normalised mean time stamp rho, equation (4), of the pixels of the top camera's "
       "compensated windows while a ball flies at the vehicle. Dynamic are pixels that only the "
-      "ball "
-      "fired, static those that only the room fired, by the true causes of their events. Both have "
-      "the mean 0 and much the same spread pixel by pixel; averaged over neighbours the static "
-      "ones draw together, while the side of a moving object where new events are stays apart. So "
-      "more dynamic pixels than static ones must be above the pilot's threshold for a camera at "
-      "rest.",
+      "ball fired, static those that only the room fired, by the true causes of their events. Both "
+      "have the mean 0 and much the same spread pixel by pixel; averaged over neighbours the "
+      "static ones draw together, while the side of a moving object where new events are stays "
+      "apart. So more dynamic pixels than static ones must be above the pilot's threshold for a "
+      "camera at rest.",
       {},
       {}};
   for (const auto& [name, title, regions] :

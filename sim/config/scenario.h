@@ -205,10 +205,8 @@ struct Scenario {
     const std::string before = dodger_preset(pilot);
     v("pilot", pilot, {kPaperPilot, kOwnPilot, "oracle", "none"},
       "Who flies: the paper's dodger, the same with what improves it (as a value of grid or sweep "
-      "it "
-      "takes the place of all keys of dodger), one that is told the true obstacle, or one that "
-      "never "
-      "dodges.");
+      "it takes the place of all keys of dodger), one that is told the true obstacle, or one that "
+      "never dodges.");
     if (dodger_preset(pilot) != before) dodger = dodge::preset(dodger_preset(pilot));
     v("fly_oracle", fly_oracle,
       "Fly every throw with the pilot oracle too, which bounds what perception can cost.");

@@ -120,8 +120,7 @@ struct SamplingSpec {
       "events of a texture of 8 px wavelength, 1 px 2.3 %).");
     v("fast_displacement_px", fast_displacement_px, 0.01, 100,
       "The same limit for the static scene where max_displacement_px would ask for samples less "
-      "than "
-      "fast_interval_us apart: stamps are then precise anyway, and counts lose 1 % more.");
+      "than fast_interval_us apart: stamps are then precise anyway, and counts lose 1 % more.");
     v("fast_interval_us", fast_interval_us, 1, 1000000,
       "Interval below which fast_displacement_px counts; 0.5 ms keep time stamps within 0.1 ms.");
     v("min_rate_hz", min_rate_hz, 1, 4000,

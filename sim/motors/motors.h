@@ -18,8 +18,7 @@ struct MotorSpec {
   void visit(Visitor& v) {
     v("time_constant_up_s", time_constant_up_s, 0.001, 1,
       "Lag of a rotor's thrust when it rises; 0.04 s is the nominal vehicle's on 4 cells (its "
-      "drive "
-      "with two-bladed propellers on 3 cells measured 0.048 s).");
+      "drive with two-bladed propellers on 3 cells measured 0.048 s).");
     v("time_constant_down_s", time_constant_down_s, 0.001, 1,
       "Lag of a rotor's thrust when it falls; as rising, because the speed controllers brake "
       "actively (0.061 s was measured on 3 cells).");

@@ -32,8 +32,7 @@ struct StateEstimateSpec {
     v("rate_hz", rate_hz, 1, 4000, "Estimates per second (paper: 250); it must divide 4000.");
     v("position_walk_m_sqrts", position_walk_m_sqrts, 0, 10,
       "Random walk of the position's error, unbounded as odometry is: 0.8 cm after a minute of "
-      "hover "
-      "(assumed).");
+      "hover (assumed).");
     v("position_white_m", position_white_m, 0, 1,
       "White noise of the position, per axis and estimate (assumed).");
     v("velocity_bias_mps", velocity_bias_mps, 0, 10,

@@ -110,6 +110,14 @@ TEST_F(McapRecorderTest, ShowsEverythingWhereItTrulyIs) {
     }
   }
   EXPECT_GT(objects, 50);
+  ASSERT_GT(reader.of("/range").size(), 50u);
+  for (const McapMessage& message : reader.of("/range")) {
+    const Snapshot truth = diary.at(static_cast<TimeUs>(message.time_ns / 1000));
+    const double up = (truth.vehicle.q_W * Eigen::Vector3d::UnitZ()).z();
+    if (up < 0.9) continue;  // it may look at a wall
+    const double height_m = truth.vehicle.p_W.z() / up;
+    EXPECT_NEAR(json::parse(message.json)["range_m"], height_m, 0.05 + 0.05 * height_m);
+  }
   const json box = json::parse(reader.of("/scene/objects").at(0).json)["entities"][0];
   EXPECT_EQ(box["frame_id"], "object_0");
   EXPECT_LT((vector_of(box["cubes"][0]["size"]) - Eigen::Vector3d(0.2, 0.4 / 3, 0.1)).norm(), 1e-5);

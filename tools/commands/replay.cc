@@ -56,6 +56,9 @@ class Observers : public FlightObserver {
   void on_state(const StateReading& reading) override {
     for (FlightObserver* o : observers_) o->on_state(reading);
   }
+  void on_range(const RangeReading& reading) override {
+    for (FlightObserver* o : observers_) o->on_range(reading);
+  }
   void on_events(int camera, const Packet& packet) override {
     for (FlightObserver* o : observers_) o->on_events(camera, packet);
   }
@@ -247,9 +250,10 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->type_name("FILE.png");
   command
       ->add_option("--events", arguments->events,
-                   "Write a camera's events with their causes (t, x, y, p, cause), and print how\n"
-                   "well the pilot finds an object's events. Causes: 0 the static scene, moved by\n"
-                   "ego-motion; 1 + i object i; 253 leak; 254 shot noise; 255 a hot pixel")
+                   "Write a camera's events with their causes (t, x, y, p, cause), as far as they\n"
+                   "reach the computer before the flight ends, and print how well the pilot finds\n"
+                   "an object's events. Causes: 0 the static scene, moved by ego-motion; 1 + i\n"
+                   "object i; 253 leak; 254 shot noise; 255 a hot pixel")
       ->type_name("FILE.h5|.npy|.txt");
   command->add_option("--camera", arguments->camera, "Whose events: top or bottom")
       ->check(CLI::IsMember({"top", "bottom"}))
