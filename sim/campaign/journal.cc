@@ -41,6 +41,7 @@ std::uint32_t mark_of(std::uint32_t size) {
 }
 
 std::string framed(const std::string& bytes) {
+  if (bytes.size() > kLargestRecord) throw SimulationError("A throw's results exceed a gigabyte.");
   Header header;
   header.size = static_cast<std::uint32_t>(bytes.size());
   header.mark = mark_of(header.size);
@@ -159,8 +160,10 @@ JournalIndex read_journal(const std::filesystem::path& path) {
   return index;
 }
 
-ThrowResult read_result(const std::filesystem::path& path, const JournalRecord& record) {
-  std::ifstream file(path, std::ios::binary);
+namespace {
+
+ThrowResult read_result(std::ifstream& file, const std::filesystem::path& path,
+                        const JournalRecord& record) {
   std::string bytes(record.size, '\0');
   file.seekg(static_cast<std::streamoff>(record.offset));
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -168,9 +171,17 @@ ThrowResult read_result(const std::filesystem::path& path, const JournalRecord& 
   return result_from_bytes(bytes);
 }
 
+}  // namespace
+
+ThrowResult read_result(const std::filesystem::path& path, const JournalRecord& record) {
+  std::ifstream file(path, std::ios::binary);
+  return read_result(file, path, record);
+}
+
 void for_each_result(const std::filesystem::path& path, const JournalIndex& index,
                      const std::function<void(ThrowResult)>& take) {
-  for (const auto& [number, record] : index.throws) take(read_result(path, record));
+  std::ifstream file(path, std::ios::binary);
+  for (const auto& [number, record] : index.throws) take(read_result(file, path, record));
 }
 
 Journal::Journal(const std::filesystem::path& path, const CampaignIdentity& identity)
