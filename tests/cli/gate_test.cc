@@ -133,6 +133,8 @@ TEST_F(GateCommandTest, DoesNotWaitForPipes) {
   fs::remove(root_ / "b/throws.csv");
   ASSERT_EQ(::mkfifo(path("b/throws.csv").c_str(), 0600), 0);
   EXPECT_THAT(gate().output, HasSubstr("b/throws.csv is not a regular file."));
+  EXPECT_THAT(gate("--update").output, HasSubstr("b/throws.csv is not a regular file."));
+  fs::remove(root_ / "b/throws.csv");
   EXPECT_EQ(gate("--update").exit_code, 0);
   EXPECT_EQ(gate().exit_code, 0);
   fs::remove(root_ / "s.yaml");
