@@ -81,7 +81,8 @@ inline std::vector<ReferenceEvent> reference_events(const EventCamera& camera, c
   for (int y = 0; y < camera.height(); ++y) {
     for (int x = 0; x < camera.width(); ++x) {
       const PixelState pixel = camera.pixel(x, y);
-      const auto index = static_cast<std::size_t>(y * camera.width() + x);
+      const auto index = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width()) +
+                         static_cast<std::size_t>(x);
       std::vector<const Frame*> samples;  // of this pixel
       for (const Frame& frame : frames) {
         if (frame.shows(x, y)) samples.push_back(&frame);
