@@ -5,6 +5,7 @@
 #include "sim/base/time.h"
 #include "sim/config/expand.h"
 #include "sim/config/numbers.h"
+#include "sim/sensors/sample_clock.h"
 
 namespace dodgesim {
 
@@ -97,11 +98,10 @@ void check_height_monitor(const Scenario& scenario, ReadContext& context) {
 }
 
 void check_rate(const std::string& key, int rate_hz, ReadContext& context) {
-  constexpr int kTickRateHz = static_cast<int>(1000000 / kTickUs);
-  if (kTickRateHz % rate_hz == 0) return;
-  context.problems.add(position_of(context, key), key + " is " + std::to_string(rate_hz) +
-                                                      ", but must divide " +
-                                                      std::to_string(kTickRateHz) + ".");
+  if (SampleClock::fits(rate_hz)) return;
+  context.problems.add(position_of(context, key),
+                       key + " is " + std::to_string(rate_hz) + ", but must divide " +
+                           std::to_string(SampleClock::kTickRateHz) + ".");
 }
 
 void check_rates(const Scenario& scenario, ReadContext& context) {

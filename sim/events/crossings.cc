@@ -10,8 +10,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr double kMostDecays = 690;  // natural_exp's limit; nothing is left then
-constexpr double kSolvedUs = 0.01;   // size of the last step
+constexpr double kSolvedUs = 0.01;  // size of the last step
 
 constexpr std::int64_t kNothing = Crossings::kNothing, kHeld = Crossings::kHeld;
 constexpr std::int64_t kArmed = Crossings::kArmed, kUnknown = Crossings::kUnknown;
@@ -26,10 +25,6 @@ struct Row {
 
 inline double size_of(double a) { return a < 0 ? -a : a; }
 
-[[gnu::always_inline]] inline double left_of(double decay_per_us, double t_us) {
-  return natural_exp(-smaller(decay_per_us * t_us, kMostDecays));
-}
-
 // S(t) = s0 + rise t - p (1 - exp(-decay t)), for 0 <= t <= dt.
 struct Curve {
   double s0, rise, p, decay, dt;
@@ -37,7 +32,7 @@ struct Curve {
 
 // Newton's method: where S - level would be 0 if it ran straight on from t_us.
 [[gnu::always_inline]] inline double newton_step(const Curve& c, double level, double t_us) {
-  const double left = left_of(c.decay, t_us);
+  const double left = transient_left(c.decay * t_us);
   const double error = c.s0 + c.rise * t_us - c.p * (1 - left) - level;
   const double slope = c.rise - c.p * c.decay * left;
   const double next_us = slope != 0 ? t_us - error / slope : 0.0;
@@ -54,7 +49,7 @@ template <bool kBent>
     const double reference = row.reference[i], off = row.off[i], on = row.on[i];
     const double given_rise = row.rise_per_us[i], given_decay = row.decay_per_us[i];
     const double decay = kBent ? larger(given_decay, 0.0) : 0.0;
-    const double left = kBent ? left_of(decay, dt) : 1.0;
+    const double left = kBent ? transient_left(decay * dt) : 1.0;
     const bool straight = left >= 1;
     const double rise = straight ? (s1 - s0) / dt : given_rise;
     const double p = straight ? 0.0 : (s0 + rise * dt - s1) / (straight ? 1.0 : 1 - left);
@@ -83,7 +78,7 @@ template <bool kBent>
 
     const double armed_us = t + refractory_us;
     const bool held = (refractory_us > 0) & (armed_us > dt);
-    const double left_armed = kBent ? left_of(decay, armed_us) : 1.0;
+    const double left_armed = kBent ? transient_left(decay * armed_us) : 1.0;
     const double s_armed = s0 + rise * armed_us - p * (1 - left_armed);
     const double after = (refractory_us > 0) & (!held) ? s_armed : level;
     const double room = smaller(after + on - s1, s1 - (after + off));

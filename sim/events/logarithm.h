@@ -66,4 +66,11 @@ inline double natural_exp(double x) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(p) + k);
 }
 
+// exp(-x) for x >= 0: what is left of a transient after x time constants. The same as after 690 of
+// them for all that are longer, so that it stays within natural_exp's range; nothing is left then.
+[[gnu::always_inline]] inline double transient_left(double x) {
+  constexpr double kMost = 690;
+  return natural_exp(-(x < kMost ? x : kMost));
+}
+
 }  // namespace dodgesim

@@ -44,13 +44,12 @@ struct Decay {
 
 // To within 1e-9, and the same on every machine, which libm's exp is not.
 Decay<double> decay(double x) {
-  constexpr double kSmall = 0.01;    // below, a series
-  constexpr double kMostTaus = 690;  // natural_exp's limit; nothing is left then
+  constexpr double kSmall = 0.01;  // below, a series
   if (x < kSmall) {
     const double m = 1 - x * (1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120))));
     return {1 - x * m, m};
   }
-  const double k = natural_exp(-std::min(x, kMostTaus));
+  const double k = transient_left(x);
   return {k, (1 - k) / x};
 }
 

@@ -1,21 +1,13 @@
 #include "sim/events/signal_piece.h"
 
-#include <algorithm>
-
 #include "sim/events/logarithm.h"
 
 namespace dodgesim {
 
 namespace {
 
-constexpr double kMostDecays = 690;  // natural_exp's limit; nothing is left then
-constexpr double kSolvedUs = 0.01;   // size of the last step
-constexpr int kMostSteps = 60;       // bisection alone ends within these
-
-// What is left of a transient.
-double left_of(double decay_per_us, double t_us) {
-  return natural_exp(-std::min(decay_per_us * t_us, kMostDecays));
-}
+constexpr double kSolvedUs = 0.01;  // size of the last step
+constexpr int kMostSteps = 60;      // bisection alone ends within these
 
 }  // namespace
 
@@ -23,7 +15,7 @@ double SignalPiece::at(double t_us) const {
   if (t_us >= t1_us) return s1;
   const double dt_us = t_us - t0_us;
   if (decay_per_us == 0) return s0 + (s1 - s0) * dt_us / (t1_us - t0_us);
-  return s0 + rise_per_us * dt_us - p * (1 - left_of(decay_per_us, dt_us));
+  return s0 + rise_per_us * dt_us - p * (1 - transient_left(decay_per_us * dt_us));
 }
 
 double SignalPiece::time_of(double s) const {
@@ -35,7 +27,8 @@ double SignalPiece::time_of(double s) const {
   for (int i = 0; i < kMostSteps && late_us - early_us > kSolvedUs; ++i) {
     const double error = at(t_us) - s;
     ((error < 0) == (s1 > s0) ? early_us : late_us) = t_us;
-    const double slope = rise_per_us - p * decay_per_us * left_of(decay_per_us, t_us - t0_us);
+    const double slope =
+        rise_per_us - p * decay_per_us * transient_left(decay_per_us * (t_us - t0_us));
     double next_us = slope != 0 ? t_us - error / slope : early_us;
     if (!(next_us > early_us && next_us < late_us)) next_us = 0.5 * (early_us + late_us);
     const double step_us = next_us - t_us;
@@ -48,7 +41,7 @@ double SignalPiece::time_of(double s) const {
 SignalPieces pieces_of(double t0_us, double t1_us, double s0, double s1, double rise_per_us,
                        double decay_per_us) {
   const double dt_us = t1_us - t0_us;
-  const double left = decay_per_us > 0 ? left_of(decay_per_us, dt_us) : 1;
+  const double left = decay_per_us > 0 ? transient_left(decay_per_us * dt_us) : 1;
   if (left >= 1) return {{{{t0_us, t1_us, s0, s1}, {}}}, 1};
   const double p = (s0 + rise_per_us * dt_us - s1) / (1 - left);
   const double first_slope = rise_per_us - p * decay_per_us;

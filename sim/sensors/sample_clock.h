@@ -10,10 +10,12 @@ namespace dodgesim {
 
 class SampleClock {
  public:
-  // Throws ScenarioError unless rate_hz > 0 divides the tick rate of 4000 Hz.
+  static constexpr int kTickRateHz = static_cast<int>(1000000 / kTickUs);
+  static bool fits(int rate_hz) { return rate_hz > 0 && kTickRateHz % rate_hz == 0; }
+
+  // Throws ScenarioError unless the rate fits, that is, divides kTickRateHz.
   SampleClock(int rate_hz, const std::string& sensor) {
-    constexpr int kTickRateHz = static_cast<int>(1000000 / kTickUs);
-    if (rate_hz <= 0 || kTickRateHz % rate_hz != 0) {
+    if (!fits(rate_hz)) {
       throw ScenarioError("The rate of the " + sensor + " is " + std::to_string(rate_hz) +
                           " Hz, but it must divide " + std::to_string(kTickRateHz) + " Hz.");
     }

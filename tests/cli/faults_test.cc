@@ -96,7 +96,7 @@ TEST_F(FaultsTest, InterruptAndTerminationStopCleanlyAndResumably) {
 // As timeout(1) sends them: one to the program, one to its process group.
 TEST_F(FaultsTest, TwoSignalsAtOnceCountAsOne) {
   const pid_t child = start(run_arguments("stopped", "-j 1"), path("output.txt"));
-  while (!fs::exists(root_ / "stopped" / "results.bin")) {
+  for (int i = 0; i < 5000 && !fs::exists(root_ / "stopped" / "results.bin"); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   for (int i = 0; i < 2; ++i) {
