@@ -1,6 +1,7 @@
 #include "dodge/detect/kalman.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dodge {
 namespace {
@@ -11,7 +12,8 @@ constexpr double kNoDirectionM = 1e-9;
 }  // namespace
 
 Eigen::Matrix3d measurement_covariance(const KalmanConfig& config, const Detection& detection) {
-  const double lateral = config.lateral_sigma_m;
+  const double lateral =
+      std::hypot(config.lateral_sigma_m, config.lateral_size_share * detection.size_m);
   const double along = std::max(detection.depth_sigma_m, config.min_depth_sigma_m);
   const Eigen::Vector3d ray = detection.p_W[5] - detection.p_W[4];
   const double length = ray.norm();

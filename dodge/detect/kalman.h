@@ -14,9 +14,9 @@ struct KalmanConfig {
   double acceleration_noise = 3.0;
   double initial_speed_sigma_mps = 6.0;
   double lateral_sigma_m = 0.02;
+  double lateral_size_share = 0.0;
   double min_depth_sigma_m = 0.02;
   bool gravity = false;
-  std::int64_t correlation_us = 0;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -29,21 +29,21 @@ struct KalmanConfig {
       "throw of the paper.");
     v("lateral_sigma_m", lateral_sigma_m, 1e-4, 10.0,
       "Standard deviation of a detection across the line of sight (R of (23)): about 2 px at 2 m.");
+    v("lateral_size_share", lateral_size_share, 0.0, 1.0,
+      "Adds this share of the detected size to that standard deviation, in squares: the more of "
+      "the background a cluster holds, the less it tells where the object is. Measured over the "
+      "field: 0.1 to 0.2. 0: the same for all, as in the paper.");
     v("min_depth_sigma_m", min_depth_sigma_m, 1e-4, 10.0,
       "Least standard deviation of a detection along the line of sight, whatever the depth stage "
       "claims.");
     v("gravity", gravity,
       "Whether the prediction includes free fall. An extension: the paper's model is constant "
       "velocity, thrown objects fall.");
-    v("correlation_us", correlation_us, 0, 1000000,
-      "Detections nearer in time than this come from windows that share events, and are no "
-      "independent measurements: the variance of one grows by this over the time since the one "
-      "before. 0: taken as independent, as in the paper.");
   }
 };
 
 // R of (23) for a detection [m^2], in W: depth_sigma_m along the line of sight (through the near
-// and the far centre), lateral_sigma_m across it.
+// and the far centre), lateral_sigma_m and lateral_size_share of its size across it.
 Eigen::Matrix3d measurement_covariance(const KalmanConfig& config, const Detection& detection);
 
 // Position and velocity in W, [m] and [m/s].

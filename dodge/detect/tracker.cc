@@ -14,20 +14,11 @@ constexpr double kUsPerSecond = 1e6;
 constexpr double kMinHalfWidthM = 0.01;
 // A lifetime beyond this is for ever.
 constexpr double kLongestLifetimeS = 1e9;
-// No two detections are the same to less than this share.
-constexpr double kLeastNew = 0.01;
 
 bool is_finite(const Detection& detection) {
   return detection.centre_W.allFinite() && std::isfinite(detection.depth_sigma_m) &&
          std::all_of(detection.p_W.begin(), detection.p_W.end(),
                      [](const Eigen::Vector3d& p) { return p.allFinite(); });
-}
-
-// By how much the variance grows of a detection that repeats part of the one before.
-double repetition(const KalmanConfig& config, TimeUs since_us) {
-  if (since_us >= config.correlation_us) return 1;
-  const double fresh = static_cast<double>(since_us) / static_cast<double>(config.correlation_us);
-  return 1 / std::max(fresh, kLeastNew);
 }
 
 }  // namespace
@@ -79,7 +70,7 @@ void Tracker::take_in(std::span<Detection> detections) {
     Detection& detection = detections[i];
     detection.obstacle_id = -1;
     if (!is_finite(detection)) continue;
-    Eigen::Matrix3d R = measurement_covariance(kalman_, detection);
+    const Eigen::Matrix3d R = measurement_covariance(kalman_, detection);
     if (track_of[i] < 0) {
       tracks_.push_back({next_id_++,
                          Kalman(kalman_, detection.t_us, detection.centre_W, R),
@@ -91,7 +82,6 @@ void Tracker::take_in(std::span<Detection> detections) {
       measure(tracks_.back(), detection);
     } else {
       Track& track = tracks_[static_cast<std::size_t>(track_of[i])];
-      R *= repetition(kalman_, detection.t_us - track.last_detection_us);
       track.filter.predict(detection.t_us);
       track.filter.update(detection.centre_W, R);
       measure(track, detection);

@@ -30,7 +30,9 @@ TEST(Presets, LeaveThePaperAsItIs) {
   EXPECT_EQ(paper.window.window_us, 10000);
   EXPECT_EQ(paper.escape.law, "potential_field");
   EXPECT_FALSE(paper.kalman.gravity);
-  EXPECT_EQ(paper.kalman.correlation_us, 0);
+  EXPECT_EQ(paper.kalman.lateral_size_share, 0);
+  EXPECT_EQ(paper.association.widen_sigmas, 0);
+  EXPECT_EQ(paper.cluster.weight_position, 0.2);
 }
 
 TEST(Presets, ThereAreNoOthers) { EXPECT_THROW(preset("oracle"), std::invalid_argument); }

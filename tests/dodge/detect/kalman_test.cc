@@ -249,6 +249,21 @@ TEST(MeasurementCovariance, LiesAlongTheLineOfSight) {
   EXPECT_TRUE(measurement_covariance(config, detection).isApprox(0.01 * Matrix3d::Identity()));
 }
 
+TEST(MeasurementCovariance, GrowsWithTheClusterAcrossTheLineOfSight) {
+  KalmanConfig config;
+  config.lateral_sigma_m = 0.03;
+  config.lateral_size_share = 0.1;
+  Detection detection;
+  detection.p_W.fill(Vector3d::Zero());
+  detection.p_W[5] = Vector3d::UnitX();
+  detection.depth_sigma_m = 0.1;
+  detection.size_m = 0.4;
+  const Vector3d variances = measurement_covariance(config, detection).diagonal();
+  EXPECT_NEAR(variances.x(), 0.01, 1e-12);
+  EXPECT_NEAR(variances.y(), 0.0025, 1e-12);
+  EXPECT_NEAR(variances.z(), 0.0025, 1e-12);
+}
+
 TEST(KalmanConfig, RefusesWhatIsNotADeviation) {
   const auto refused = [](auto change) {
     KalmanConfig config;
@@ -259,6 +274,7 @@ TEST(KalmanConfig, RefusesWhatIsNotADeviation) {
   refused([](KalmanConfig& c) { c.initial_speed_sigma_mps = 0; });
   refused([](KalmanConfig& c) { c.lateral_sigma_m = std::nan(""); });
   refused([](KalmanConfig& c) { c.min_depth_sigma_m = 0; });
+  refused([](KalmanConfig& c) { c.lateral_size_share = -0.1; });
 }
 
 }  // namespace

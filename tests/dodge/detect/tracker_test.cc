@@ -119,26 +119,6 @@ TEST(Tracker, ConfirmsAnObstacleOnlyOnceItsVelocityIsKnownWellEnough) {
   EXPECT_TRUE(tracker.obstacles().at(0).confirmed);
 }
 
-// Standard deviation of the velocity of a ball that was seen for 100 ms.
-double velocity_sigma(TimeUs period_us, TimeUs correlation_us) {
-  KalmanConfig kalman;
-  kalman.correlation_us = correlation_us;
-  kalman.acceleration_noise = 0.1;  // so that the measurements decide
-  Tracker tracker({}, kalman, kLifetimeS);
-  for (TimeUs t_us = 0; t_us <= 100000; t_us += period_us) {
-    update(tracker, t_us, {seen(t_us, {3 - 6e-6 * static_cast<double>(t_us), 0, 0})});
-  }
-  EXPECT_EQ(tracker.obstacles().size(), 1u);
-  return std::sqrt(tracker.obstacles()[0].covariance(3, 3));
-}
-
-TEST(Tracker, LearnsNoMoreFromTheSameEventsSeenTwice) {
-  const double apart = velocity_sigma(20000, 0);
-  EXPECT_LT(velocity_sigma(2000, 0), 0.6 * apart) << "taken as independent";
-  EXPECT_NEAR(velocity_sigma(2000, 20000), apart, 0.25 * apart);
-  EXPECT_NEAR(velocity_sigma(20000, 20000), apart, 1e-12);
-}
-
 TEST(Tracker, RemovesAnObstacleAfterItsLifetime) {
   Tracker tracker({}, {}, kLifetimeS);
   for (int i = 0; i < 3; ++i) update(tracker, 1000 * i, {seen(1000 * i, Vector3d(2, 0, 0))});
