@@ -12,7 +12,7 @@ Config dodgesim() {
   config.cluster.weight_position = 0.6;
   config.position.max_range_m = 5;
   config.association.widen_sigmas = 3;
-  config.association.min_detections = 3;
+  config.association.min_detections = 5;
   config.kalman.gravity = true;
   config.kalman.acceleration_noise = 1;
   config.kalman.lateral_size_share = 0.1;

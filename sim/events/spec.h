@@ -98,12 +98,13 @@ void EventCameraSpec::visit(Visitor& v) {
     "From the change of the light to the request of the pixel (IEBCS: 100). In the time stamp, as "
     "the readout stamps.");
   v("jitter_us", jitter_us, 0, 100000,
-    "Standard deviation of the latency from event to event (IEBCS: 10).");
+    "Standard deviation of the latency from event to event (IEBCS: 10). No event is early: what "
+    "would fall below 0 is 0.");
   v("readout_max_hz", readout_max_hz, 0, 1e9,
     "Events that the readout can serve in a second (assumed). Requests wait in line; a pixel that "
     "waits makes no other event, which is counted as lost. 0: no limit.");
   v("stamp_resolution_us", stamp_resolution_us, 1, 100000,
-    "Time stamps are multiples of this, rounded up.");
+    "Time stamps are multiples of this since the first frame, rounded up.");
 }
 
 struct SamplingSpec {
