@@ -9,7 +9,11 @@
 #include <set>
 #include <vector>
 
+#include "sim/base/error.h"
 #include "sim/config/expand.h"
+#include "sim/config/numbers.h"
+#include "sim/config/pilot.h"
+#include "sim/render/scene_geometry.h"
 #include "sim/world/model_trial.h"
 #include "sim/world/models_digest.h"
 
@@ -23,6 +27,8 @@ constexpr double kTrialSizeM = 0.2;
 struct Trial {
   WorldSpec world;
   std::vector<VehicleStart> starts;
+  double min_thrust_n = 0;  // the greatest idle thrust of a rotor
+  bool seen = false;        // by a pilot's cameras
 };
 
 void add_start(const MissionSpec& mission, std::vector<VehicleStart>& starts) {
@@ -50,7 +56,10 @@ std::vector<Trial> trials_of(const Scenario& campaign) {
       const std::string name = scenario.room + "/" + scenario.vehicle + "/" +
                                std::to_string(o.mass_scale) + "/" + std::to_string(o.max_thrust_n) +
                                "/" + std::to_string(o.inertia_scale);
-      add_start(scenario.mission, trials.try_emplace(name, Trial{world, {}}).first->second.starts);
+      Trial& trial = trials.try_emplace(name, Trial{world, {}}).first->second;
+      add_start(scenario.mission, trial.starts);
+      trial.min_thrust_n = std::max(trial.min_thrust_n, scenario.motors.min_thrust_n);
+      trial.seen |= perceives(scenario.pilot);
       for (const ThrowSpec& spec : scenario.throw_specs()) {
         kinds.insert(spec.object.names.begin(), spec.object.names.end());
       }
@@ -64,10 +73,26 @@ std::vector<Trial> trials_of(const Scenario& campaign) {
   return all;
 }
 
+void check_world(const World& world, const Trial& trial) {
+  const double most_n = world.vehicle().max_thrust_n;
+  if (trial.min_thrust_n >= most_n) {
+    throw ScenarioError("motors.min_thrust_n is " + to_text(trial.min_thrust_n) +
+                        ", but must be less than what a rotor of vehicles/" + trial.world.vehicle +
+                        ".xml gives at most, which is " + to_text(most_n) + " N.");
+  }
+  if (!trial.seen) return;
+  std::vector<int> bodies;
+  for (int i = 0; i < world.object_count(); ++i) bodies.push_back(world.object_body(i));
+  collect_scene(world.model(), bodies, false);
+}
+
 }  // namespace
 
 void try_models(const Scenario& campaign) {
-  for (const Trial& trial : trials_of(campaign)) try_world(trial.world, trial.starts);
+  for (const Trial& trial : trials_of(campaign)) {
+    try_world(trial.world, trial.starts,
+              [&trial](const World& world) { check_world(world, trial); });
+  }
 }
 
 std::string digest_of_models(const Scenario& campaign) {

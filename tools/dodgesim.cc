@@ -1,6 +1,7 @@
 // The program `dodgesim`: a closed-loop simulator of a quadrotor that dodges thrown objects with
 // event cameras.
 #include <iostream>
+#include <new>
 #include <string>
 
 #include "sim/base/error.h"
@@ -81,6 +82,9 @@ int main(int argc, char** argv) {
   } catch (const IoError& error) {
     std::cerr << error.what() << "\n";
     return kIoError;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "dodgesim: there is not enough memory.\n";
+    return kIncomplete;
   } catch (const std::exception& error) {
     std::cerr << "dodgesim: " << error.what() << "\n";
     return kIncomplete;

@@ -37,9 +37,10 @@ void check_start(const VehicleStart& start, World& world, Referee& referee) {
 
 // What is wrong with the models or the starts, or nothing.
 std::string complaint_about(const WorldSpec& spec, const std::vector<VehicleStart>& starts,
-                            const TrialLimits& limits) {
+                            const WorldCheck& check, const TrialLimits& limits) {
   try {
     World world(spec);
+    if (check) check(world);
     Referee referee(world);
     for (const VehicleStart& start : starts) check_start(start, world, referee);
     for (int i = 0; i < world.object_count(); ++i) {
@@ -70,12 +71,12 @@ void limit_memory([[maybe_unused]] int memory_mb) {
 }  // namespace
 
 void try_world(const WorldSpec& spec, const std::vector<VehicleStart>& starts,
-               const TrialLimits& limits) {
+               const WorldCheck& check, const TrialLimits& limits) {
   // First a byte that says whether they are good.
   const ChildAnswer answer = ask_child(
       [&] {
         limit_memory(limits.memory_mb);
-        const std::string complaint = complaint_about(spec, starts, limits);
+        const std::string complaint = complaint_about(spec, starts, check, limits);
         return std::string(1, complaint.empty() ? 1 : 0) + complaint;
       },
       limits.wall_ms);

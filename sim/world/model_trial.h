@@ -2,9 +2,11 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <vector>
 
 #include "sim/world/compose.h"
+#include "sim/world/world.h"
 
 namespace dodgesim {
 
@@ -14,6 +16,9 @@ struct VehicleStart {
   double heading_rad = 0;
 };
 
+// Throws ScenarioError if a world that flies is still no good for what it is meant for.
+using WorldCheck = std::function<void(const World&)>;
+
 struct TrialLimits {
   int wall_ms = 30000;
   int memory_mb = 3072;
@@ -21,10 +26,10 @@ struct TrialLimits {
 
 // Compiles the models in a child process, builds the world and lets it run for some ticks, because
 // MuJoCo may crash, hang or eat up the memory over a broken file. Throws ScenarioError with one
-// sentence if that happens, if the models are no good, or if the vehicle touches the room, or is
-// not in it, at one of the starts; SimulationError if no process can be made. Call before the
-// process has threads or a GL context.
+// sentence if that happens, if the models are no good, if the vehicle touches the room, or is not
+// in it, at one of the starts, or what `check` throws; SimulationError if no process can be made.
+// Call before the process has threads or a GL context.
 void try_world(const WorldSpec& spec, const std::vector<VehicleStart>& starts = {},
-               const TrialLimits& limits = {});
+               const WorldCheck& check = {}, const TrialLimits& limits = {});
 
 }  // namespace dodgesim

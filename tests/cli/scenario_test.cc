@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -143,6 +144,29 @@ TEST_F(ScenarioCommandTest, AMeshThatCrashesMujocoCostsASentenceAndExitCodeTwo) 
     EXPECT_THAT(refused.output, AllOf(HasSubstr("objects/evil.xml"), testing::EndsWith(".\n")));
   }
   EXPECT_FALSE(fs::exists("x"));
+}
+
+TEST_F(ScenarioCommandTest, RoomsThatNoCameraCanSeeAndRotorsThatAreTooWeakAreUsageErrors) {
+  fs::copy(DODGESIM_SOURCE_DIR "/models", root_ / "models", fs::copy_options::recursive);
+  write("models/rooms/hilly.xml",
+        "<mujoco><asset><hfield name='h' nrow='2' ncol='2' size='5 5 1 1'/></asset><worldbody>"
+        "<geom type='hfield' hfield='h'/></worldbody></mujoco>\n");
+  const auto validate = [&](const std::string& settings) {
+    return dodgesim("validate " + path("s.yaml") + " --models " + path("models") + settings);
+  };
+  EXPECT_EQ(validate(" --set room=hilly").exit_code, 0) << "nobody looks at it";
+  const Outcome unseen = validate(" --set room=hilly --set pilot=dodgesim");
+  EXPECT_EQ(unseen.exit_code, 2);
+  EXPECT_THAT(unseen.output, HasSubstr("cannot be seen by an event camera"));
+
+  const std::string strong = contents("models/vehicles/qav_rxl.xml");
+  write("models/vehicles/qav_rxl.xml",
+        std::regex_replace(strong, std::regex("ctrlrange=\"0 [0-9.]+\""), "ctrlrange=\"0 4\""));
+  EXPECT_EQ(validate("").exit_code, 0);
+  const Outcome weak = validate(" --set motors.min_thrust_n=4.5");
+  EXPECT_EQ(weak.exit_code, 2);
+  EXPECT_THAT(weak.output, AllOf(HasSubstr("motors.min_thrust_n is 4.5, but must be less than"),
+                                 HasSubstr("vehicles/qav_rxl.xml")));
 }
 
 TEST_F(ScenarioCommandTest, AVehicleThatCannotFlyIsRefusedBeforeTheCampaign) {

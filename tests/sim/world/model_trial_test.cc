@@ -54,7 +54,7 @@ class ModelTrial : public testing::Test {
   }
   std::string complaint(const TrialLimits& limits = {}) const {
     try {
-      try_world(spec_, {}, limits);
+      try_world(spec_, {}, {}, limits);
     } catch (const ScenarioError& error) {
       return error.what();
     }
