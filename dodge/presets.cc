@@ -9,14 +9,15 @@ namespace {
 Config dodgesim() {
   Config config;
   config.window.window_us = 20000;
-  config.cluster.weight_position = 0.6;
+  config.cluster.weight_position = 0.35;
   config.position.max_range_m = 5;
-  config.association.widen_sigmas = 3;
-  config.association.min_detections = 5;
+  config.association.gate_sigmas = 3;
+  config.association.min_detections = 6;
   config.kalman.gravity = true;
   config.kalman.acceleration_noise = 1;
   config.kalman.lateral_size_share = 0.1;
   config.escape.law = "closest_approach";
+  config.escape.min_speed_mps = 2.5;
   return config;
 }
 

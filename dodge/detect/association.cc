@@ -19,26 +19,28 @@ Associator::Associator(const AssociationConfig& config) : config_(config) {
   taken_.reserve(kUsual);
 }
 
-std::span<const int> Associator::associate(std::span<const Detection> detections,
+// How far apart they are: in metres, or in standard deviations if there is a gate.
+double Associator::distance(const MeasuredPosition& detection,
+                            const PredictedObstacle& obstacle) const {
+  const Eigen::Vector3d offset = detection.p_W - obstacle.p_W;
+  if (config_.gate_sigmas == 0) return offset.norm();
+  return std::sqrt(offset.dot((obstacle.P_W + detection.R_W).llt().solve(offset)));
+}
+
+std::span<const int> Associator::associate(std::span<const MeasuredPosition> detections,
                                            std::span<const PredictedObstacle> obstacles) {
   pairs_.clear();
-  for (std::size_t d = 0; d < detections.size(); ++d) {
-    for (std::size_t o = 0; o < obstacles.size(); ++o) {
-      const Eigen::Vector3d offset = detections[d].centre_W - obstacles[o].p_W;
-      const double distance = offset.norm();
-      double radius = obstacles[o].detections <= 1 ? config_.first_radius_m : config_.radius_m;
-      if (config_.widen_sigmas > 0 && distance > 0) {
-        const Eigen::Vector3d towards = offset / distance;
-        radius += config_.widen_sigmas * std::sqrt(towards.dot(obstacles[o].P_W * towards));
-      }
-      if (distance <= radius) {
-        pairs_.push_back({distance, static_cast<int>(d), static_cast<int>(o)});
-      }
+  for (std::size_t o = 0; o < obstacles.size(); ++o) {
+    const double radius = obstacles[o].detections <= 1 ? config_.first_radius_m : config_.radius_m;
+    const double farthest = config_.gate_sigmas > 0 ? config_.gate_sigmas : radius;
+    for (std::size_t d = 0; d < detections.size(); ++d) {
+      const double apart = distance(detections[d], obstacles[o]);
+      if (apart <= farthest) pairs_.push_back({apart, static_cast<int>(d), static_cast<int>(o)});
     }
   }
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-    return std::tie(a.distance_m, a.detection, a.obstacle) <
-           std::tie(b.distance_m, b.detection, b.obstacle);
+    return std::tie(a.distance, a.detection, a.obstacle) <
+           std::tie(b.distance, b.detection, b.obstacle);
   });
   obstacle_of_.assign(detections.size(), -1);
   taken_.assign(obstacles.size(), 0);

@@ -12,7 +12,7 @@ namespace dodge {
 struct AssociationConfig {
   double first_radius_m = 0.40;
   double radius_m = 0.35;
-  double widen_sigmas = 0.0;
+  double gate_sigmas = 0.0;
   int min_detections = 2;
   double max_velocity_sigma_mps = 1000.0;
   int tentative_timeout_us = 100000;
@@ -24,9 +24,9 @@ struct AssociationConfig {
       "known yet. Not given by the paper; from the authors' group's open code.");
     v("radius_m", radius_m, 1e-3, 100.0,
       "Farthest a detection may be from the predicted position of an obstacle. Same source.");
-    v("widen_sigmas", widen_sigmas, 0.0, 10.0,
-      "Widens both radii by this many standard deviations of the predicted position towards the "
-      "detection. 0 is the paper's fixed sphere.");
+    v("gate_sigmas", gate_sigmas, 0.0, 100.0,
+      "Takes the place of both radii: farthest a detection may be from the predicted position, in "
+      "standard deviations of their difference (Mahalanobis distance). 0: the paper's spheres.");
     v("min_detections", min_detections, 1, 1000,
       "Detections before an obstacle is confirmed, that is, may cause an escape. One is never "
       "enough: it has no velocity.");
@@ -46,6 +46,12 @@ struct PredictedObstacle {
   int detections = 0;                             // so far
 };
 
+// A detection as association sees it.
+struct MeasuredPosition {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]
+  Eigen::Matrix3d R_W = Eigen::Matrix3d::Zero();  // covariance of p_W [m^2]
+};
+
 // One-to-one association, closest pairs first; ties go to the lower detection index, then to the
 // lower obstacle index. Reuses its memory.
 class Associator {
@@ -53,15 +59,17 @@ class Associator {
   explicit Associator(const AssociationConfig& config);
 
   // For each detection the index of its obstacle, or -1. Valid until the next call.
-  std::span<const int> associate(std::span<const Detection> detections,
+  std::span<const int> associate(std::span<const MeasuredPosition> detections,
                                  std::span<const PredictedObstacle> obstacles);
 
  private:
   struct Pair {
-    double distance_m;
+    double distance;  // [m], or in standard deviations
     int detection;
     int obstacle;
   };
+  double distance(const MeasuredPosition& detection, const PredictedObstacle& obstacle) const;
+
   AssociationConfig config_;
   std::vector<Pair> pairs_;
   std::vector<int> obstacle_of_;

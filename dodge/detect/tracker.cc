@@ -41,6 +41,7 @@ Tracker::Tracker(const AssociationConfig& association, const KalmanConfig& kalma
   }
   lifetime_us_ = static_cast<TimeUs>(std::min(lifetime_s, kLongestLifetimeS) * kUsPerSecond);
   tracks_.reserve(kUsualObstacles);
+  measured_.reserve(kUsualObstacles);
   predicted_.reserve(kUsualObstacles);
   obstacles_.reserve(kUsualObstacles);
 }
@@ -65,12 +66,16 @@ void Tracker::take_in(std::span<Detection> detections) {
     predicted_.push_back(
         {filter.position(), filter.covariance().topLeftCorner<3, 3>(), track.detections});
   }
-  const std::span<const int> track_of = associator_.associate(detections, predicted_);
+  measured_.clear();
+  for (const Detection& detection : detections) {
+    measured_.push_back({detection.centre_W, measurement_covariance(kalman_, detection)});
+  }
+  const std::span<const int> track_of = associator_.associate(measured_, predicted_);
   for (std::size_t i = 0; i < detections.size(); ++i) {
     Detection& detection = detections[i];
     detection.obstacle_id = -1;
     if (!is_finite(detection)) continue;
-    const Eigen::Matrix3d R = measurement_covariance(kalman_, detection);
+    const Eigen::Matrix3d& R = measured_[i].R_W;
     if (track_of[i] < 0) {
       tracks_.push_back({next_id_++,
                          Kalman(kalman_, detection.t_us, detection.centre_W, R),

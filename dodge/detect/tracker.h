@@ -62,6 +62,7 @@ class Tracker {
   Associator associator_;
   int next_id_ = 0;
   std::vector<Track> tracks_;
+  std::vector<MeasuredPosition> measured_;
   std::vector<PredictedObstacle> predicted_;
   std::vector<TrackedObstacle> obstacles_;
 };

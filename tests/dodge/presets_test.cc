@@ -31,7 +31,7 @@ TEST(Presets, LeaveThePaperAsItIs) {
   EXPECT_EQ(paper.escape.law, "potential_field");
   EXPECT_FALSE(paper.kalman.gravity);
   EXPECT_EQ(paper.kalman.lateral_size_share, 0);
-  EXPECT_EQ(paper.association.widen_sigmas, 0);
+  EXPECT_EQ(paper.association.gate_sigmas, 0);
   EXPECT_EQ(paper.cluster.weight_position, 0.2);
 }
 

@@ -17,11 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::ElementsAre;
 
-Detection at(double x, double y = 0, double z = 0) {
-  Detection detection;
-  detection.centre_W = Vector3d(x, y, z);
-  return detection;
-}
+MeasuredPosition at(double x, double y = 0, double z = 0) { return {Vector3d(x, y, z), {}}; }
 
 PredictedObstacle obstacle(double x, int detections = 5) {
   PredictedObstacle predicted;
@@ -31,7 +27,7 @@ PredictedObstacle obstacle(double x, int detections = 5) {
 }
 
 std::vector<int> associate(const AssociationConfig& config,
-                           const std::vector<Detection>& detections,
+                           const std::vector<MeasuredPosition>& detections,
                            const std::vector<PredictedObstacle>& obstacles) {
   Associator associator(config);
   const auto result = associator.associate(detections, obstacles);
@@ -62,14 +58,24 @@ TEST(Associator, BreaksTiesByTheLowerIndex) {
   EXPECT_THAT(associate({}, {at(0)}, {obstacle(0.25), obstacle(-0.25)}), ElementsAre(0));
 }
 
-TEST(Associator, WidensTheSphereByTheUncertaintyTowardsTheDetection) {
+TEST(Associator, GatesByTheUncertaintyOfBothTowardsTheDetection) {
   PredictedObstacle uncertain = obstacle(0);
-  uncertain.P_W = Vector3d(0.3 * 0.3, 0.01 * 0.01, 0).asDiagonal();
+  uncertain.P_W = Vector3d(0.16, 0.0001, 0.0001).asDiagonal();
+  const auto measured = [](double x, double y) {
+    MeasuredPosition detection = at(x, y);
+    detection.R_W = Vector3d(0.09, 0.0003, 0.0003).asDiagonal();  // with P: 0.5 m, 0.02 m
+    return detection;
+  };
   AssociationConfig config;
-  EXPECT_THAT(associate(config, {at(0.6)}, {uncertain}), ElementsAre(-1));
-  config.widen_sigmas = 1;  // 0.65 m along x, 0.36 m along y
-  EXPECT_THAT(associate(config, {at(0.6)}, {uncertain}), ElementsAre(0));
-  EXPECT_THAT(associate(config, {at(0, 0.6)}, {uncertain}), ElementsAre(-1));
+  config.gate_sigmas = 3;
+  EXPECT_THAT(associate(config, {measured(1.49, 0)}, {uncertain}), ElementsAre(0));
+  EXPECT_THAT(associate(config, {measured(1.51, 0)}, {uncertain}), ElementsAre(-1));
+  EXPECT_THAT(associate(config, {measured(0, 0.059)}, {uncertain}), ElementsAre(0));
+  EXPECT_THAT(associate(config, {measured(0, 0.061)}, {uncertain}), ElementsAre(-1));
+  EXPECT_THAT(associate(config, {measured(1.3, 0.04)}, {uncertain}), ElementsAre(-1)) << "both";
+  // The nearest is the one of the fewest deviations, not of the fewest metres.
+  EXPECT_THAT(associate(config, {measured(0, 0.05), measured(1, 0)}, {uncertain}),
+              ElementsAre(-1, 0));
 }
 
 TEST(Associator, HasNothingToSayWithoutDetectionsOrObstacles) {
@@ -85,16 +91,16 @@ TEST(Associator, IsOneToOneAndLeavesNoPairThatWouldBothRatherHaveEachOther) {
   Generator random(1);
   const AssociationConfig config;
   for (int k = 0; k < 300; ++k) {
-    std::vector<Detection> detections(random.bits() % 6);
+    std::vector<MeasuredPosition> detections(random.bits() % 6);
     std::vector<PredictedObstacle> obstacles(random.bits() % 6);
-    for (Detection& d : detections) d.centre_W = random.uniform_vector(-0.4, 0.4);
+    for (MeasuredPosition& d : detections) d.p_W = random.uniform_vector(-0.4, 0.4);
     for (PredictedObstacle& o : obstacles) {
       o.p_W = random.uniform_vector(-0.4, 0.4);
       o.detections = 5;
     }
     const std::vector<int> result = associate(config, detections, obstacles);
     const auto distance = [&](std::size_t d, std::size_t o) {
-      return (detections[d].centre_W - obstacles[o].p_W).norm();
+      return (detections[d].p_W - obstacles[o].p_W).norm();
     };
     std::vector<double> detection_has(detections.size(), 1e9), obstacle_has(obstacles.size(), 1e9);
     std::multiset<int> used;
@@ -124,7 +130,7 @@ TEST(AssociationConfig, RefusesRadiiOfZero) {
   refused([](AssociationConfig& c) { c.radius_m = 0; });
   refused([](AssociationConfig& c) { c.first_radius_m = std::nan(""); });
   refused([](AssociationConfig& c) { c.min_detections = 0; });
-  refused([](AssociationConfig& c) { c.widen_sigmas = -1; });
+  refused([](AssociationConfig& c) { c.gate_sigmas = -1; });
 }
 
 }  // namespace
