@@ -39,9 +39,8 @@ struct ClusterConfig {
     v("weight_position", weight_position, 0, 1000,
       "Weight w_p of the distance between rectangles [1/px] in eq. (6); from the authors' group's "
       "open code. With eps 7 it joins groups up to 35 px apart: the two edges of a 20 cm ball that "
-      "crosses at 1.1 m, but also a ball and the edges of a cluttered background. Over the field "
-      "0.35 detects a ball by itself 1.3 times as often and 0.6 1.6 times, but on a flight through "
-      "the room they take the scene for an object 6 and 14 times as often.");
+      "crosses at 1.1 m, but also a ball and the edges of a cluttered background. A greater weight "
+      "sees more of the ball by itself, and takes more of the scene for an object.");
     v("weight_velocity", weight_velocity, 0, 1000,
       "Weight w_v of the velocity difference [1/(px per event window)] in eq. (6).");
     v("weight_rho", weight_rho, 0, 1000, "Weight w_rho of the difference in mean rho in eq. (6).");
