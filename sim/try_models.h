@@ -8,7 +8,8 @@
 namespace dodgesim {
 
 // Tries every room with every vehicle, all objects and every start that the campaign names, in
-// child processes. Throws ScenarioError as try_world() does.
+// child processes. Throws ScenarioError as try_world() does, if a pilot's cameras cannot see all
+// of a room, or if a rotor's idle thrust is not less than its greatest.
 void try_models(const Scenario& campaign);
 
 // Hexadecimal digits that change with these models (models_digest.h). Throws ScenarioError.

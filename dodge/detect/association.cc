@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "dodge/check_ranges.h"
@@ -9,8 +10,9 @@
 namespace dodge {
 
 namespace {
-constexpr std::size_t kUsual = 1024;  // pairs within the radii, detections and obstacles
-}
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kUsual = 1024;  // pairs that fit, detections and obstacles
+}  // namespace
 
 Associator::Associator(const AssociationConfig& config) : config_(config) {
   check_ranges(config, "association.");
@@ -19,28 +21,34 @@ Associator::Associator(const AssociationConfig& config) : config_(config) {
   taken_.reserve(kUsual);
 }
 
-// How far apart they are: in metres, or in standard deviations if there is a gate.
-double Associator::distance(const MeasuredPosition& detection,
-                            const PredictedObstacle& obstacle) const {
+// The least goes together; infinite for a pair that does not. In the spheres it is the distance.
+// With a gate it is -2 ln of the density of the offset, less a constant: by deviations alone, what
+// is known worst would be nearest to everything.
+double Associator::cost(const MeasuredPosition& detection,
+                        const PredictedObstacle& obstacle) const {
   const Eigen::Vector3d offset = detection.p_W - obstacle.p_W;
-  if (config_.gate_sigmas == 0) return offset.norm();
-  return std::sqrt(offset.dot((obstacle.P_W + detection.R_W).llt().solve(offset)));
+  if (config_.gate_sigmas > 0) {
+    const Eigen::Matrix3d S = obstacle.P_W + detection.R_W;
+    const double sigmas_squared = offset.dot(S.llt().solve(offset));
+    const bool fits = sigmas_squared <= config_.gate_sigmas * config_.gate_sigmas;
+    return fits ? sigmas_squared + std::log(S.determinant()) : kInfinity;
+  }
+  const double radius = obstacle.detections <= 1 ? config_.first_radius_m : config_.radius_m;
+  const double distance = offset.norm();
+  return distance <= radius ? distance : kInfinity;
 }
 
 std::span<const int> Associator::associate(std::span<const MeasuredPosition> detections,
                                            std::span<const PredictedObstacle> obstacles) {
   pairs_.clear();
   for (std::size_t o = 0; o < obstacles.size(); ++o) {
-    const double radius = obstacles[o].detections <= 1 ? config_.first_radius_m : config_.radius_m;
-    const double farthest = config_.gate_sigmas > 0 ? config_.gate_sigmas : radius;
     for (std::size_t d = 0; d < detections.size(); ++d) {
-      const double apart = distance(detections[d], obstacles[o]);
-      if (apart <= farthest) pairs_.push_back({apart, static_cast<int>(d), static_cast<int>(o)});
+      const double c = cost(detections[d], obstacles[o]);
+      if (c < kInfinity) pairs_.push_back({c, static_cast<int>(d), static_cast<int>(o)});
     }
   }
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-    return std::tie(a.distance, a.detection, a.obstacle) <
-           std::tie(b.distance, b.detection, b.obstacle);
+    return std::tie(a.cost, a.detection, a.obstacle) < std::tie(b.cost, b.detection, b.obstacle);
   });
   obstacle_of_.assign(detections.size(), -1);
   taken_.assign(obstacles.size(), 0);

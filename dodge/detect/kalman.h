@@ -31,8 +31,8 @@ struct KalmanConfig {
       "Standard deviation of a detection across the line of sight (R of (23)): about 2 px at 2 m.");
     v("lateral_size_share", lateral_size_share, 0.0, 1.0,
       "Adds this share of the detected size to that standard deviation, in squares: the more of "
-      "the background a cluster holds, the less it tells where the object is. Measured over the "
-      "field: 0.1 to 0.2. 0: the same for all, as in the paper.");
+      "the background a cluster holds, the less it tells where the object is. 0: the same for "
+      "all, as in the paper.");
     v("min_depth_sigma_m", min_depth_sigma_m, 1e-4, 10.0,
       "Least standard deviation of a detection along the line of sight, whatever the depth stage "
       "claims.");

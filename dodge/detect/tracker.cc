@@ -17,6 +17,7 @@ constexpr double kLongestLifetimeS = 1e9;
 
 bool is_finite(const Detection& detection) {
   return detection.centre_W.allFinite() && std::isfinite(detection.depth_sigma_m) &&
+         std::isfinite(detection.size_m) &&
          std::all_of(detection.p_W.begin(), detection.p_W.end(),
                      [](const Eigen::Vector3d& p) { return p.allFinite(); });
 }

@@ -106,7 +106,7 @@ std::vector<BenchCase> renderer_cases() {
   }
   bench.quantities.push_back(
       {"renderer.near_ball", "ms",
-       "a ball of 20 cm is drawn over it, 0.4 m from the vehicle instead of 1.5 m"});
+       "a ball of 20 cm is drawn over the whole picture, 0.4 m from the vehicle instead of 1.5 m"});
   bench.prepare = [sides](const BenchOptions& options) -> BenchRun {
     auto view = std::make_shared<View>(options.models_dir);
     return [view, sides] {

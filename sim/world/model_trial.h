@@ -16,7 +16,7 @@ struct VehicleStart {
   double heading_rad = 0;
 };
 
-// Throws ScenarioError if a world that flies is still no good for what it is meant for.
+// Throws ScenarioError if a world that can be built is still no good for what it is meant for.
 using WorldCheck = std::function<void(const World&)>;
 
 struct TrialLimits {

@@ -17,7 +17,9 @@ namespace {
 using Eigen::Vector3d;
 using testing::ElementsAre;
 
-MeasuredPosition at(double x, double y = 0, double z = 0) { return {Vector3d(x, y, z), {}}; }
+MeasuredPosition at(double x, double y = 0, double z = 0) {
+  return {Vector3d(x, y, z), Eigen::Matrix3d::Zero()};
+}
 
 PredictedObstacle obstacle(double x, int detections = 5) {
   PredictedObstacle predicted;
@@ -73,9 +75,21 @@ TEST(Associator, GatesByTheUncertaintyOfBothTowardsTheDetection) {
   EXPECT_THAT(associate(config, {measured(0, 0.059)}, {uncertain}), ElementsAre(0));
   EXPECT_THAT(associate(config, {measured(0, 0.061)}, {uncertain}), ElementsAre(-1));
   EXPECT_THAT(associate(config, {measured(1.3, 0.04)}, {uncertain}), ElementsAre(-1)) << "both";
-  // The nearest is the one of the fewest deviations, not of the fewest metres.
+  // Of two as uncertain, the nearest is that of the fewer deviations, not of the fewer metres.
   EXPECT_THAT(associate(config, {measured(0, 0.05), measured(1, 0)}, {uncertain}),
               ElementsAre(-1, 0));
+}
+
+TEST(Associator, GivesADetectionToTheLikelierObstacleNotToTheVaguer) {
+  PredictedObstacle known = obstacle(0), vague = obstacle(0.5);
+  known.P_W = 0.0004 * Eigen::Matrix3d::Identity();  // 0.02 m
+  vague.P_W = 0.09 * Eigen::Matrix3d::Identity();    // 0.3 m
+  AssociationConfig config;
+  config.gate_sigmas = 3;
+  // 2 deviations from the known, 1.5 from the vague, where it is 1500 times less likely.
+  EXPECT_THAT(associate(config, {at(0.04)}, {known, vague}), ElementsAre(0));
+  EXPECT_THAT(associate(config, {at(0.04)}, {vague, known}), ElementsAre(1));
+  EXPECT_THAT(associate(config, {at(0.07)}, {known, vague}), ElementsAre(1)) << "outside the gate";
 }
 
 TEST(Associator, HasNothingToSayWithoutDetectionsOrObstacles) {

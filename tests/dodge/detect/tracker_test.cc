@@ -160,11 +160,13 @@ TEST(Tracker, TakesOneObstacleFromTwoCameras) {
 
 TEST(Tracker, IgnoresDetectionsThatAreNotFinite) {
   Tracker tracker({}, {}, kLifetimeS);
-  Detection bad_centre = seen(0, Vector3d(2, 0, 0)), bad_point = bad_centre, bad_sigma = bad_centre;
+  Detection bad_centre = seen(0, Vector3d(2, 0, 0)), bad_point = bad_centre, bad_sigma = bad_centre,
+            bad_size = bad_centre;
   bad_centre.centre_W.x() = std::nan("");
   bad_point.p_W[3].y() = INFINITY;
   bad_sigma.depth_sigma_m = std::nan("");
-  std::vector<Detection> detections = {bad_centre, bad_point, bad_sigma};
+  bad_size.size_m = std::nan("");
+  std::vector<Detection> detections = {bad_centre, bad_point, bad_sigma, bad_size};
   for (Detection& detection : detections) detection.obstacle_id = 7;
   tracker.update(0, detections);
   EXPECT_TRUE(tracker.obstacles().empty());
