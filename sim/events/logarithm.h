@@ -12,11 +12,17 @@ namespace dodgesim {
 inline double natural_log(double x) {
   constexpr std::uint64_t kSqrtHalf = 0x3fe6a09e667f3bcdu;
   constexpr std::uint64_t kExponentMask = 0xfff0000000000000u;
+  constexpr std::uint64_t kSign = 0x8000000000000000u;
+  constexpr double kTwo52 = 4503599627370496.0;            // its lowest bit counts ones
   constexpr double kLn2High = 6.93147180369123816490e-01;  // 33 bits: k * kLn2High is exact
   constexpr double kLn2Low = 1.90821492927058770002e-10;
   const auto bits = std::bit_cast<std::uint64_t>(x);
   const std::uint64_t offset = bits - kSqrtHalf;
-  const auto k = static_cast<double>(static_cast<std::int64_t>(offset) >> 52);
+  // Of 64-bit integers AVX2 has no arithmetic shift and no conversion: k + 2048 is put into the
+  // low bits of 2^52.
+  const std::uint64_t k_2048 = (offset ^ kSign) >> 52;
+  const double k =
+      std::bit_cast<double>(std::bit_cast<std::uint64_t>(kTwo52) | k_2048) - (kTwo52 + 2048);
   const double m = std::bit_cast<double>(bits - (offset & kExponentMask));
   const double s = (m - 1) / (m + 1);
   const double z = s * s;  // at most 0.0295: ten terms of the series reach 2e-17
