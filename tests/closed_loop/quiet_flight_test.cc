@@ -6,15 +6,14 @@
 namespace dodgesim {
 namespace {
 
-// Flying through the room to a goal; `dodger`: keys of the pilot.
+// In a flight to a goal in the room; `dodger`: keys of the pilot.
 bool evades_the_room(const std::string& pilot, int seed, int flight, const std::string& dodger) {
-  const Scenario s =
-      scenario("pilot: " + pilot + "\nseed: " + std::to_string(seed) +
-               "\nrepeats: 100\n"
-               "mission: {type: goal, start_m: [-4, 0, 2], goal_m: [4, 0.5, 2], speed_mps: 1.5}\n"
-               "duration_s: 6\n"
-               "dodger: " +
-               dodger + "\n");
+  const std::string root = DODGESIM_SOURCE_DIR;
+  const Scenario s = load_scenario(root + "/scenarios/quiet_goal_flight.yaml", root + "/models",
+                                   {{"pilot", pilot, ""},
+                                    {"seed", std::to_string(seed), ""},
+                                    {"repeats", "100", ""},
+                                    {"dodger", dodger, ""}});
   return fly_throw(s, flight).evaded;
 }
 
