@@ -7,19 +7,21 @@
 #include <set>
 #include <sstream>
 
-#include "sim/base/random.h"
-#include "tests/cli/program.h"
-#include "tests/sim/files/video_files.h"
+#include "tests/cli/emulate_command.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-using dodgesim::RandomStream;
 using dodgesim::testing::contents;
-using dodgesim::testing::dodgesim;
+using dodgesim::testing::EmulateCommandTest;
+using dodgesim::testing::Film;
+using dodgesim::testing::kHeight;
+using dodgesim::testing::kPixels;
+using dodgesim::testing::kWidth;
 using dodgesim::testing::npy_array;
 using dodgesim::testing::Outcome;
 using dodgesim::testing::put;
+using dodgesim::testing::random_film;
 using testing::ContainsRegex;
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -27,38 +29,11 @@ using testing::MatchesRegex;
 using testing::Not;
 using testing::StartsWith;
 
-constexpr int kWidth = 19;
-constexpr int kHeight = 7;
-constexpr std::size_t kPixels = kWidth * kHeight;
-
 struct Event {
   double t_us = 0;
   int x = 0, y = 0, p = 0;
 };
 using EventsByPixel = std::map<std::pair<int, int>, std::vector<Event>>;  // (y, x)
-
-struct Film {
-  std::vector<std::int64_t> times;
-  std::vector<float> luminance;
-};
-
-// Random walks of ln(I), steps and gentle slopes among them, at uneven instants.
-Film random_film(std::size_t frames, std::int64_t start_us) {
-  RandomStream random(4, 0, "film");
-  Film film;
-  std::vector<double> l(kPixels, -1);
-  std::int64_t t_us = start_us;
-  for (std::size_t n = 0; n < frames; ++n) {
-    film.times.push_back(t_us);
-    t_us += 1 + static_cast<std::int64_t>(random.uniform(0, 2500));
-    for (double& value : l) {
-      value += random.uniform() < 0.05 ? random.uniform(-3, 3) : random.uniform(-0.15, 0.15);
-      value = std::clamp(value, -9.0, 3.0);
-      film.luminance.push_back(static_cast<float>(std::exp(value)));
-    }
-  }
-  return film;
-}
 
 // The same film as it would stand in a file of bytes. No pixel comes back to its first value, which
 // is a whole number of thresholds from its reference: rounding would decide on that event.
@@ -108,33 +83,8 @@ std::size_t count(const EventsByPixel& events) {
   return n;
 }
 
-class EmulateTest : public testing::Test {
+class EmulateTest : public EmulateCommandTest {
  protected:
-  EmulateTest() {
-    write(film_);
-    out_ = (root_ / "events.txt").string();
-  }
-
-  void write(const Film& film) const {
-    put(root_ / "f.npy", npy_array("<f4", film.luminance, kHeight, kWidth));
-    put(root_ / "t.npy", npy_array("<i8", film.times));
-  }
-
-  // With the files of the film, unless others are named.
-  Outcome emulate(const std::string& options) const {
-    return dodgesim("emulate " + (root_ / "f.npy").string() + " --timestamps " +
-                    (root_ / "t.npy").string() + " " + options);
-  }
-  Outcome ideal() const { return emulate("--camera ideal --out " + out_); }
-
-  void expect_refused(const Outcome& outcome, int exit_code, const std::string& message) const {
-    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr(message));
-    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
-    EXPECT_FALSE(fs::exists(out_));
-    EXPECT_FALSE(fs::exists(out_ + ".partial"));
-  }
-
   // The ideal camera makes these events of the files.
   void expect_events(const EventsByPixel& expected) const {
     const Outcome outcome = ideal();
@@ -162,10 +112,6 @@ class EmulateTest : public testing::Test {
       }
     }
   }
-
-  dodgesim::testing::TemporaryDirectory root_;
-  const Film film_ = random_film(100, 1600000000000000);
-  std::string out_;
 };
 
 TEST_F(EmulateTest, TheIdealCameraMakesExactlyTheCrossings) {
@@ -299,89 +245,6 @@ TEST_F(EmulateTest, EveryEventIsWrittenLostOrNotYetOut) {
         << summary;
   }
   EXPECT_GT(all, 1000);
-}
-
-TEST_F(EmulateTest, RefusesBadCamerasWithFileLineAndKey) {
-  const std::string path = (root_ / "camera.yaml").string();
-  const auto refused = [&](const std::string& yaml) {
-    put(path, yaml);
-    const Outcome outcome = emulate("--camera " + path + " --out " + out_);
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_FALSE(fs::exists(out_));
-    return outcome.output;
-  };
-  EXPECT_EQ(refused("contrast_threshold_on: 99\n"),
-            path + ":1:24: contrast_threshold_on is 99, but must be between 0.01 and 10.\n");
-  EXPECT_EQ(refused("# mine\nrefractory: 5\n"),
-            path + ":2:1: refractory is not a known key; did you mean refractory_us?\n");
-  EXPECT_EQ(refused("mismatch_sigma: much\n"),
-            path + ":1:17: mismatch_sigma is \"much\", but must be a number between 0 and 1.\n");
-  EXPECT_THAT(refused("- 1\n"), StartsWith(path + ":1:1: The file must be a map of keys"));
-  EXPECT_EQ(refused(""), path + ": The file is empty.\n");
-  expect_refused(emulate("--camera sees --out " + out_), 2, "did you mean sees1?");
-  expect_refused(emulate("--camera davis --out " + out_), 2,
-                 "There is no event camera \"davis\"; known are sees1, ideal, noisy, low_light, "
-                 "and files that end");
-  expect_refused(emulate("--camera none.yaml --out " + out_), 2, "There is no such file.");
-}
-
-TEST_F(EmulateTest, RefusesBadVideosWithOneSentence) {
-  const std::string good = contents(root_ / "f.npy");
-  put(root_ / "f.npy", good.substr(0, good.size() - 1));
-  expect_refused(ideal(), 2, "f.npy is truncated: ");
-  put(root_ / "f.npy", good + "x");
-  expect_refused(ideal(), 2, "f.npy holds 1 bytes too many: ");
-  Film film = film_;
-  film.times.back() = film.times.front();
-  write(film);
-  expect_refused(ideal(), 2, "t.npy does not increase: ");
-  film = film_;
-  film.times.pop_back();
-  write(film);
-  expect_refused(ideal(), 2, "t.npy has the shape (99,), but ");
-  film = film_;
-  film.luminance[57 * kPixels] = -1;  // when many events have been written
-  write(film);
-  expect_refused(ideal(), 2, " in frame 57, row 0, column 0, but luminance must be finite");
-  film = random_film(1, 0);
-  write(film);
-  expect_refused(ideal(), 2, "events need at least two frames");
-}
-
-TEST_F(EmulateTest, RefusesWhatHdf5CannotHold) {
-  Film film = random_film(6, 0);
-  for (std::size_t n = 0; n < 6; ++n) {
-    film.times[n] = static_cast<std::int64_t>(n) * 1000000000;  // 83 minutes in all
-  }
-  write(film);
-  out_ = (root_ / "events.h5").string();
-  expect_refused(ideal(), 2, "cannot hold the recording of 5000000000 us");
-  out_ = (root_ / "events.npy").string();
-  EXPECT_EQ(ideal().exit_code, 0);
-}
-
-TEST_F(EmulateTest, ReportsFilesThatCannotBeReadOrWrittenWithExitCode4) {
-  const std::string full = out_ + ".partial";
-  fs::create_symlink("/dev/full", full);
-  expect_refused(ideal(), 4, "events.txt could not be written: No space left on device.");
-  out_ = (root_ / "no/such/events.h5").string();
-  expect_refused(ideal(), 4, "events.h5 could not be created: No such file or directory.");
-  fs::remove(root_ / "f.npy");
-  expect_refused(ideal(), 4, "f.npy could not be opened: No such file or directory.");
-}
-
-TEST_F(EmulateTest, DoesNotOverwriteItsInput) {
-  const std::string before = contents(root_ / "t.npy");
-  // The second name is taken while the file is being written.
-  for (const char* times : {"t.npy", "events.npy.partial"}) {
-    const std::string input = put(root_ / times, before);
-    const std::string out = (root_ / (times == std::string("t.npy") ? times : "events.npy"));
-    const Outcome outcome = dodgesim("emulate " + (root_ / "f.npy").string() + " --timestamps " +
-                                     input + " --camera ideal --out " + out);
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.output, HasSubstr("would overwrite the input"));
-    EXPECT_EQ(contents(input), before);
-  }
 }
 
 TEST_F(EmulateTest, WritesValidFilesWithoutEvents) {
