@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "dodge/dodger.h"
+#include "sim/base/error.h"
 #include "sim/world/room_ray.h"
 
 namespace dodgesim {
@@ -25,6 +27,18 @@ double seconds_since(WallClock::time_point start) {
 ImuSpec every_tick(ImuSpec spec) {
   spec.rate_hz = static_cast<int>(1000000 / kTickUs);
   return spec;
+}
+
+// An object that starts inside something would be pushed away by forces that no throw has.
+void expect_free_launch(const World& world, std::size_t object) {
+  const auto overlap = world.overlap(static_cast<int>(object));
+  if (!overlap) return;
+  std::ostringstream message;
+  message << "Object " << object << " would be launched at " << seconds(world.snapshot().t_us)
+          << " s where it is " << overlap->depth_m << " m inside " << overlap->with
+          << ": change where (throw.distance_m, bearing_deg, launch_height_m) or when (launch_s, "
+             "interval_s).";
+  throw SimulationError(message.str());
 }
 
 std::array<double, 3> to_array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -170,6 +184,7 @@ void Flight::move() {
   for (std::size_t i = 0; i < plan_.launches.size(); ++i) {
     if (plan_.launches[i].toss.launch_us != start_us) continue;
     world_.launch(static_cast<int>(i), plan_.launches[i].state);
+    expect_free_launch(world_, i);
     launched = true;
   }
   if (launched && rig_) rig_->rebase();

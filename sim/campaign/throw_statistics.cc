@@ -111,7 +111,9 @@ ThrowStatistics statistics_of(const Results& results, const std::string& pilot) 
   sum.pilots[1].pilot = "oracle";
   sum.pilots[2].pilot = "none";
   for (const ThrowResult* result : results) {
-    sum.oracle_flew = sum.oracle_flew || result->oracle.status != "not flown";
+    // Not beside itself.
+    sum.oracle_flew =
+        sum.oracle_flew || (pilot != "oracle" && result->oracle.status != "not flown");
     add_flight(*result, &ThrowResult::flown, sum.pilots[0]);
     add_flight(*result, &ThrowResult::oracle, sum.pilots[1]);
     add_flight(*result, &ThrowResult::none, sum.pilots[2]);

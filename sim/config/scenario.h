@@ -129,7 +129,9 @@ struct ThrowSpec {
     v("count", count, 1, 16,
       "How many of these are thrown in one flight, each with draws of its own.");
     v("interval_s", interval_s, 0, 60,
-      "From one of their launches to the next; 0: all at once, at launch_s of the first.");
+      "From one of their launches to the next; 0: all at once, at launch_s of the first, "
+      "which takes places of their own (bearing_deg, aim_offset_m): inside each other they are not "
+      "launched.");
   }
 };
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "sim/base/error.h"
+#include "sim/files/input_file.h"
 
 namespace dodgesim {
 
@@ -103,12 +105,23 @@ bool same_object(const DrawnObject& a, const DrawnObject& b) {
                                         b.numbers.end(), same_number);
 }
 
+// What the manifest does not say, or does not exist to say, is not known.
+std::optional<std::uint64_t> seed_of(const fs::path& manifest) {
+  if (!fs::exists(manifest)) return std::nullopt;
+  const auto json = nlohmann::json::parse(read_file(manifest), nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  const auto seed = json.value(nlohmann::json::json_pointer("/campaign/seed"), nlohmann::json());
+  if (!seed.is_number_unsigned()) return std::nullopt;
+  return seed.get<std::uint64_t>();
+}
+
 }  // namespace
 
 CampaignTables read_tables(const fs::path& directory) {
   CampaignTables tables{CsvTable(directory / "throws.csv")};
   const fs::path objects = directory / "objects.csv";
   if (fs::exists(objects)) tables.objects.emplace(objects);
+  tables.seed = seed_of(directory / "manifest.json");
   return tables;
 }
 
@@ -132,6 +145,7 @@ std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign) {
     if (throws.has("sweep")) out.sweep = throws.integer(row, "sweep");
     out.label = label_of(throws, row);
     out.draw = draws.of_throw(row, out.number);
+    out.seed = campaign.seed;
     judge(throws, row, out);
     all.push_back(std::move(out));
   }
@@ -139,6 +153,7 @@ std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign) {
 }
 
 bool same_throw(const ThrowOutcome& a, const ThrowOutcome& b) {
+  if (a.seed && b.seed && *a.seed != *b.seed) return false;
   return std::equal(a.draw.begin(), a.draw.end(), b.draw.begin(), b.draw.end(), same_object);
 }
 

@@ -1,6 +1,7 @@
 // What became of the throws of a campaign, from its tables.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -12,10 +13,11 @@ namespace dodgesim {
 
 struct CampaignTables {
   CsvTable throws;
-  std::optional<CsvTable> objects = std::nullopt;  // needed where a throw has several objects
+  std::optional<CsvTable> objects = std::nullopt;    // needed where a throw has several objects
+  std::optional<std::uint64_t> seed = std::nullopt;  // the campaign's, if it is known
 };
 
-// throws.csv and, if it is there, objects.csv. Throws IoError.
+// throws.csv and, if they are there, objects.csv and the seed of manifest.json. Throws IoError.
 CampaignTables read_tables(const std::filesystem::path& directory);
 
 // One object of a throw, as drawn before anything flies.
@@ -26,10 +28,11 @@ struct DrawnObject {
 
 struct ThrowOutcome {
   int number = 0;
-  int sweep = 0;                  // number of the sweep value
-  std::string label;              // "0.2 m ball, 5.1 m/s from 3.2 m", or "quiet flight"
-  std::vector<DrawnObject> draw;  // empty: nobody threw
-  bool counts = false;            // it would have hit, or nobody threw
+  int sweep = 0;                      // number of the sweep value
+  std::string label;                  // "0.2 m ball, 5.1 m/s from 3.2 m", or "quiet flight"
+  std::vector<DrawnObject> draw;      // empty: nobody threw
+  std::optional<std::uint64_t> seed;  // of the noise, too
+  bool counts = false;                // it would have hit, or nobody threw
   // Neither hit nor crashed, nor given up on with a landing; without a throw, no dodge either.
   bool success = false;
   std::string what;  // "dodged", "hit", "crashed", "landed", "evaded nothing", "error: ..."
@@ -42,8 +45,9 @@ bool is_drawn(const std::string& column);
 // an object of a throw is missing, a number is none, or throws are not in order.
 std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign);
 
-// Whether everything was drawn alike, for all objects: kinds are equal, and numbers within 1e-9 of
-// the larger one (of 1, if that is more), because their last digits depend on the machine's libm.
+// Whether everything was drawn alike, with the same seed as far as it is known: kinds are equal,
+// and numbers within 1e-9 of the larger one (of 1, if that is more), because their last digits
+// depend on the machine's libm.
 bool same_throw(const ThrowOutcome& a, const ThrowOutcome& b);
 
 }  // namespace dodgesim

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/base/error.h"
+#include "sim/world/room_ray.h"
 
 namespace dodgesim {
 
@@ -207,6 +208,27 @@ void World::launch(int i, const BodyState& state) {
   object_a_W_[index] = Eigen::Vector3d(0, 0, -kGravityMps2);
   update_positions();
   fill_snapshot();
+}
+
+std::optional<Overlap> World::overlap(int i) const {
+  constexpr double kSinksInM = 1e-3;
+  for (int k = 0; k < data_->ncon; ++k) {
+    const mjContact& contact = data_->contact[k];
+    const bool first = model_->geom_bodyid[contact.geom1] == object_body(i);
+    const bool second = model_->geom_bodyid[contact.geom2] == object_body(i);
+    if ((!first && !second) || contact.dist > -kSinksInM) continue;
+    return Overlap{owner_of(first ? contact.geom2 : contact.geom1), -contact.dist};
+  }
+  return std::nullopt;
+}
+
+std::string World::owner_of(int geom) const {
+  const int body = model_->geom_bodyid[geom];
+  for (int i = 0; i < object_count(); ++i) {
+    if (body == object_body(i)) return "object " + std::to_string(i);
+  }
+  if (body == vehicle_body_) return "the vehicle";
+  return "the room's \"" + geom_name(*this, geom) + "\"";
 }
 
 void World::step(const std::array<double, 4>& rotor_thrust_n) {

@@ -8,6 +8,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "sim/base/gravity.h"
@@ -28,6 +29,12 @@ struct ObjectPhysics {
   double bounding_radius_m = 0;  // of the sphere about its centre of mass that encloses it
 };
 
+// Where two bodies are in each other.
+struct Overlap {
+  std::string with;  // "object 0", "the vehicle", "the room's \"floor\""
+  double depth_m = 0;
+};
+
 class World {
  public:
   // Throws ScenarioError with one sentence that names the file.
@@ -43,6 +50,9 @@ class World {
 
   // Object i flies free from now on. It may be launched again.
   void launch(int i, const BodyState& state);
+
+  // What object i is inside by more than a body that rests sinks in, now; nothing if it is free.
+  std::optional<Overlap> overlap(int i) const;
 
   // One tick. Thrusts are held over it and clipped to [0, max_thrust_n]. Throws SimulationError
   // when the state diverges; the world must then be reset.
@@ -81,6 +91,7 @@ class World {
   BodyState state(const FreeBody& body) const;
   void set_state(const FreeBody& body, const BodyState& state);
   void set_collisions(int i, bool on);
+  std::string owner_of(int geom) const;
   void update_positions();
   void apply_drag();
   void integrate(const FreeBody& body);

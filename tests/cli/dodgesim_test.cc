@@ -78,6 +78,16 @@ TEST_F(DodgesimTest, RefusesBadCommandLinesWithExitCode2) {
   }
 }
 
+TEST_F(DodgesimTest, RefusesNumbersOutOfAnOptionsRangeWithTheRange) {
+  for (const char* margin : {"nan", "1", "-0.1", "0.5x"}) {
+    EXPECT_THAT(dodgesim("gate s.yaml --baseline b --out d --margin " + std::string(margin)).output,
+                HasSubstr("--margin: " + std::string(margin) +
+                          " was given, but must be a number between 0 and 0.99\n"));
+  }
+  EXPECT_THAT(dodgesim("replay d --throw -1").output,
+              HasSubstr("-1 was given, but must be a whole number between 0 and 2147483647\n"));
+}
+
 TEST_F(DodgesimTest, HelpTeachesWithExamples) {
   const Outcome help = dodgesim("--help");
   EXPECT_EQ(help.exit_code, 0);

@@ -23,7 +23,7 @@ class GateCommandTest : public dodgesim::testing::CommandTest {
   GateCommandTest() {
     write("s.yaml",
           "seed: 3\nrepeats: 3\npilot: none\nfly_oracle: false\nafter_s: 0.1\n"
-          "throws: [{launch_s: 0.1}, {count: 2, speed_mps: !uniform [5, 8]}]\n");
+          "throws: [{launch_s: 0.1}, {count: 2, interval_s: 0.5, speed_mps: !uniform [5, 8]}]\n");
   }
 
   Outcome gate(const std::string& options = "") const {
@@ -152,6 +152,17 @@ TEST_F(GateCommandTest, CompareSaysWhichThrowsItLeavesOut) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, AllOf(HasSubstr("of the same throws"),
                                     HasSubstr("because only one campaign has them: throws 2\n")));
+}
+
+TEST_F(GateCommandTest, CompareDoesNotPairFlightsOfDifferentSeeds) {
+  write("quiet.yaml", "pilot: none\nfly_oracle: false\nduration_s: 0.1\nrepeats: 2\n");
+  const std::string run = "run " + path("quiet.yaml") + " --out ";
+  ASSERT_EQ(dodgesim(run + path("one")).exit_code, 0);
+  ASSERT_EQ(dodgesim(run + path("other") + " --seed 2").exit_code, 0);
+  EXPECT_THAT(dodgesim("compare " + path("one") + " " + path("one")).output,
+              HasSubstr("of the same throws"));
+  EXPECT_THAT(dodgesim("compare " + path("one") + " " + path("other")).output,
+              HasSubstr("of different throws"));
 }
 
 }  // namespace

@@ -117,7 +117,8 @@ TEST_F(ScenarioCommandTest, ASweepFliesTheSameThrowsAndItsTablesStayApart) {
 }
 
 TEST_F(ScenarioCommandTest, EveryObjectHasARow) {
-  write("two.yaml", "extends: s.yaml\nthrow: ~\nthrows: [{launch_s: 0.1}, {count: 2}]\n");
+  write("two.yaml",
+        "extends: s.yaml\nthrow: ~\nthrows: [{launch_s: 0.1}, {count: 2, interval_s: 0.2}]\n");
   const Outcome run = dodgesim("run " + path("two.yaml") + " --out " + path("two"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
   EXPECT_EQ(column("two/throws.csv", "objects"), (std::vector<std::string>{"3", "3"}));

@@ -8,6 +8,7 @@ namespace dodgesim {
 namespace {
 
 using Eigen::Vector3d;
+using testing::HasSubstr;
 
 FlightRecord fly_none(const Scenario& scenario, FlightPlan plan) {
   plan.pilot = "none";
@@ -79,6 +80,36 @@ TEST(SeveralObjects, AHitByASecondOneIsAHit) {
   EXPECT_FALSE(result.object_rows[0].none_hit);
   EXPECT_TRUE(result.object_rows[1].none_hit);
   EXPECT_EQ(result.object_rows[1].hit_us, result.flown.hit_us);
+}
+
+// Contact forces between bodies inside each other would throw them faster than was asked for.
+TEST(SeveralObjects, DoNotStartInsideEachOther) {
+  const auto flown = [](const std::string& keys) {
+    return fly_throw(scenario("pilot: none\nfly_oracle: false\nroom: field\nafter_s: 0.1\n"
+                              "throw: {size_m: 0.2, distance_m: 3, launch_s: 0.1, " +
+                              keys + "}\n"),
+                     0)
+        .flown;
+  };
+  const FlightResult alone = flown("count: 1");
+  ASSERT_TRUE(alone.hit);
+  EXPECT_THAT(flown("count: 2").error,
+              HasSubstr("Object 1 would be launched at 0.1 s where it is 0.2 m inside object 0: "));
+  EXPECT_THAT(flown("count: 2, interval_s: 0.02").error, HasSubstr("inside object 0"));
+  EXPECT_EQ(flown("count: 2, interval_s: 0.05").hit_us, alone.hit_us);
+}
+
+TEST(SeveralObjects, DoNotStartInsideTheRoom) {
+  const auto flown = [](const std::string& keys) {
+    return fly_throw(scenario("pilot: none\nfly_oracle: false\nafter_s: 0.1\n"
+                              "throw: {launch_s: 0.1, " +
+                              keys + "}\n"),
+                     0)
+        .flown;
+  };
+  EXPECT_THAT(flown("size_m: 0.4, launch_height_m: 0.15").error,
+              HasSubstr("0.05 m inside the room's"));
+  EXPECT_TRUE(flown("size_m: 0.4, launch_height_m: 0.25").ok());
 }
 
 TEST(SeveralObjects, TheOracleSeesThemAll) {

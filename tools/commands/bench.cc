@@ -66,11 +66,11 @@ void add_bench_command(CLI::App& program, const std::string& command_line, int& 
   command
       ->add_option("--runs", arguments->options.runs,
                    "Runs of each case, in place of 5 (closed loop: 3)")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number_between(1, 1000));
   command
       ->add_option("--throws", arguments->options.throws,
                    "Throws of each scenario in a run of the closed loop, in place of 2 (demo) or 1")
-      ->check(CLI::Range(1, 1000));
+      ->check(whole_number_between(1, 1000));
   command->add_flag("--list", arguments->list, "Print names, units and meanings; measure nothing");
   add_models_option(*command, arguments->options.models_dir);
   command->footer(

@@ -62,7 +62,7 @@ void add_campaign_options(CLI::App& command, CampaignOptions& options) {
       ->required()
       ->type_name("DIR");
   command.add_option("-j,--jobs", options.jobs, "Worker processes; results do not depend on it")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_number_between(1, 1024))
       ->capture_default_str();
   CLI::Option* force =
       command.add_flag("--force", options.force, "Start anew, whatever results are in DIR");
@@ -71,12 +71,12 @@ void add_campaign_options(CLI::App& command, CampaignOptions& options) {
   command
       .add_option("--time-limit", options.limits.wall_s,
                   "Seconds of computing after which a throw is given up; 0: never")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_between(0, 1e6))
       ->capture_default_str();
   command
       .add_option("--memory-limit", options.limits.memory_mb,
                   "Address space of a worker [MB]; a throw that needs more fails; 0: no limit")
-      ->check(CLI::Range(0, 1000000))
+      ->check(whole_number_between(0, 1000000))
       ->capture_default_str();
 }
 

@@ -109,13 +109,13 @@ void add_check_sensor_command(CLI::App& program, const std::string& command_line
           "scenarios/demo.yaml, for the time statistics of static and dynamic regions")
       ->type_name("DIR");
   command->add_option("--seed", arguments->seed, "Of the camera and of the scenes")
-      ->check(CLI::NonNegativeNumber)
+      ->check(whole_number_between(0, UINT64_MAX))
       ->capture_default_str();
   command
       ->add_option("--sampling", arguments->sampling,
                    "Instead: what the sampling of the rendered scene costs in accuracy, over this\n"
                    "many random throws, for several settings; some 10 s a throw")
-      ->check(CLI::Range(1, 10000))
+      ->check(whole_number_between(1, 10000))
       ->type_name("THROWS");
   add_models_option(*command, arguments->models_dir);
   command->footer(kFooter);

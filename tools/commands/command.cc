@@ -1,7 +1,9 @@
 #include "tools/commands/command.h"
 
+#include <charconv>
 #include <cstdio>
 #include <iostream>
+#include <sstream>
 
 #include "sim/base/error.h"
 #include "sim/campaign/load_campaign.h"
@@ -16,7 +18,35 @@ std::string number_text(double share) {
   return text;
 }
 
+// Whether all of a text is a number between two others.
+template <class T>
+bool is_between(const std::string& text, T least, T most) {
+  T value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end && value >= least && value <= most;
+}
+
+template <class T>
+CLI::Validator between(const std::string& kind, T least, T most) {
+  std::ostringstream range;
+  range.precision(15);
+  range << kind << " between " << least << " and " << most;
+  return {[=, allowed = range.str()](const std::string& text) {
+            return is_between(text, least, most) ? "" : text + " was given, but must be " + allowed;
+          },
+          ""};
+}
+
 }  // namespace
+
+CLI::Validator number_between(double least, double most) {
+  return between("a number", least, most);
+}
+
+CLI::Validator whole_number_between(std::uint64_t least, std::uint64_t most) {
+  return between("a whole number", least, most);
+}
 
 void add_models_option(CLI::App& command, std::string& models_dir) {
   models_dir = DODGESIM_MODELS_DIR;

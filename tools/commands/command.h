@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,10 @@ std::string truth_text(const EventTruthSums& sums);
 // The exit code of a command that reads a campaign; tells on standard error of throws that it
 // lacks, or that its scenario's key stop has ended it.
 int completeness(const std::string& directory, const LoadedCampaign& campaign);
+
+// What the value of an option must be; those of CLI11 let a NaN pass.
+CLI::Validator number_between(double least, double most);
+CLI::Validator whole_number_between(std::uint64_t least, std::uint64_t most);
 
 // The text "n throws" with the right plural.
 std::string count_of_throws(int n);

@@ -149,7 +149,7 @@ void add_emulate_command(CLI::App& program, int& exit_code) {
       ->required()
       ->type_name("EVENTS");
   command->add_option("--seed", arguments->seed, "Of mismatch and noise")
-      ->check(CLI::NonNegativeNumber)
+      ->check(whole_number_between(0, UINT64_MAX))
       ->capture_default_str();
   command->footer(kFooter);
   command->callback([arguments, &exit_code] {

@@ -50,7 +50,8 @@ CampaignTables blank_tables(const Scenario& scenario) {
     throws += csv_row(blank);
     for (const ObjectRow& row : blank.object_rows) objects += csv_row(row);
   }
-  return {CsvTable(throws, "the scenario's throws"), CsvTable(objects, "the scenario's objects")};
+  return {CsvTable(throws, "the scenario's throws"), CsvTable(objects, "the scenario's objects"),
+          scenario.seed};
 }
 
 // Other throws cannot be compared one by one: found out before hours of flying.
@@ -211,11 +212,11 @@ void add_options(CLI::App& command, Arguments& arguments) {
   command
       .add_option("--margin", arguments.margin,
                   "The success rate may fall by so much, in place of the baseline's (0.05)")
-      ->check(CLI::Range(0.0, 0.99));
+      ->check(number_between(0, 0.99));
   command
       .add_option("--confidence", arguments.confidence,
                   "How sure the fall must be, in place of the baseline's (0.95)")
-      ->check(CLI::Range(0.5, 0.9999));
+      ->check(number_between(0.5, 0.9999));
   command
       .add_option("--must-equal", arguments.must_equal,
                   "What may not change by a byte on machines of one kind: nothing, physics (the\n"

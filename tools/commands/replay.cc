@@ -227,13 +227,13 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->type_name("DIR");
   command->add_option("--throw", arguments->throw_index, "Number of the throw, from 0")
       ->required()
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number_between(0, INT_MAX));
   command
       ->add_option("--video", arguments->video,
                    "Write a video (H.264): the scene and both event streams")
       ->type_name("FILE.mp4");
   command->add_option("--slow", arguments->slow, "How many times slower than real the video is")
-      ->check(CLI::Range(1.0, Film::kSlowest))
+      ->check(number_between(1, Film::kSlowest))
       ->capture_default_str();
   command
       ->add_option("--mcap", arguments->mcap,

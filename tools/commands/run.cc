@@ -85,7 +85,7 @@ int run(const Arguments& arguments) {
       "Report, for any browser: %s\n",
       count_of_throws(summary.wanted).c_str(), duration_text(summary.wall_s).c_str(),
       summary.real_time_factor, options.out.c_str(), (options.out / kReportFile).c_str());
-  if (summary.flown > 0) {
+  if (summary.memory.first_mb > 0) {
     std::printf("Memory of a worker: %.0f MB after its first throw, %.0f MB after its last\n",
                 summary.memory.first_mb, summary.memory.last_mb);
   }

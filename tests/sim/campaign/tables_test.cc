@@ -128,6 +128,14 @@ TEST(Tables, WithoutOracleThereIsNoRowOfIt) {
   EXPECT_THAT(made.markdown, testing::Not(HasSubstr("oracle")));
 }
 
+TEST(Tables, AnOracleIsNotShownBesideItself) {
+  const std::vector<ThrowResult> results = {throw_with(0, flown(false), flown(true), flown(false))};
+  const ThrowStatistics sum = statistics_of({&results[0]}, "oracle");
+  EXPECT_EQ(sum.flown().tally.throws, 1);
+  EXPECT_FALSE(sum.oracle_flew);
+  EXPECT_TRUE(statistics_of({&results[0]}, "falanga2020").oracle_flew);
+}
+
 TEST(Tables, ErrorsAreShownWithThrowPilotAndReason) {
   const Tables made =
       tables({throw_with(0, failed("The state diverged."), flown(true), flown(true)),

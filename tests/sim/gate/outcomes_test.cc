@@ -136,6 +136,17 @@ TEST(SameThrow, ReadsTheObjectsOfEachThrow) {
   EXPECT_FALSE(same_throw(a[2], b[2]));
 }
 
+TEST(SameThrow, HasTheSameSeedAsFarAsItIsKnown) {
+  const auto with_seed = [](std::optional<std::uint64_t> seed) {
+    CampaignTables tables = tables_of({throw_of_two(0)});
+    tables.seed = seed;
+    return outcomes(tables).at(0);
+  };
+  EXPECT_TRUE(same_throw(with_seed(3), with_seed(3)));
+  EXPECT_FALSE(same_throw(with_seed(3), with_seed(4)));
+  EXPECT_TRUE(same_throw(with_seed(3), with_seed(std::nullopt)));
+}
+
 // As another libm rounds.
 TEST(SameThrow, DoesNotDependOnTheLastDigits) {
   ThrowResult a = throw_of_two(0), b = throw_of_two(0);
