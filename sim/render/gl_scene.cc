@@ -204,7 +204,7 @@ GlProgram make_triangle_program(ProgramCache& programs, TextureKind texture,
 GlProgram make_primitive_program(ProgramCache& programs, mjtGeom type, TextureKind texture,
                                  bool hard, const SceneGeometry& scene, const DepthRange& depth) {
   const GLuint name =
-      programs.program(primitive_vertex_shader(),
+      programs.program(primitive_vertex_shader(count_lights(scene)),
                        primitive_fragment_shader(type, texture, count_lights(scene), hard));
   glUseProgram(name);
   set_lights(name, scene);

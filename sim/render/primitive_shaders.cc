@@ -1,5 +1,6 @@
 // Shaders of the ray-cast solids.
 #include "sim/render/shader_parts.h"
+#include "sim/render/uniforms.h"
 
 namespace dodgesim {
 
@@ -9,22 +10,13 @@ namespace {
 constexpr const char* kPrimitiveVertex = R"(
 uniform vec4 u_rectangle;  // clip coordinates x0, y0, x1, y1
 void main() {
+  hand_on();
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   gl_Position = vec4(mix(u_rectangle.xy, u_rectangle.zw, corner), 0.0, 1.0);
 }
 )";
 
 constexpr const char* kPrimitiveCommon = R"(
-uniform vec3 u_camera;      // f, cx, cy [px]
-uniform vec2 u_depth;       // depth buffer value = u_depth.x + u_depth.y / z_C
-uniform mat3 u_R_GC;
-uniform vec3 u_eye_G;       // camera centre in the geom's frame
-uniform mat4 u_X_WG;
-uniform vec3 u_size;
-uniform vec3 u_texture_scale;
-uniform vec3 u_texture_offset;
-uniform vec2 u_albedo_emission;
-uniform int u_id;
 layout(location = 0) out vec4 luminance;
 layout(location = 1) out int id;
 
@@ -52,9 +44,6 @@ void write(float value, float coverage, float z_C) {
 // The outline of an ellipsoid, and that of an endless cylinder, is a conic: the zero set of a
 // quadratic form in pixel coordinates.
 constexpr const char* kConic = R"(
-uniform mat3 u_conic;        // quadratic form in (x - origin.x, y - origin.y, 1), positive inside
-uniform vec2 u_conic_origin; // [px]
-
 // Distance to the conic along its gradient, exact for the quadratic form; positive inside.
 float conic_distance(vec2 at, out vec2 n) {
   vec3 q = u_conic * vec3(at, 1.0);
@@ -112,8 +101,6 @@ void main() {
 // face, none if the ray misses a slightly larger solid, else analytic where the pixel sees only the
 // round side of the solid, else counted with 64 rays, no two of which share a column or a row.
 constexpr const char* kSampled = R"(
-uniform float u_margin;  // [m]
-
 #if HARD
 void main() {
   float t;
@@ -269,15 +256,45 @@ float shade_face(vec3 d, int k) {
 }
 )";
 
+// Of the fragments. A compiler drops what its solid has no use for.
+const glsl::Uniforms kUniforms = {
+    {"vec3", "camera"},  // f, cx, cy [px]
+    {"vec2", "depth"},   // depth buffer value = u_depth.x + u_depth.y / z_C
+    {"mat3", "R_GC"},
+    {"vec3", "eye_G"},  // camera centre in the geom's frame
+    {"mat4", "X_WG"},
+    {"vec3", "size"},
+    {"float", "margin"},       // [m]
+    {"mat3", "conic"},         // quadratic form in (x - origin.x, y - origin.y, 1), positive inside
+    {"vec2", "conic_origin"},  // [px]
+    {"vec3", "texture_scale"},
+    {"vec3", "texture_offset"},
+    {"float", "lod_bias"},
+    {"vec2", "albedo_emission"},
+    {"int", "id"},
+};
+
+glsl::FragmentUniforms uniforms_with(const LightCount& lights) {
+  glsl::Uniforms of_lights = glsl::distant_light_uniforms(lights);
+  const glsl::Uniforms lamps = glsl::lamp_uniforms(lights);
+  of_lights.insert(of_lights.end(), lamps.begin(), lamps.end());
+  return glsl::with_lights(kUniforms, of_lights);
+}
+
 }  // namespace
 
-std::string primitive_vertex_shader() { return std::string(glsl::kVersion) + kPrimitiveVertex; }
+std::string primitive_vertex_shader(const LightCount& lights) {
+  return std::string(glsl::kVersion) + glsl::handed_on(uniforms_with(lights).handed_on) +
+         kPrimitiveVertex;
+}
 
 std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, const LightCount& lights,
                                       bool hard) {
-  const std::string common = glsl::header(texture, lights) +
-                             (hard ? "#define HARD 1\n" : "#define HARD 0\n") +
-                             glsl::kDistantLight + glsl::kLamps + glsl::kTexel + kPrimitiveCommon;
+  const glsl::FragmentUniforms uniforms = uniforms_with(lights);
+  const std::string common =
+      glsl::header(texture, lights) + (hard ? "#define HARD 1\n" : "#define HARD 0\n") +
+      glsl::received(uniforms.handed_on) + glsl::declared(uniforms.declared) + glsl::kDistantLight +
+      glsl::kLamps + glsl::kTexel + kPrimitiveCommon;
   switch (type) {
     case mjGEOM_ELLIPSOID:
       return common + glsl::kHalfPlane + kConic + kEllipsoid;

@@ -15,12 +15,8 @@ std::string header(TextureKind texture, const LightCount& lights);
 
 // Diffuse light on a surface point, in units of a white surface under full light. Directional
 // lights and the ambient depend on the normal alone: flat faces get them once per vertex.
+// Uniforms: distant_light_uniforms(), lamp_uniforms() and, of kTexel, u_lod_bias.
 inline constexpr const char* kDistantLight = R"(
-uniform float u_ambient;
-#if DIRECTIONAL > 0
-uniform vec3 u_beam[DIRECTIONAL];       // unit vector in W
-uniform vec2 u_intensity[DIRECTIONAL];  // ambient, diffuse
-#endif
 float distant_light(vec3 n_W) {
   float sum = u_ambient;
 #if DIRECTIONAL > 0
@@ -34,10 +30,6 @@ float distant_light(vec3 n_W) {
 
 inline constexpr const char* kLamps = R"(
 #if LAMPS > 0
-uniform vec3 u_lamp_position[LAMPS];   // W
-uniform vec4 u_lamp_axis[LAMPS];       // beam in W; w = cosine of the cut-off angle
-uniform vec4 u_lamp_falloff[LAMPS];    // attenuation 1, d, d^2; w = spot exponent
-uniform vec2 u_lamp_intensity[LAMPS];  // ambient, diffuse
 float lamp_light(vec3 p_W, vec3 n_W) {
   float sum = 0.0;
   for (int i = 0; i < LAMPS; ++i) {
@@ -59,7 +51,6 @@ float lamp_light(vec3 p_W, vec3 n_W) { return 0.0; }
 )";
 
 inline constexpr const char* kTexel = R"(
-uniform float u_lod_bias;
 #if TEXTURE == 1
 uniform sampler2D u_texture;
 float texel(vec3 t) { return texture(u_texture, t.xy, u_lod_bias).r; }

@@ -1,6 +1,7 @@
 #include "sim/render/shaders.h"
 
 #include "sim/render/shader_parts.h"
+#include "sim/render/uniforms.h"
 
 namespace dodgesim {
 
@@ -22,6 +23,7 @@ out vec3 n_W;
 flat out float albedo;
 #endif
 void main() {
+  hand_on();
   gl_Position = u_clip_from_G * vec4(position, 1.0);
   vec3 normal_W = mat3(u_X_WG) * normal;
   lit = albedo_emission.x * distant_light(normal_W) + albedo_emission.y;
@@ -42,7 +44,6 @@ in vec3 p_W;
 in vec3 n_W;
 flat in float albedo;
 #endif
-uniform int u_id;
 layout(location = 0) out vec4 luminance;
 layout(location = 1) out int id;
 void main() {
@@ -69,6 +70,7 @@ flat out vec4 along;     // unit direction u and u.a [px], length [px]
 flat out vec2 inverse_z; // at the ends [1/m]
 flat out vec2 crease_bulge; // 1: both faces are in sight; bulge [m]
 void main() {
+  hand_on();
   vec3 a = (u_X_CW * vec4(end_a, 1.0)).xyz, b = (u_X_CW * vec4(end_b, 1.0)).xyz;
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside: not drawn
   if (max(a.z, b.z) <= u_near) return;
@@ -95,7 +97,6 @@ flat in vec3 line;
 flat in vec4 along;
 flat in vec2 inverse_z;
 flat in vec2 crease_bulge;
-uniform vec2 u_depth;  // depth buffer value = u_depth.x + u_depth.y / z_C
 uniform sampler2D u_luminance;
 uniform sampler2D u_depth_image;
 layout(location = 0) out vec4 luminance;
@@ -142,6 +143,7 @@ void main() {
 
 constexpr const char* kSkyVertex = R"(
 void main() {
+  hand_on();
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   gl_Position = vec4(2.0 * corner - 1.0, 1.0, 1.0);  // on the far plane
 }
@@ -149,9 +151,6 @@ void main() {
 
 // MuJoCo turns the sky by 90 degrees about x, so that the cube's +y face is overhead.
 constexpr const char* kSkyFragment = R"(
-uniform vec3 u_camera;  // f, cx, cy [px]
-uniform mat3 u_R_WC;
-uniform float u_sky_luminance;
 layout(location = 0) out vec4 luminance;
 layout(location = 1) out int id;
 void main() {
@@ -161,6 +160,21 @@ void main() {
   id = -1;
 }
 )";
+
+// Of the fragments.
+const glsl::Uniforms kEdgeUniforms = {
+    {"vec2", "depth"},  // depth buffer value = u_depth.x + u_depth.y / z_C
+};
+const glsl::Uniforms kSkyUniforms = {
+    {"vec3", "camera"},  // f, cx, cy [px]
+    {"mat3", "R_WC"},
+    {"float", "sky_luminance"},
+    {"float", "lod_bias"},
+};
+
+glsl::FragmentUniforms triangle_uniforms(const LightCount& lights) {
+  return glsl::with_lights({{"int", "id"}, {"float", "lod_bias"}}, glsl::lamp_uniforms(lights));
+}
 
 }  // namespace
 
@@ -180,23 +194,33 @@ std::string header(TextureKind texture, const LightCount& lights) {
 }  // namespace glsl
 
 std::string triangle_vertex_shader(const LightCount& lights) {
-  return glsl::header(TextureKind::kNone, lights) + glsl::kDistantLight + kTriangleVertex;
+  return glsl::header(TextureKind::kNone, lights) +
+         glsl::declared(glsl::distant_light_uniforms(lights)) +
+         glsl::handed_on(triangle_uniforms(lights).handed_on) + glsl::kDistantLight +
+         kTriangleVertex;
 }
 
 std::string triangle_fragment_shader(TextureKind texture, const LightCount& lights) {
-  return glsl::header(texture, lights) + glsl::kLamps + glsl::kTexel + kTriangleFragment;
+  const glsl::FragmentUniforms uniforms = triangle_uniforms(lights);
+  return glsl::header(texture, lights) + glsl::received(uniforms.handed_on) +
+         glsl::declared(uniforms.declared) + glsl::kLamps + glsl::kTexel + kTriangleFragment;
 }
 
-std::string sky_vertex_shader() { return std::string(glsl::kVersion) + kSkyVertex; }
+std::string sky_vertex_shader() {
+  return std::string(glsl::kVersion) + glsl::handed_on(kSkyUniforms) + kSkyVertex;
+}
 
 std::string sky_fragment_shader(TextureKind texture) {
-  return glsl::header(texture, {}) + glsl::kTexel + kSkyFragment;
+  return glsl::header(texture, {}) + glsl::received(kSkyUniforms) + glsl::kTexel + kSkyFragment;
 }
 
-std::string edge_vertex_shader() { return std::string(glsl::kVersion) + kEdgeVertex; }
+std::string edge_vertex_shader() {
+  return std::string(glsl::kVersion) + glsl::handed_on(kEdgeUniforms) + kEdgeVertex;
+}
 
 std::string edge_fragment_shader() {
-  return std::string(glsl::kVersion) + glsl::kHalfPlane + kEdgeFragment;
+  return std::string(glsl::kVersion) + glsl::received(kEdgeUniforms) + glsl::kHalfPlane +
+         kEdgeFragment;
 }
 
 }  // namespace dodgesim

@@ -132,6 +132,24 @@ TEST(LuminanceRenderer, LightsABallByItsNormals) {
   EXPECT_EQ(image.at(160, 140), 0.0);  // the underside
 }
 
+// Few lights reach the fragments by another way than many.
+TEST(LuminanceRenderer, LetsDarkLightsChangeNoBitHoweverManyThereAre) {
+  Scene plain = full_scene();
+  const Image expected = plain.render(tilted_camera());
+  for (const std::string kind : {"directional='true'", "pos='1 0 3'"}) {
+    std::string lights;
+    for (int i = 0; i < 12; ++i) {
+      lights += "<light " + kind + " dir='0 0 -1' ambient='0 0 0' diffuse='0 0 0'/>";
+      std::string content = kFullScene;
+      content.insert(content.find("<geom"), lights);
+      Scene scene(content);
+      scene.snapshot() = plain.snapshot();
+      const Image image = scene.render(tilted_camera());
+      EXPECT_TRUE(image.luminance == expected.luminance) << i + 1 << " more, " << kind;
+    }
+  }
+}
+
 TEST(LuminanceRenderer, WeighsColoursByRec709AndReadsTexels) {
   const std::string light =
       "<visual><headlight ambient='1 1 1' diffuse='0 0 0' specular='0 0 0'/></visual>";
