@@ -112,24 +112,28 @@ constexpr std::array<void (*)(const Row&), kVectorLevels> kSolve = {
 
 }  // namespace
 
-void Crossings::clear() {
+void Crossings::begin(std::size_t most) {
+  size_ = 0;
   bent_ = false;
-  for (auto* values :
-       {&s0_, &s1_, &dt_us_, &rise_per_us_, &decay_per_us_, &reference_, &off_, &on_}) {
-    values->clear();
+  if (most <= answer_.size()) return;
+  for (auto* values : {&s0_, &s1_, &dt_us_, &rise_per_us_, &decay_per_us_, &reference_, &off_, &on_,
+                       &crossing_us_, &reference_after_}) {
+    values->resize(most);
   }
+  answer_.resize(most);
 }
 
 void Crossings::add(const Pixel& pixel) {
+  const std::size_t i = size_++;
   bent_ |= pixel.decay_per_us > 0;
-  s0_.push_back(pixel.s0);
-  s1_.push_back(pixel.s1);
-  dt_us_.push_back(pixel.dt_us);
-  rise_per_us_.push_back(pixel.rise_per_us);
-  decay_per_us_.push_back(pixel.decay_per_us);
-  reference_.push_back(pixel.reference);
-  off_.push_back(pixel.off);
-  on_.push_back(pixel.on);
+  s0_[i] = pixel.s0;
+  s1_[i] = pixel.s1;
+  dt_us_[i] = pixel.dt_us;
+  rise_per_us_[i] = pixel.rise_per_us;
+  decay_per_us_[i] = pixel.decay_per_us;
+  reference_[i] = pixel.reference;
+  off_[i] = pixel.off;
+  on_[i] = pixel.on;
 }
 
 void Crossings::solve(double refractory_us) {
@@ -138,9 +142,6 @@ void Crossings::solve(double refractory_us) {
 }
 
 void Crossings::solve(double refractory_us, int vector_level) {
-  crossing_us_.resize(size());
-  reference_after_.resize(size());
-  answer_.resize(size());
   const Row row = {size(),
                    s0_.data(),
                    s1_.data(),

@@ -29,9 +29,10 @@ class Crossings {
     double reference, off, on;         // events at reference + off (off < 0) and reference + on
   };
 
-  void clear();
+  // Starts anew, with room for so many.
+  void begin(std::size_t most);
   void add(const Pixel& pixel);
-  std::size_t size() const { return s0_.size(); }
+  std::size_t size() const { return size_; }
 
   // Answers for all pixels. The same bytes at every vector level.
   void solve(double refractory_us);
@@ -44,7 +45,8 @@ class Crossings {
   bool on(std::size_t i) const { return s1_[i] > s0_[i]; }
 
  private:
-  bool bent_ = false;  // is any of them
+  std::size_t size_ = 0;  // the vectors may be longer
+  bool bent_ = false;     // is any of them
   std::vector<double> s0_, s1_, dt_us_, rise_per_us_, decay_per_us_, reference_, off_, on_;
   std::vector<double> crossing_us_, reference_after_;
   std::vector<std::int64_t> answer_;  // as wide as the numbers: they are computed together

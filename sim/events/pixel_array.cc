@@ -188,42 +188,45 @@ void PixelArray::keep_times(std::size_t y, const Rect& region, double t_us) {
 }
 
 void PixelArray::solve_crossings(double t1_us) {
-  crossings_.clear();
+  crossings_.begin(candidates_.size());
   for (const Candidate& c : candidates_) {
     const Pixel& pixel = pixels_[c.index];
-    const double decay_per_us = pixel.held_until_us == kArmed ? c.decay_per_us : -1;
-    crossings_.add({c.s0, c.s1, t1_us - c.t0_us, c.rise_per_us, decay_per_us, pixel.reference,
+    if (pixel.held_until_us != kArmed) continue;
+    crossings_.add({c.s0, c.s1, t1_us - c.t0_us, c.rise_per_us, c.decay_per_us, pixel.reference,
                     pixel.change[0], pixel.change[1]});
   }
   crossings_.solve(refractory_us_);
 }
 
-// Most pixels make one event or none, at a crossing that is known; the others are followed piece by
-// piece.
+// Most pixels are armed and make one event or none, at a crossing that is known; the others are
+// followed piece by piece.
 void PixelArray::run_all(double t1_us, const Picture& picture, Run& run_state) {
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    const Candidate& candidate = candidates_[i];
+  std::size_t armed = 0;
+  for (const Candidate& candidate : candidates_) {
     run_state.first_us = static_cast<TimeUs>(candidate.t0_us) + 1;
     const bool noisy = !run_state.noise.empty() && run_state.noise.front().pixel == candidate.index;
-    const Crossings::Answer answer = noisy ? Crossings::kUnknown : crossings_.answer(i);
+    const bool held = pixels_[candidate.index].held_until_us != kArmed;
+    const std::size_t crossing = held ? armed : armed++;
+    const Crossings::Answer answer =
+        noisy || held ? Crossings::kUnknown : crossings_.answer(crossing);
     if (answer == Crossings::kNothing) continue;
     const Cause cause = cause_at(candidate.index, picture);
     if (answer == Crossings::kUnknown) {
       run(candidate, t1_us, cause, run_state);
     } else {
-      fire_once(i, t1_us, cause, run_state);
+      fire_once(candidate, crossing, t1_us, cause, run_state);
     }
     set_bounds(candidate.index);
   }
 }
 
-void PixelArray::fire_once(std::size_t candidate, double t1_us, Cause cause, Run& run) {
-  const std::size_t index = candidates_[candidate].index;
-  const double crossing_us = candidates_[candidate].t0_us + crossings_.crossing_us(candidate);
-  fire(index, crossing_us, t1_us, crossings_.on(candidate), cause, run);
-  Pixel& pixel = pixels_[index];
-  pixel.reference = crossings_.reference_after(candidate);
-  if (crossings_.answer(candidate) == Crossings::kHeld) {
+void PixelArray::fire_once(const Candidate& candidate, std::size_t crossing, double t1_us,
+                           Cause cause, Run& run) {
+  const double crossing_us = candidate.t0_us + crossings_.crossing_us(crossing);
+  fire(candidate.index, crossing_us, t1_us, crossings_.on(crossing), cause, run);
+  Pixel& pixel = pixels_[candidate.index];
+  pixel.reference = crossings_.reference_after(crossing);
+  if (crossings_.answer(crossing) == Crossings::kHeld) {
     pixel.held_until_us = crossing_us + refractory_us_;
   }
 }

@@ -104,7 +104,8 @@ class PixelArray {
   void keep_times(std::size_t y, const Rect& region, double t_us);
   void solve_crossings(double t1_us);
   void run_all(double t1_us, const Picture& picture, Run& run);
-  void fire_once(std::size_t candidate, double t1_us, Cause cause, Run& run);
+  void fire_once(const Candidate& candidate, std::size_t crossing, double t1_us, Cause cause,
+                 Run& run);
   void run(const Candidate& candidate, double t1_us, Cause cause, Run& run);
   void run_piece(std::size_t index, const SignalPiece& piece, Cause cause, Run& run);
   void fire_crossings(std::size_t index, const SignalPiece& piece, double until_us, Cause cause,
@@ -136,7 +137,7 @@ class PixelArray {
   std::vector<unsigned char> may_fire_;  // of a row
   std::vector<std::uint32_t> places_;    // of the row's candidates
   std::vector<Candidate> candidates_;
-  Crossings crossings_;  // of candidates_
+  Crossings crossings_;  // of those that are armed
   std::vector<Knot> knots_;
 };
 

@@ -25,10 +25,11 @@ double SignalPiece::time_of(double s) const {
   // Newton's method, kept between what is known to be too early and too late.
   double early_us = t0_us, late_us = t1_us;
   for (int i = 0; i < kMostSteps && late_us - early_us > kSolvedUs; ++i) {
-    const double error = at(t_us) - s;
+    const double dt_us = t_us - t0_us;
+    const double left = transient_left(decay_per_us * dt_us);
+    const double error = (t_us < t1_us ? s0 + rise_per_us * dt_us - p * (1 - left) : s1) - s;
     ((error < 0) == (s1 > s0) ? early_us : late_us) = t_us;
-    const double slope =
-        rise_per_us - p * decay_per_us * transient_left(decay_per_us * (t_us - t0_us));
+    const double slope = rise_per_us - p * decay_per_us * left;
     double next_us = slope != 0 ? t_us - error / slope : early_us;
     if (!(next_us > early_us && next_us < late_us)) next_us = 0.5 * (early_us + late_us);
     const double step_us = next_us - t_us;

@@ -79,6 +79,7 @@ TEST(Crossings, AreWhereAPixelThatLooksAllTheTimeFiresFirst) {
     for (int trial = 0; trial < 2000; ++trial) {
       const Crossings::Pixel p = random_pixel(random);
       Crossings crossings;
+      crossings.begin(3);
       crossings.add(p);
       crossings.solve(refractory_us);
       const Crossings::Answer answer = crossings.answer(0);
@@ -103,6 +104,7 @@ TEST(Crossings, AreWhereAPixelThatLooksAllTheTimeFiresFirst) {
 
 TEST(Crossings, OfStraightLinesAreExact) {
   Crossings crossings;
+  crossings.begin(3);
   crossings.add({1.0, 1.3, 300, 0, 0, 0.95, -0.2, 0.25});  // reaches 1.2 after two thirds
   crossings.add({1.0, 0.7, 300, 0, 0, 1.05, -0.2, 0.25});  // reaches 0.85 after half
   crossings.add({1.0, 1.1, 300, 0, 0, 0.95, -0.2, 0.25});
@@ -119,6 +121,7 @@ TEST(Crossings, OfStraightLinesAreExact) {
 
 TEST(Crossings, SeveralEventsAreNotAnswered) {
   Crossings crossings;
+  crossings.begin(3);
   crossings.add({0, 0.7, 300, 0, 0, 0, -0.2, 0.2});
   crossings.solve(0);
   EXPECT_EQ(crossings.answer(0), Crossings::kUnknown);
@@ -127,6 +130,7 @@ TEST(Crossings, SeveralEventsAreNotAnswered) {
 TEST(Crossings, ADeadPixelMakesNoEvent) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   Crossings crossings;
+  crossings.begin(3);
   for (const double s1 : {-5.0, 5.0}) crossings.add({0, s1, 300, 0, 0.01, 0, -kNever, kNever});
   crossings.solve(kRefractoryUs);
   EXPECT_EQ(crossings.answer(0), Crossings::kNothing);
@@ -136,6 +140,8 @@ TEST(Crossings, ADeadPixelMakesNoEvent) {
 TEST(Crossings, AreTheSameBytesAtEveryVectorLevel) {
   RandomStream random(2, 0, "crossings");
   Crossings narrow, wide;
+  narrow.begin(1003);
+  wide.begin(1003);
   for (int i = 0; i < 1003; ++i) {
     const Crossings::Pixel p = random_pixel(random);
     narrow.add(p);
