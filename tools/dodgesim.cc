@@ -27,6 +27,24 @@ int flushed(int exit_code) {
   return kIoError;
 }
 
+bool is_command(CLI::App& program, const std::string& name) {
+  for (const CLI::App* command : program.get_subcommands({})) {
+    if (command->get_name() == name) return true;
+  }
+  return false;
+}
+
+int no_such_command(CLI::App& program, const std::string& name) {
+  std::cerr << "dodgesim has no command " << shell_quoted(name) << "; it has";
+  const char* before = " ";
+  for (const CLI::App* command : program.get_subcommands({})) {
+    std::cerr << before << command->get_name();
+    before = ", ";
+  }
+  std::cerr << ".\n";
+  return kUsageError;
+}
+
 int run_program(int argc, char** argv) {
   CLI::App program(
       "dodgesim throws objects at a simulated quadrotor that sees them with event cameras, and\n"
@@ -63,6 +81,9 @@ int run_program(int argc, char** argv) {
   add_bench_command(program, joined(argc, argv), exit_code);
   add_check_sensor_command(program, joined(argc, argv), exit_code);
   add_paper_command(program, joined(argc, argv), exit_code);
+  if (argc > 1 && argv[1][0] != '-' && !is_command(program, argv[1])) {
+    return no_such_command(program, argv[1]);
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -44,6 +44,7 @@ bool holds_anything(const fs::path& out) {
 }  // namespace
 
 void make_directory(const fs::path& out) {
+  if (out.empty()) throw IoError("The name of the directory for the results is empty.");
   std::error_code error;
   fs::create_directories(out, error);
   if (fs::is_directory(out)) return;

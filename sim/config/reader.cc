@@ -28,7 +28,8 @@ std::string describe(const YamlNode& node) {
     case Kind::kNull:
       return tag + "empty";
     case Kind::kSequence:
-      return tag + "a list of " + std::to_string(node.items.size());
+      return tag + (node.items.empty() ? "an empty list"
+                                       : "a list of " + std::to_string(node.items.size()));
     case Kind::kMap:
       return tag + "a map";
     case Kind::kScalar:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -41,8 +42,10 @@ TimeUs rounded(double us) {
 
 float checked(float luminance) {
   if (!(luminance >= 0 && luminance <= std::numeric_limits<float>::max())) {
-    throw SimulationError("An event camera was shown a luminance of " + std::to_string(luminance) +
-                          "; it must be finite and not negative.");
+    std::ostringstream text;
+    text << "An event camera was shown a luminance of " << luminance
+         << "; it must be finite and not negative.";
+    throw SimulationError(text.str());
   }
   return luminance;
 }

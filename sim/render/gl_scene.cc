@@ -105,9 +105,14 @@ void attach(const GlFramebuffer& framebuffer, const GlTexture& luminance, const 
   if (ids) attach_one(GL_COLOR_ATTACHMENT1, *ids);
   const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   glDrawBuffers(ids ? 2 : 1, buffers);
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw SimulationError("OpenGL cannot draw into a floating-point image.");
-  }
+}
+
+void expect_drawable(int width, int height) {
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+  throw SimulationError("OpenGL cannot draw into a floating-point image of " +
+                        std::to_string(width) + " x " + std::to_string(height) +
+                        " px; sensors.camera and sensors.keys (supersampling, margin_px) say how "
+                        "large it is.");
 }
 
 // OpenGL takes an offset into the bound buffer in the guise of a pointer.
@@ -257,8 +262,11 @@ GlTarget make_target(int width, int height) {
   allocate(target.luminance_copy, GL_R32F, GL_RED, GL_FLOAT, width, height);
   allocate(target.depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, width, height);
   attach(target.without_ids, target.luminance, &target.depth, nullptr);
+  expect_drawable(width, height);
   attach(target.with_ids, target.luminance, &target.depth, &target.ids);
+  expect_drawable(width, height);
   attach(target.without_depth, target.luminance, nullptr, nullptr);
+  expect_drawable(width, height);
   return target;
 }
 

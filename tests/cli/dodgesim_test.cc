@@ -78,6 +78,22 @@ TEST_F(DodgesimTest, RefusesBadCommandLinesWithExitCode2) {
   }
 }
 
+TEST_F(DodgesimTest, SaysWhatIsWrongWithACommandLine) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"fly s.yaml", "dodgesim has no command fly; it has run, sweep, "},
+      {"run " DODGESIM_SOURCE_DIR "/scenarios/demo.yaml --out ''",
+       "The name of the directory for the results is empty."},
+      {"explain throw --markdown", "key excludes --markdown"},
+      {"replay d --throw 0 --video v.avi", "v.avi must be the name of a file that ends in .mp4"},
+      {"replay d --throw 0 --mcap v.bag", "v.bag must be the name of a file that ends in .mcap"},
+  };
+  for (const auto& [arguments, sentence] : cases) {
+    const Outcome outcome = dodgesim(arguments);
+    EXPECT_NE(outcome.exit_code, 0) << arguments;
+    EXPECT_THAT(outcome.output, HasSubstr(sentence)) << arguments;
+  }
+}
+
 TEST_F(DodgesimTest, RefusesNumbersOutOfAnOptionsRangeWithTheRange) {
   for (const char* margin : {"nan", "1", "-0.1", "0.5x"}) {
     EXPECT_THAT(dodgesim("gate s.yaml --baseline b --out d --margin " + std::string(margin)).output,

@@ -125,6 +125,21 @@ TEST_F(GateCommandTest, UpdateNeverWritesOverWhatIsNoBaseline) {
   EXPECT_FALSE(fs::exists(root_ / "out")) << "nothing is flown in vain";
 }
 
+TEST_F(GateCommandTest, UpdateFliesNothingForABaselineThatCannotBeWritten) {
+  fs::remove_all(root_ / "b");
+  const std::string gate_into =
+      "gate " + path("s.yaml") + " --out " + path("out") + " --update --baseline ";
+  const Outcome nameless = dodgesim(gate_into + "''");
+  EXPECT_EQ(nameless.exit_code, 2);
+  EXPECT_THAT(nameless.output, HasSubstr("--baseline is empty; it must name a directory."));
+  write("file", "");
+  const Outcome below_a_file = dodgesim(gate_into + path("file/b"));
+  EXPECT_EQ(below_a_file.exit_code, 4);
+  EXPECT_THAT(below_a_file.output,
+              HasSubstr("--baseline " + path("file/b") + " cannot be written"));
+  EXPECT_FALSE(fs::exists(root_ / "out"));
+}
+
 TEST_F(GateCommandTest, DoesNotWaitForPipes) {
   ASSERT_EQ(::mkfifo(path("b").c_str(), 0600), 0);
   EXPECT_THAT(gate("--update").output, HasSubstr(path("b") + " is not a directory."));

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -46,6 +47,15 @@ CLI::Validator number_between(double least, double most) {
 
 CLI::Validator whole_number_between(std::uint64_t least, std::uint64_t most) {
   return between("a whole number", least, most);
+}
+
+CLI::Validator file_ending(const std::string& extension) {
+  return {[extension](const std::string& text) {
+            return std::filesystem::path(text).extension() == extension
+                       ? std::string()
+                       : text + " must be the name of a file that ends in " + extension;
+          },
+          ""};
 }
 
 void add_models_option(CLI::App& command, std::string& models_dir) {

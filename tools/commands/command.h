@@ -54,9 +54,10 @@ std::string truth_text(const EventTruthSums& sums);
 // lacks, or that its scenario's key stop has ended it.
 int completeness(const std::string& directory, const LoadedCampaign& campaign);
 
-// What the value of an option must be; those of CLI11 let a NaN pass.
+// What the value of an option must be; the ranges of CLI11 let a NaN pass.
 CLI::Validator number_between(double least, double most);
 CLI::Validator whole_number_between(std::uint64_t least, std::uint64_t most);
+CLI::Validator file_ending(const std::string& extension);
 
 // The text "n throws" with the right plural.
 std::string count_of_throws(int n);

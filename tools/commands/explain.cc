@@ -20,10 +20,10 @@ void add_explain_command(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       program.add_subcommand("explain", "Say what a key of a scenario means, or list all keys");
-  command->add_option(
+  CLI::Option* key = command->add_option(
       "key", arguments->key,
       "A key (throw.size_m, or size_m alone) or a group (throw); all when left out");
-  command->add_flag("--markdown", arguments->markdown, "Print scenarios/README.md");
+  command->add_flag("--markdown", arguments->markdown, "Print scenarios/README.md")->excludes(key);
   command->footer(
       "Examples:\n"
       "  dodgesim explain throw                the keys of a throw\n"

@@ -1,7 +1,11 @@
 // dodgesim gate: flies a baseline's throws and fails when they went worse.
 #include "sim/gate/gate.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -152,12 +156,27 @@ void expect_gateable(const Scenario& scenario, const Arguments& arguments) {
   }
 }
 
+// Before anything is flown for it.
+void expect_writable(const fs::path& where) {
+  fs::path there = fs::absolute(where);
+  while (!fs::exists(there)) there = there.parent_path();
+  std::string reason = "is not a directory";
+  if (fs::is_directory(there)) {
+    if (::access(there.c_str(), W_OK | X_OK) == 0) return;
+    reason = std::strerror(errno);
+  }
+  throw IoError("--baseline " + where.string() + " cannot be written: " + there.string() + ": " +
+                reason + ".");
+}
+
 // Nothing if there is none yet, or a broken one that is to be replaced.
 std::optional<Baseline> find_baseline(const Arguments& arguments) {
   const fs::path& where = arguments.baseline;
+  if (where.empty()) throw ScenarioError("--baseline is empty; it must name a directory.");
   if (fs::exists(where) && !fs::is_directory(where)) {
     throw ScenarioError("--baseline " + where.string() + " is not a directory.");
   }
+  if (arguments.update) expect_writable(where);
   if (!holds_baseline_files(where)) {
     if (arguments.update) return std::nullopt;
     throw ScenarioError("There is no baseline in " + where.string() + "; add --update to make it.");

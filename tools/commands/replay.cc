@@ -231,6 +231,7 @@ void add_replay_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("--video", arguments->video,
                    "Write a video (H.264): the scene and both event streams")
+      ->check(file_ending(".mp4"))
       ->type_name("FILE.mp4");
   command->add_option("--slow", arguments->slow, "How many times slower than real the video is")
       ->check(number_between(1, Film::kSlowest))
@@ -239,6 +240,7 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->add_option("--mcap", arguments->mcap,
                    "Write a recording for Foxglove or Lichtblick: scene, both event cameras,\n"
                    "sensors, detections, commands, and what became of it")
+      ->check(file_ending(".mcap"))
       ->type_name("FILE.mcap");
   command
       ->add_option("--stages", arguments->stages,

@@ -191,14 +191,14 @@ const BadScenario kBadScenarios[] = {
     {"WaypointOfTwo", "mission: {type: waypoints, waypoints_m: [[0, 0, 1], [1, 2]]}\n",
      "bad.yaml:1:53: mission.waypoints_m[1] is a list of 2, but must be [x, y, z]"},
     {"NoWaypoints", "mission: {type: waypoints, waypoints_m: []}\n",
-     "bad.yaml:1:41: mission.waypoints_m is a list of 0, but must be a list of [x, y, z], 1 to "
+     "bad.yaml:1:41: mission.waypoints_m is an empty list, but must be a list of [x, y, z], 1 to "
      "100"},
     // Several objects.
     {"ThrowAndThrows", "throw: {}\nthrows: [{}]\n",
      "bad.yaml:2:9: throws and throw are both given; one of them is enough."},
     {"ThrowsIsNoList", "throws: {size_m: 0.1}\n",
      "bad.yaml:1:9: throws is a map, but must be a list of maps, 1 to 100 of them."},
-    {"EmptyThrows", "throws: []\n", "bad.yaml:1:9: throws is a list of 0, but must be a list of"},
+    {"EmptyThrows", "throws: []\n", "bad.yaml:1:9: throws is an empty list, but must be a list of"},
     {"ManyThrows", "throws: [" + repeat("{}, ", 100) + "{}]\n",
      "bad.yaml:1:9: throws is a list of 101, but must be a list of maps, 1 to 100 of them."},
     {"ThrowsOfNumbers", "throws: [{}, 3]\n",
@@ -227,7 +227,7 @@ const BadScenario kBadScenarios[] = {
     {"GridOfAChoice", "throw: {}\ngrid: {size_m: !choice [0.1, 0.2]}\n",
      "bad.yaml:2:16: grid.size_m is !choice a list of 2, but must be a list of values"},
     {"GridOfNothing", "throw: {}\ngrid: {size_m: []}\n",
-     "bad.yaml:2:16: grid.size_m is a list of 0, but must be a list of values"},
+     "bad.yaml:2:16: grid.size_m is an empty list, but must be a list of values"},
     {"GridValueOutOfRange", "throw: {}\ngrid:\n  size_m: [0.1, 3]\n",
      "bad.yaml:3:17: throw.size_m is 3, but must be between 0.01 and 1."},
     {"SweepValueOfWrongType", "sweep:\n  delays.compute_us: [0, 3.5]\n",
