@@ -147,7 +147,7 @@ const BadScenario kBadScenarios[] = {
     {"UniformOfText", "throw: {size_m: !uniform [a, b]}\n",
      "bad.yaml:1:27: throw.size_m[0] is \"a\", but must be a number"},
     {"ChoiceOfNothing", "throw: {size_m: !choice []}\n",
-     "bad.yaml:1:17: throw.size_m is !choice a list"},
+     "bad.yaml:1:17: throw.size_m is !choice an empty list"},
     {"ChoiceOutOfRange", "throw: {size_m: !choice [0.1, 0]}\n",
      "bad.yaml:1:31: throw.size_m[1] is 0, but must be between 0.01 and 1."},
     {"NormalWithoutSd", "throw: {size_m: !normal {mean: 0.2}}\n",
