@@ -49,8 +49,11 @@ constexpr int kDepthReadings = 3;
     float x = m.f * (dx / dz) + m.cx;
     float y = m.f * (dy / dz) + m.cy;
     for (int k = 0; k < kDepthReadings; ++k) {
+      // Neither is negative; lround would be a call.
+      // NOLINTBEGIN(bugprone-incorrect-roundings)
       const int at_x = static_cast<int>(smaller(larger(x, 0.0f), m.last_column) + 0.5f);
       const int at_y = static_cast<int>(smaller(larger(y, 0.0f), m.last_row) + 0.5f);
+      // NOLINTEND(bugprone-incorrect-roundings)
       const float rho = inverse_depth[at_y * m.stride + at_x];
       // 1/z of the point along the ray from the camera's place, whose z in the key is 1/rho.
       const float mu = dz * rho / (1.0f - m.t[2] * rho);

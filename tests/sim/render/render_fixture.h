@@ -20,7 +20,8 @@ struct Image {
 
   explicit Image(const Intrinsics& intrinsics, float fill = 0.0f)
       : camera(intrinsics),
-        luminance(static_cast<std::size_t>(camera.width * camera.height), fill),
+        luminance(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height),
+                  fill),
         id(luminance.size(), -7) {}
   std::size_t index(int x, int y) const { return static_cast<std::size_t>(y * camera.width + x); }
   double at(int x, int y) const { return luminance[index(x, y)]; }
