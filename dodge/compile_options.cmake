@@ -11,9 +11,11 @@ if(NOT TARGET dodge_options)
   # -ffp-contract=off: no silent fused multiply-add, so that results do not depend on the optimiser.
   target_compile_options(dodge_options INTERFACE
     -Wall -Wextra -Wpedantic -Wconversion -Werror -ffp-contract=off)
-  # Eigen's own warnings are not ours (GCC 12 reports false -Wmaybe-uninitialized inside it).
+  # GCC 12 reports false -Wmaybe-uninitialized and -Warray-bounds inside Eigen, and false -Wrestrict
+  # and -Wstringop-overflow inside std::string (its bug 105651).
   target_compile_options(dodge_options INTERFACE
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds>)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-array-bounds -Wno-restrict
+                             -Wno-stringop-overflow>)
   if(DODGESIM_FUZZ)  # clang has warnings of its own
     target_compile_options(dodge_options INTERFACE
       -Wno-error -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)

@@ -195,7 +195,7 @@ void Flight::move() {
 
 void Flight::sense() {
   const Snapshot& now = world_.snapshot();
-  gyro_B_radps_ = flight_controller_imu_.sample(now).w_B_radps;
+  gyro_B_radps_ = flight_controller_imu_.sample_gyro(now);
   if (imu_.due(now.t_us)) {
     const ImuReading imu = imu_.sample(now);
     computer_.send_imu(imu);

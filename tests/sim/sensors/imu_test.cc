@@ -146,6 +146,16 @@ TEST(Imu, TurningOffOneNoiseLeavesTheOthers) {
   EXPECT_TRUE(Imu(with, 1, 0).sample(truth).w_B_radps.isApprox(sum, 1e-12));
 }
 
+TEST(Imu, GyroscopeAloneReadsTheSame) {
+  Imu whole(ImuSpec(), 3, 5), gyro(ImuSpec(), 3, 5);
+  Snapshot truth;
+  truth.vehicle.q_W = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized());
+  for (truth.t_us = 0; truth.t_us < 100000; truth.t_us += 250) {
+    truth.vehicle.w_W = Vector3d(0.3, -0.2, 1e-6 * static_cast<double>(truth.t_us));
+    EXPECT_EQ(gyro.sample_gyro(truth), whole.sample(truth).w_B_radps);
+  }
+}
+
 TEST(Imu, IsDueAtItsRate) {
   const Imu imu(ImuSpec(), 1, 0);
   EXPECT_TRUE(imu.due(0));
