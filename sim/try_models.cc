@@ -86,12 +86,25 @@ void check_world(const World& world, const Trial& trial) {
   collect_scene(world.model(), bodies, false);
 }
 
+// The message behind the place of the longest key that it names and that the scenario gives.
+std::string placed(const std::string& message, const Scenario& campaign) {
+  std::string named;
+  for (const auto& [key, place] : campaign.places) {
+    if (key.size() > named.size() && message.find(key) != std::string::npos) named = key;
+  }
+  return named.empty() ? message : campaign.places.at(named) + ": " + message;
+}
+
 }  // namespace
 
 void try_models(const Scenario& campaign) {
-  for (const Trial& trial : trials_of(campaign)) {
-    try_world(trial.world, trial.starts,
-              [&trial](const World& world) { check_world(world, trial); });
+  try {
+    for (const Trial& trial : trials_of(campaign)) {
+      try_world(trial.world, trial.starts,
+                [&trial](const World& world) { check_world(world, trial); });
+    }
+  } catch (const ScenarioError& error) {
+    throw ScenarioError(placed(error.what(), campaign));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "sim/config/check_scenario.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "sim/base/time.h"
@@ -25,6 +26,14 @@ Eigen::Matrix3d looking_forward() {
   Eigen::Matrix3d R_BC;
   R_BC << 0, 0, 1, -1, 0, 0, 0, -1, 0;
   return R_BC;
+}
+
+// A name is the title of tables.
+void check_name(const Scenario& scenario, ReadContext& context) {
+  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (std::none_of(scenario.name.begin(), scenario.name.end(), control)) return;
+  context.problems.add(position_of(context, "name"),
+                       "name has a line break, a tab or another control character.");
 }
 
 // A key that one type of mission needs, and the others must not have.
@@ -189,6 +198,7 @@ void check_axis(const Scenario& scenario, const VariedKey& axis, bool in_grid,
 void check_scenario(const Scenario& scenario, ReadContext& context) {
   for (const VariedKey& axis : scenario.grid) check_axis(scenario, axis, true, context);
   for (const VariedKey& axis : scenario.sweep) check_axis(scenario, axis, false, context);
+  check_name(scenario, context);
   check_stop(scenario, context);
   context.problems.raise_if_any();
   if (!check_counts(scenario, context)) return;

@@ -33,6 +33,12 @@ void Problems::fail(Position at, const std::string& sentence) {
   throw ScenarioError(sentence);  // not reached: the list is not empty
 }
 
+std::string Problems::place(Position at) const {
+  const std::string& source = sources_.at(static_cast<std::size_t>(at.source));
+  if (at.line == 0) return source;
+  return source + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
+}
+
 void Problems::raise_if_any() const {
   if (problems_.empty()) return;
   std::vector<Problem> sorted = problems_;
@@ -43,11 +49,7 @@ void Problems::raise_if_any() const {
   std::string message;
   for (const Problem& problem : sorted) {
     if (!message.empty()) message += '\n';
-    message += sources_.at(static_cast<std::size_t>(problem.at.source)) + ":";
-    if (problem.at.line > 0) {
-      message += std::to_string(problem.at.line) + ":" + std::to_string(problem.at.column) + ":";
-    }
-    message += " " + problem.sentence;
+    message += place(problem.at) + ": " + problem.sentence;
   }
   if (left_out_ > 0) {
     message += "\n" + file() + ": and " + std::to_string(left_out_) + " more problems.";

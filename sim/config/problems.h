@@ -32,6 +32,9 @@ class Problems {
   // order of the sources and of their lines.
   void raise_if_any() const;
 
+  // "file:line:column", or "file" alone.
+  std::string place(Position at) const;
+
   bool empty() const { return problems_.empty(); }
   const std::string& file() const { return sources_.front(); }
 

@@ -41,6 +41,7 @@ Scenario read(const std::string& text, const std::string& file, const std::strin
   context.problems.raise_if_any();
   check_scenario(scenario, context);
   context.problems.raise_if_any();
+  for (const auto& [key, at] : context.where) scenario.places[key] = context.problems.place(at);
   if (scenario.name.empty()) scenario.name = std::filesystem::path(file).stem().string();
   return scenario;
 }

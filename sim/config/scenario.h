@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -176,7 +177,9 @@ struct Scenario {
   FlightControllerSpec flight_controller;
   MotorSpec motors;
 
-  std::string models_dir;  // folder of rooms, vehicles and objects; not part of the file
+  // Not part of the file:
+  std::string models_dir;                     // folder of rooms, vehicles and objects
+  std::map<std::string, std::string> places;  // "file:line:column" of the keys that were given
 
   // One for each throw or group of throws of a flight, whichever key they stand under.
   std::vector<ThrowSpec> throw_specs() const {

@@ -150,7 +150,7 @@ void World::read_vehicle(const VehicleOverrides& overrides) {
   if (lift < kLeastLift) {
     throw ScenarioError(label_ + ": the rotors lift only " + std::to_string(lift) +
                         " times the vehicle's weight; it needs at least 1.2 to fly" +
-                        " (vehicle_overrides.mass_scale, max_thrust_n).");
+                        " (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
   }
   for (const char* name : {"top", "bottom"}) {
     const int camera = find(mjOBJ_CAMERA, name);

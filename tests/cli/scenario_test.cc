@@ -58,6 +58,19 @@ TEST_F(ScenarioCommandTest, SettingsChangeTheFileAndAreResolved) {
               AllOf(HasSubstr("size_m: !choice [0.3]"), HasSubstr("repeats: 1\n")));
 }
 
+TEST_F(ScenarioCommandTest, WhatOnlyTheModelsRefuseHasAPlaceToo) {
+  write("start.yaml", "pilot: none\nmission:\n  start_m: [50, 0, 2]\n");
+  const Outcome start = dodgesim("validate " + path("start.yaml"));
+  EXPECT_EQ(start.exit_code, 2);
+  EXPECT_THAT(start.output, testing::StartsWith(path("start.yaml") +
+                                                ":3:12: The vehicle cannot start at (50, 0, 2) m"));
+  const Outcome weak =
+      dodgesim("validate " + path("s.yaml") + " --set vehicle_overrides.max_thrust_n=1");
+  EXPECT_EQ(weak.exit_code, 2);
+  EXPECT_THAT(weak.output, AllOf(testing::StartsWith("--set vehicle_overrides.max_thrust_n=1: "),
+                                 HasSubstr("lift only 0.4")));
+}
+
 TEST_F(ScenarioCommandTest, BadSettingsAreUsageErrors) {
   const std::string validate = "validate " + path("s.yaml");
   const Outcome typo = dodgesim(validate + " --set throw.spede_mps=3");

@@ -54,6 +54,8 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:3:11: throw.size_m is -1, but must be between 0.01 and 1."},
     {"TooManyThrows", "repeats: 1000001\n",
      "bad.yaml:1:10: repeats is 1000001, but must be between 1 and 1000000."},
+    {"NameOfTwoLines", "seed: 1\nname: \"a\\nb\"\n",
+     "bad.yaml:2:7: name has a line break, a tab or another control character."},
     {"NegativeSeed", "seed: -1\n",
      "bad.yaml:1:7: seed is -1, but must be between 0 and 18446744073709551615."},
     {"SeedBeyond64Bits", "seed: 18446744073709551616\n",
