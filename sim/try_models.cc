@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include "sim/base/error.h"
@@ -31,6 +32,27 @@ struct Trial {
   bool seen = false;        // by a pilot's cameras
 };
 
+// The same for worlds that the same trial serves.
+std::string description(const WorldSpec& world) {
+  const VehicleOverrides& overrides = world.vehicle_overrides;
+  std::ostringstream text;
+  text.precision(17);
+  text << world.models_dir << '/' << world.room << '/' << world.vehicle << '/'
+       << overrides.mass_scale << '/' << overrides.max_thrust_n << '/' << overrides.inertia_scale;
+  for (const ObjectSpec& object : world.objects) text << '/' << object.kind;
+  return text.str();
+}
+
+std::string description(const Trial& trial) {
+  std::ostringstream text;
+  text.precision(17);
+  text << description(trial.world) << ' ' << trial.min_thrust_n << ' ' << trial.seen;
+  for (const VehicleStart& start : trial.starts) {
+    text << ' ' << start.p_W.transpose() << ' ' << start.heading_rad;
+  }
+  return text.str();
+}
+
 void add_start(const MissionSpec& mission, std::vector<VehicleStart>& starts) {
   const VehicleStart start = {mission.start_m, mission.heading_deg * std::numbers::pi / 180};
   const auto same = [&start](const VehicleStart& other) {
@@ -52,11 +74,7 @@ std::vector<Trial> trials_of(const Scenario& campaign) {
       world.room = scenario.room;
       world.vehicle = scenario.vehicle;
       world.vehicle_overrides = scenario.vehicle_overrides;
-      const VehicleOverrides& o = scenario.vehicle_overrides;
-      const std::string name = scenario.room + "/" + scenario.vehicle + "/" +
-                               std::to_string(o.mass_scale) + "/" + std::to_string(o.max_thrust_n) +
-                               "/" + std::to_string(o.inertia_scale);
-      Trial& trial = trials.try_emplace(name, Trial{world, {}}).first->second;
+      Trial& trial = trials.try_emplace(description(world), Trial{world, {}}).first->second;
       add_start(scenario.mission, trial.starts);
       trial.min_thrust_n = std::max(trial.min_thrust_n, scenario.motors.min_thrust_n);
       trial.seen |= perceives(scenario.pilot);
@@ -97,14 +115,18 @@ std::string placed(const std::string& message, const Scenario& campaign) {
 
 }  // namespace
 
-void try_models(const Scenario& campaign) {
-  try {
+void try_models(const std::vector<Scenario>& campaigns) {
+  std::set<std::string> tried;
+  for (const Scenario& campaign : campaigns) {
     for (const Trial& trial : trials_of(campaign)) {
-      try_world(trial.world, trial.starts,
-                [&trial](const World& world) { check_world(world, trial); });
+      if (!tried.insert(description(trial)).second) continue;
+      try {
+        try_world(trial.world, trial.starts,
+                  [&trial](const World& world) { check_world(world, trial); });
+      } catch (const ScenarioError& error) {
+        throw ScenarioError(placed(error.what(), campaign));
+      }
     }
-  } catch (const ScenarioError& error) {
-    throw ScenarioError(placed(error.what(), campaign));
   }
 }
 

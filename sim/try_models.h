@@ -2,15 +2,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sim/config/scenario.h"
 
 namespace dodgesim {
 
-// Tries every room with every vehicle, all objects and every start that the campaign names, in
-// child processes. Throws ScenarioError as try_world() does, if a pilot's cameras cannot see all
-// of a room, or if a rotor's idle thrust is not less than its greatest.
-void try_models(const Scenario& campaign);
+// Tries every room with every vehicle, all objects and every start that a campaign names, each such
+// world once, in child processes. Throws ScenarioError as try_world() does, if a pilot's cameras
+// cannot see all of a room, or if a rotor's idle thrust is not less than its greatest.
+void try_models(const std::vector<Scenario>& campaigns);
 
 // Hexadecimal digits that change with these models (models_digest.h). Throws ScenarioError.
 std::string digest_of_models(const Scenario& campaign);

@@ -35,4 +35,13 @@ TEST_F(PaperCommandTest, MakesTheSameTablesAgain) {
   EXPECT_EQ(fly("b", "").exit_code, 2) << "without --force or --resume";
 }
 
+// The oracle's campaign, over the open field, would be flown first.
+TEST_F(PaperCommandTest, TriesAllModelsBeforeTheFirstFlight) {
+  const Outcome outcome = dodgesim("paper latency --throws 1 --out " + path("out") +
+                                   " --set 'mission.start_m=[5.95, 0, 2]'");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, testing::AllOf(HasSubstr("The vehicle cannot start at (5.95, 0, 2)"),
+                                             testing::Not(HasSubstr("Flying"))));
+}
+
 }  // namespace

@@ -96,7 +96,6 @@ void append_settings(const RepeatOptions& options, std::vector<Setting>& setting
 }
 
 CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options) {
-  try_models(scenario);
   options.models = digest_of_models(scenario);
   watch_signals();
   options.stop = [] { return stop_signal != 0; };

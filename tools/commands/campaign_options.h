@@ -22,8 +22,8 @@ void add_repeat_options(CLI::App& command, RepeatOptions& options, const std::st
                         const std::string& seed_help);
 void append_settings(const RepeatOptions& options, std::vector<Setting>& settings);
 
-// Tries the models, then flies the throws in workers, with progress on a terminal, until done or
-// until the user asks for the end (SIGINT, SIGTERM).
+// Flies the throws in workers, with progress on a terminal, until done or until the user asks for
+// the end (SIGINT, SIGTERM). Call try_models() before.
 CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options);
 
 // Says that the campaign was stopped and how it goes on; returns the exit code.

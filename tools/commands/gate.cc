@@ -16,6 +16,7 @@
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
 #include "sim/files/output_file.h"
+#include "sim/try_models.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -204,6 +205,7 @@ int gate(const Arguments& arguments) {
   const GateRules rules = rules_of(arguments);
   if (!arguments.update) expect_same_throws(scenario, *baseline, arguments.baseline);
 
+  try_models({scenario});
   const CampaignSummary summary = fly_campaign(scenario, arguments.options);
   if (!summary.complete()) return report_stop(summary, arguments.options);
   if (arguments.update) return update(arguments, rules, summary);

@@ -6,6 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/base/shell.h"
 #include "sim/paper/paper_tables.h"
+#include "sim/try_models.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -53,6 +54,8 @@ int paper(const Arguments& arguments) {
     scenarios.push_back(load_scenario(DODGESIM_SCENARIOS_DIR "/paper/" + flight.scenario,
                                       arguments.models_dir, flight.settings));
   }
+
+  try_models(scenarios);  // all of them before an hour of flights
 
   int errors = 0;
   for (std::size_t i = 0; i < flights.size(); ++i) {

@@ -196,7 +196,7 @@ int replay(const Arguments& arguments) {
   if (arguments.throw_index >= throw_count(campaign)) {
     throw ScenarioError(directory + " has no throw " + std::to_string(arguments.throw_index) + ".");
   }
-  try_models(campaign);
+  try_models({campaign});
   const Scenario scenario = case_of(campaign, arguments.throw_index).scenario;
   const std::string recorded = recorded_row(directory, arguments.throw_index);
 

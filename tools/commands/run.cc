@@ -9,6 +9,7 @@
 #include "sim/base/error.h"
 #include "sim/campaign/progress.h"
 #include "sim/campaign/report.h"
+#include "sim/try_models.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -77,6 +78,7 @@ int run(const Arguments& arguments) {
     options.shard =
         parse_shard(arguments.shard, [](const char* name) { return std::getenv(name); });
   }
+  try_models({scenario});
   const CampaignSummary summary = fly_campaign(scenario, options);
   if (!summary.complete()) return report_stop(summary, options);
   std::cout << summary.table;

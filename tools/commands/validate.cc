@@ -20,7 +20,7 @@ struct Arguments {
 void validate(const Arguments& arguments) {
   const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir,
                                           parse_settings("--set", arguments.set));
-  try_models(scenario);
+  try_models({scenario});
   if (arguments.resolved) {
     std::cout << to_yaml(scenario);
     return;
