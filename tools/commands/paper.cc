@@ -50,6 +50,7 @@ int paper(const Arguments& arguments) {
   const std::vector<PaperExperiment> experiments = chosen_experiments(arguments);
   const std::vector<PaperFlight> flights = flights_of(experiments);
   std::vector<Scenario> scenarios;
+  scenarios.reserve(flights.size());
   for (const PaperFlight& flight : flights) {
     scenarios.push_back(load_scenario(DODGESIM_SCENARIOS_DIR "/paper/" + flight.scenario,
                                       arguments.models_dir, flight.settings));
