@@ -85,6 +85,7 @@ std::vector<Trial> trials_of(const Scenario& campaign) {
   }
   std::vector<Trial> all;
   for (auto& [name, trial] : trials) {
+    trial.world.objects.reserve(kinds.size());
     for (const std::string& kind : kinds) trial.world.objects.push_back({kind, kTrialSizeM});
     all.push_back(trial);
   }
@@ -100,6 +101,7 @@ void check_world(const World& world, const Trial& trial) {
   }
   if (!trial.seen) return;
   std::vector<int> bodies;
+  bodies.reserve(static_cast<std::size_t>(world.object_count()));
   for (int i = 0; i < world.object_count(); ++i) bodies.push_back(world.object_body(i));
   collect_scene(world.model(), bodies, false);
 }
