@@ -106,11 +106,13 @@ void check_world(const World& world, const Trial& trial) {
   collect_scene(world.model(), bodies, false);
 }
 
-// The message behind the place of the longest key that it names and that the scenario gives.
+// The message behind the place of the longest dotted key that it names and that the scenario gives;
+// a key without a dot, such as name, may be a word of any sentence.
 std::string placed(const std::string& message, const Scenario& campaign) {
   std::string named;
   for (const auto& [key, place] : campaign.places) {
-    if (key.size() > named.size() && message.find(key) != std::string::npos) named = key;
+    const bool dotted = key.find('.') != std::string::npos;
+    if (dotted && key.size() > named.size() && message.find(key) != std::string::npos) named = key;
   }
   return named.empty() ? message : campaign.places.at(named) + ": " + message;
 }
