@@ -13,6 +13,7 @@ Config dodgesim() {
   config.position.max_range_m = 5;
   config.association.gate_sigmas = 3;
   config.association.min_detections = 6;
+  config.association.tentative_timeout_us = 100000;
   config.kalman.gravity = true;
   config.kalman.acceleration_noise = 1;
   config.kalman.lateral_size_share = 0.1;

@@ -33,7 +33,9 @@ double Associator::cost(const MeasuredPosition& detection,
     const bool fits = sigmas_squared <= config_.gate_sigmas * config_.gate_sigmas;
     return fits ? sigmas_squared + std::log(S.determinant()) : kInfinity;
   }
-  const double radius = obstacle.detections <= 1 ? config_.first_radius_m : config_.radius_m;
+  const double radius = obstacle.detections <= 1
+                            ? config_.first_radius_m + config_.first_speed_mps * obstacle.unseen_s
+                            : config_.radius_m;
   const double distance = offset.norm();
   return distance <= radius ? distance : kInfinity;
 }

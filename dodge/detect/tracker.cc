@@ -49,6 +49,7 @@ Tracker::Tracker(const AssociationConfig& association, const KalmanConfig& kalma
 
 void Tracker::update(TimeUs now, std::span<Detection> detections) {
   remove_stale(now);
+  for (Track& track : tracks_) track.missed = true;
   for (std::size_t first = 0; first < detections.size();) {
     std::size_t end = first + 1;
     while (end < detections.size() && detections[end].camera == detections[first].camera) ++end;
@@ -60,12 +61,14 @@ void Tracker::update(TimeUs now, std::span<Detection> detections) {
 
 // One camera's detections at a time: it sees an obstacle once, another camera may see it again.
 void Tracker::take_in(std::span<Detection> detections) {
+  const TimeUs t_us = detections.front().t_us;
   predicted_.clear();
   for (const Track& track : tracks_) {
     Kalman filter = track.filter;
-    filter.predict(detections.front().t_us);
-    predicted_.push_back(
-        {filter.position(), filter.covariance().topLeftCorner<3, 3>(), track.detections});
+    filter.predict(t_us);
+    const TimeUs unseen_us = std::max<TimeUs>(0, t_us - track.last_detection_us);
+    predicted_.push_back({filter.position(), filter.covariance().topLeftCorner<3, 3>(),
+                          track.detections, static_cast<double>(unseen_us) / kUsPerSecond});
   }
   measured_.clear();
   for (const Detection& detection : detections) {
@@ -84,6 +87,7 @@ void Tracker::take_in(std::span<Detection> detections) {
                          0,
                          0,
                          {},
+                         false,
                          false});
       measure(tracks_.back(), detection);
     } else {
@@ -97,6 +101,7 @@ void Tracker::take_in(std::span<Detection> detections) {
 
 void Tracker::measure(Track& track, Detection& detection) const {
   detection.obstacle_id = track.id;
+  track.missed = false;
   track.last_detection_us = std::max(track.last_detection_us, detection.t_us);
   track.size_m = detection.size_m;
   track.ellipsoid = minimum_volume_ellipsoid(detection.p_W, kMinHalfWidthM);
@@ -109,7 +114,7 @@ void Tracker::measure(Track& track, Detection& detection) const {
 
 void Tracker::remove_stale(TimeUs now) {
   std::erase_if(tracks_, [&](const Track& track) {
-    const TimeUs allowed = track.confirmed
+    const TimeUs allowed = track.confirmed || !track.missed
                                ? lifetime_us_
                                : std::min<TimeUs>(lifetime_us_, association_.tentative_timeout_us);
     return now - track.last_detection_us > allowed;

@@ -49,6 +49,7 @@ class Tracker {
     double size_m;
     Ellipsoid ellipsoid;  // its centre relative to the obstacle's position
     bool confirmed;
+    bool missed;  // not detected in the last cycle
   };
 
   void take_in(std::span<Detection> detections);

@@ -41,10 +41,18 @@ TEST(Associator, TakesTheClosestObstacleWithinTheSphere) {
               ElementsAre(1, -1));
 }
 
-TEST(Associator, LooksFartherForAnObstacleThatWasSeenOnce) {
-  EXPECT_THAT(associate({}, {at(0.38)}, {obstacle(0, 1)}), ElementsAre(0));
-  EXPECT_THAT(associate({}, {at(0.38)}, {obstacle(0, 2)}), ElementsAre(-1));
-  EXPECT_THAT(associate({}, {at(0.42)}, {obstacle(0, 1)}), ElementsAre(-1));
+TEST(Associator, LooksAsFarForAnObstacleThatWasSeenOnceAsItMayHaveComeSince) {
+  const auto index_at = [](double x, int detections, double unseen_s) {
+    PredictedObstacle predicted = obstacle(0, detections);
+    predicted.unseen_s = unseen_s;
+    return associate({}, {at(x)}, {predicted}).at(0);
+  };
+  EXPECT_EQ(index_at(0.09, 1, 0), 0);
+  EXPECT_EQ(index_at(0.11, 1, 0), -1);
+  EXPECT_EQ(index_at(0.69, 1, 0.06), 0);
+  EXPECT_EQ(index_at(0.71, 1, 0.06), -1);
+  EXPECT_EQ(index_at(0.34, 2, 0.06), 0);
+  EXPECT_EQ(index_at(0.36, 2, 0.06), -1) << "its velocity is known";
 }
 
 TEST(Associator, GivesEachObstacleToTheClosestDetectionOnly) {
@@ -135,7 +143,7 @@ TEST(Associator, IsOneToOneAndLeavesNoPairThatWouldBothRatherHaveEachOther) {
   }
 }
 
-TEST(AssociationConfig, RefusesRadiiOfZero) {
+TEST(AssociationConfig, RefusesValuesOutOfRange) {
   const auto refused = [](auto change) {
     AssociationConfig config;
     change(config);
@@ -143,6 +151,7 @@ TEST(AssociationConfig, RefusesRadiiOfZero) {
   };
   refused([](AssociationConfig& c) { c.radius_m = 0; });
   refused([](AssociationConfig& c) { c.first_radius_m = std::nan(""); });
+  refused([](AssociationConfig& c) { c.first_speed_mps = -1; });
   refused([](AssociationConfig& c) { c.min_detections = 0; });
   refused([](AssociationConfig& c) { c.gate_sigmas = -1; });
 }

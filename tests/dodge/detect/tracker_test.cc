@@ -131,10 +131,20 @@ TEST(Tracker, RemovesAnObstacleAfterItsLifetime) {
 TEST(Tracker, DropsWhatWasNotConfirmedEarlier) {
   Tracker tracker({}, {}, kLifetimeS);
   update(tracker, 0, {seen(0, Vector3d(2, 0, 0))});
-  update(tracker, 100000, {});
+  update(tracker, 25000, {});
   EXPECT_EQ(tracker.obstacles().size(), 1);
-  update(tracker, 100001, {});
+  update(tracker, 25001, {});
   EXPECT_TRUE(tracker.obstacles().empty());
+}
+
+// A slow pilot's cycles, farther apart than the timeout.
+TEST(Tracker, ConfirmsWhatEveryCycleSeesHoweverFarApartTheyAre) {
+  Tracker tracker({}, {}, kLifetimeS);
+  for (int i = 0; i < 3; ++i) {
+    update(tracker, 60000 * i, {seen(60000 * i, Vector3d(3 - 0.06 * 8 * i, 0, 0))});
+    ASSERT_EQ(tracker.obstacles().size(), 1);
+  }
+  EXPECT_TRUE(tracker.obstacles()[0].confirmed);
 }
 
 TEST(Tracker, NeverReusesAnIdentifier) {
@@ -143,8 +153,8 @@ TEST(Tracker, NeverReusesAnIdentifier) {
   tracker.update(0, detections);
   EXPECT_EQ(detections[0].obstacle_id, 0);
   EXPECT_EQ(detections[1].obstacle_id, 1);
-  detections = {seen(500000, Vector3d(2, 0, 0))};
-  tracker.update(500000, detections);
+  detections = {seen(900000, Vector3d(2, 0, 0))};
+  tracker.update(900000, detections);
   EXPECT_EQ(detections[0].obstacle_id, 2);
 }
 
