@@ -1,116 +1,93 @@
 #include "sim/campaign/campaign.h"
 
-#include <chrono>
+#include <algorithm>
+#include <memory>
 #include <optional>
 
-#include "sim/base/error.h"
-#include "sim/campaign/build_info.h"
-#include "sim/campaign/campaign_directory.h"
-#include "sim/campaign/early_stop.h"
-#include "sim/campaign/journal.h"
-#include "sim/campaign/manifest.h"
 #include "sim/campaign/progress.h"
-#include "sim/campaign/result_files.h"
+#include "sim/campaign/running_campaign.h"
+#include "sim/campaign/workers.h"
 #include "sim/config/resolve_throw.h"
-#include "sim/files/output_file.h"
 
 namespace dodgesim {
 
 namespace {
 
-namespace fs = std::filesystem;
+// Campaigns one after the other, in the same workers.
+class Fleet {
+ public:
+  Fleet(const std::vector<CampaignRun>& runs, const CampaignListener& listener)
+      : runs_(runs), listener_(listener) {}
 
-CampaignIdentity identity_of(const Scenario& scenario, const CampaignOptions& options) {
-  return {to_yaml(scenario), build_info().name(), options.models, options.truth};
-}
-
-// Numbers of the shard's throws.
-std::vector<int> throws_of(const Scenario& scenario, const Shard& shard) {
-  std::vector<int> throws;
-  const int count = throw_count(scenario);
-  for (int i = shard.index; i < count; i += shard.count) throws.push_back(i);
-  return throws;
-}
-
-// Results of other throws must not be counted as the shard's.
-void expect_throws_of(const Shard& shard, const Scenario& scenario, const JournalIndex& index,
-                      const fs::path& out) {
-  for (const auto& [number, record] : index.throws) {
-    if (number >= 0 && number < throw_count(scenario) && number % shard.count == shard.index)
-      continue;
-    throw ScenarioError(out.string() + " holds a result of throw " + std::to_string(number) +
-                        ", which is not one of shard " + std::to_string(shard.index) + " of " +
-                        std::to_string(shard.count) +
-                        "; choose another directory, or add --force to start anew.");
+  WorkerMemory fly() {
+    const CampaignOptions& options = runs_.front().options;
+    WorkerTasks tasks;
+    tasks.next = [this] { return next(); };
+    tasks.jobs = options.jobs;
+    tasks.limits = options.limits;
+    tasks.fly = [this](const Task& task) { return run_of(task).fly(task.throw_index); };
+    tasks.blank = [this](const Task& task) {
+      return blank_result(case_of(run_of(task).scenario, task.throw_index));
+    };
+    tasks.receive = [this](const Task& task, const ThrowResult& result) { receive(task, result); };
+    tasks.stop = [&] { return all_ended() || (options.stop && options.stop()); };
+    const WorkerMemory memory = fly_in_workers(tasks);
+    for (std::size_t i = 0; i < running_.size(); ++i) {
+      if (running_[i]) end(i);  // somebody has stopped it
+    }
+    return memory;
   }
-}
 
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
+ private:
+  const CampaignRun& run_of(const Task& task) const {
+    return runs_[static_cast<std::size_t>(task.campaign)];
+  }
 
-// Ends a campaign early when the scenario asks for it.
-std::optional<EarlyStop> early_stop(const Scenario& scenario, const CampaignOptions& options,
-                                    const std::optional<JournalIndex>& found) {
-  if (!scenario.stop) return std::nullopt;
-  if (options.shard.count > 1) {
-    throw ScenarioError(
-        "The scenario's key stop and --shard exclude each other: a part does not "
-        "know the results of the others.");
+  std::optional<Task> next() {
+    while (true) {
+      if (!running_.empty() && running_.back()) {
+        if (const std::optional<int> index = running_.back()->next()) {
+          return Task{static_cast<int>(running_.size()) - 1, *index};
+        }
+      }
+      if (running_.size() == runs_.size()) return std::nullopt;
+      begin();
+    }
   }
-  EarlyStop stop(scenario);
-  if (found) {
-    for_each_result(options.out / kJournalFile, *found, [&stop](const ThrowResult& result) {
-      if (!result.lost()) stop.add(result);
-    });
-  }
-  return stop;
-}
 
-// A throw that was lost with its worker is flown again.
-bool has_flown(const JournalIndex& found, int throw_index) {
-  const auto at = found.throws.find(throw_index);
-  return at != found.throws.end() && !at->second.lost;
-}
+  void begin() {
+    const std::size_t i = running_.size();
+    progress_.reset();
+    if (listener_.begun) listener_.begun(i);
+    running_.push_back(std::make_unique<RunningCampaign>(runs_[i].scenario, runs_[i].options));
+    progress_.emplace(running_[i]->to_fly(), runs_[i].options.show_progress);
+    if (running_[i]->over()) end(i);
+  }
 
-// Flies what the journal lacks.
-void fly_missing(const Scenario& scenario, const CampaignOptions& options, const FlyFunction& fly,
-                 const std::optional<JournalIndex>& found, std::optional<EarlyStop>& early_stop,
-                 CampaignSummary& summary) {
-  const fs::path path = options.out / kJournalFile;
-  std::optional<Journal> journal;
-  if (found) {
-    journal.emplace(path, *found);
-  } else {
-    journal.emplace(path, identity_of(scenario, options));
+  void receive(const Task& task, const ThrowResult& result) {
+    const auto i = static_cast<std::size_t>(task.campaign);
+    if (!running_[i]) return;  // it has ended early
+    running_[i]->add(result);
+    if (i + 1 == running_.size()) progress_->show(running_[i]->flown());
+    if (running_[i]->over()) end(i);
   }
-  WorkerTasks tasks;
-  for (const int throw_index : throws_of(scenario, options.shard)) {
-    ++summary.wanted;
-    if (!found || !has_flown(*found, throw_index)) tasks.throws.push_back(throw_index);
+
+  void end(std::size_t i) {
+    CampaignSummary summary = running_[i]->finish();
+    running_[i].reset();
+    if (listener_.ended) listener_.ended(i, std::move(summary));
   }
-  tasks.jobs = options.jobs;
-  tasks.limits = options.limits;
-  tasks.fly = fly;
-  tasks.stop = [&] {
-    return (early_stop && early_stop->end()) || (options.stop && options.stop());
-  };
-  tasks.blank = [&](int index) { return blank_result(case_of(scenario, index)); };
-  Progress progress(static_cast<std::int64_t>(tasks.throws.size()), options.show_progress);
-  tasks.receive = [&](const ThrowResult& result) {
-    journal->add(result);
-    if (early_stop) early_stop->add(result);
-    progress.show(++summary.flown);
-  };
-  if (early_stop && early_stop->end()) tasks.throws.clear();
-  summary.memory = fly_in_workers(tasks);
-  journal->sync();
-  if (early_stop && early_stop->end()) {
-    summary.wanted = *early_stop->end();
-  } else {
-    summary.missing = static_cast<int>(tasks.throws.size()) - summary.flown;
+
+  bool all_ended() const {
+    return running_.size() == runs_.size() &&
+           std::all_of(running_.begin(), running_.end(), [](const auto& r) { return !r; });
   }
-}
+
+  const std::vector<CampaignRun>& runs_;
+  const CampaignListener& listener_;
+  std::vector<std::unique_ptr<RunningCampaign>> running_;  // those that were begun; null: ended
+  std::optional<Progress> progress_;                       // of the one that was begun last
+};
 
 ObjectRow as_drawn(const Throw& toss, int throw_index, int object) {
   ObjectRow row;
@@ -156,28 +133,17 @@ ThrowResult blank_result(const ThrowCase& thrown) {
 
 CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& options,
                              const FlyFunction& fly) {
-  const auto begin = std::chrono::steady_clock::now();
-  const std::string started = utc_now();
-  make_directory(options.out);
-  const DirectoryLock lock(options.out);
-  const auto found = find_journal(options, identity_of(scenario, options));
-  if (found) expect_throws_of(options.shard, scenario, *found, options.out);
-  std::optional<EarlyStop> stop = early_stop(scenario, options, found);
-  remove_result_files(options.out);
-  write_file(options.out / kScenarioFile, to_yaml(scenario));
-
   CampaignSummary summary;
-  fly_missing(scenario, options, fly, found, stop, summary);
-  JournalIndex index = read_journal(options.out / kJournalFile);
-  // Throws beyond the early end may have been flown meanwhile: they do not count.
-  if (stop && stop->end()) {
-    index.throws.erase(index.throws.lower_bound(summary.wanted), index.throws.end());
-  }
-  if (summary.missing > 0) return summary;
-  write_result_files(options.out, scenario, index, options.truth, summary);
-  summary.wall_s = seconds_since(begin);
-  write_file(options.out / "manifest.json", manifest_json(scenario, options, summary, started));
+  CampaignListener listener;
+  listener.ended = [&](std::size_t /*i*/, CampaignSummary ended) { summary = std::move(ended); };
+  const WorkerMemory memory = run_campaigns({{scenario, options, fly}}, listener);
+  summary.memory = memory;
   return summary;
+}
+
+WorkerMemory run_campaigns(const std::vector<CampaignRun>& runs, const CampaignListener& listener) {
+  if (runs.empty()) return {};
+  return Fleet(runs, listener).fly();
 }
 
 }  // namespace dodgesim

@@ -33,8 +33,8 @@ struct CampaignOptions {
   WorkerLimits limits;
   std::string models;        // digest of the scenario's models (sim/try_models.h)
   std::string command_line;  // for the manifest
-  // Name of the OpenGL renderer, for the manifest. Asked for after the workers have ended, because
-  // no GL context may exist when they are forked; may be empty.
+  // Name of the OpenGL renderer, for the manifest; may be empty. It must not leave a GL context in
+  // this process, which forks workers.
   std::function<std::string()> gl_renderer;
   bool show_progress = false;
   bool truth = false;          // write truth.csv, from the results' truth_rows
@@ -59,11 +59,34 @@ struct CampaignSummary {
 // The result of a throw before any flight: its numbers as drawn.
 ThrowResult blank_result(const ThrowCase& thrown);
 
+// Flies one throw. ScenarioError means that no throw of this scenario can be flown; any other
+// exception costs this throw.
+using FlyFunction = std::function<ThrowResult(int throw_index)>;
+
 // Flies the throws with `fly`. If it is stopped, nothing but the journal is written. Throws
 // ScenarioError, also if `out` holds something else or another process is writing there, and
 // IoError; what was flown stays in the journal.
 CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& options,
                              const FlyFunction& fly);
+
+// What to fly, where to, and how; the scenario must outlive it.
+struct CampaignRun {
+  const Scenario& scenario;
+  CampaignOptions options;
+  FlyFunction fly;
+};
+
+// Hears of campaigns by their number; either function may be empty.
+struct CampaignListener {
+  std::function<void(std::size_t)> begun;
+  // All results are written, or somebody has stopped it. The summary lacks the workers' memory.
+  std::function<void(std::size_t, CampaignSummary)> ended;
+};
+
+// The same for several campaigns, one after the other, but without a pause: workers that find no
+// throw of one any more begin the next. jobs, limits, stop and show_progress are those of the
+// first.
+WorkerMemory run_campaigns(const std::vector<CampaignRun>& runs, const CampaignListener& listener);
 
 // A merge lacks throws; what() lists them.
 class MissingThrows : public std::runtime_error {

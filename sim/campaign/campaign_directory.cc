@@ -53,6 +53,7 @@ void make_directory(const fs::path& out) {
 }
 
 DirectoryLock::DirectoryLock(const fs::path& out) {
+  make_directory(out);
   const fs::path path = out / kLockFile;
   fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (fd_ < 0) {

@@ -16,7 +16,8 @@ void make_directory(const std::filesystem::path& out);
 // One process at a time writes to a directory. The lock ends with the process, however that ends.
 class DirectoryLock {
  public:
-  // Throws ScenarioError if another process holds it, IoError.
+  // Makes the directory when it is missing. Throws ScenarioError if another process holds the
+  // lock, IoError.
   explicit DirectoryLock(const std::filesystem::path& out);
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;

@@ -82,8 +82,8 @@ double resident_mb() {
   return resident * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-ThrowResult failed_throw(const WorkerTasks& tasks, int index, const std::string& reason) {
-  ThrowResult result = tasks.blank(index);
+ThrowResult failed_throw(const WorkerTasks& tasks, const Task& task, const std::string& reason) {
+  ThrowResult result = tasks.blank(task);
   mark_lost(result, reason);
   return result;
 }
@@ -95,16 +95,16 @@ std::string memory_reason(const WorkerLimits& limits) {
 }
 
 // One throw, as header and body of the answer.
-std::string fly_one(const WorkerTasks& tasks, int index, Header& header) {
+std::string fly_one(const WorkerTasks& tasks, const Task& task, Header& header) {
   try {
-    return to_bytes(tasks.fly(index));
+    return to_bytes(tasks.fly(task));
   } catch (const ScenarioError& error) {
     header.kind = Kind::kScenarioError;
     return error.what();
   } catch (const std::bad_alloc&) {
-    return to_bytes(failed_throw(tasks, index, memory_reason(tasks.limits)));
+    return to_bytes(failed_throw(tasks, task, memory_reason(tasks.limits)));
   } catch (const std::exception& error) {
-    return to_bytes(failed_throw(tasks, index, error.what()));
+    return to_bytes(failed_throw(tasks, task, error.what()));
   }
 }
 
@@ -121,12 +121,12 @@ void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
   }
 }
 
-// The life of a worker: throw numbers in, results out, until the campaign closes the socket.
+// The life of a worker: tasks in, results out, until the campaign closes the socket.
 [[noreturn]] void serve(int fd, const WorkerTasks& tasks) {
-  int index = 0;
-  while (read_all(fd, &index, sizeof(index))) {
+  Task task;
+  while (read_all(fd, &task, sizeof(task))) {
     Header header;
-    const std::string body = fly_one(tasks, index, header);
+    const std::string body = fly_one(tasks, task, header);
     header.size = static_cast<std::uint32_t>(body.size());
     header.resident_mb = resident_mb();
     if (!write_all(fd, &header, sizeof(header)) || !write_all(fd, body.data(), body.size())) break;
@@ -156,7 +156,8 @@ class Pool {
 
   WorkerMemory run() {
     const std::size_t jobs = static_cast<std::size_t>(std::max(1, tasks_.jobs));
-    while (workers_.size() < jobs && has_next()) start_worker();
+    while (workers_.size() < jobs && start_worker()) {
+    }
     while (!workers_.empty()) {
       if (tasks_.stop && tasks_.stop()) break;
       wait_for_results();
@@ -170,14 +171,15 @@ class Pool {
   struct Worker {
     pid_t pid = 0;
     int fd = -1;
-    int index = 0;  // the throw it flies
+    Task task;  // that it flies
     Clock::time_point begin;
     double first_mb = 0, last_mb = 0;
   };
 
-  bool has_next() const { return next_ < tasks_.throws.size(); }
-
-  void start_worker() {
+  // False if there is nothing to fly.
+  bool start_worker() {
+    const std::optional<Task> task = tasks_.next();
+    if (!task) return false;
     int fds[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, fds) != 0) {
       throw IoError(std::string("A worker's socket could not be made: ") + std::strerror(errno));
@@ -202,14 +204,15 @@ class Pool {
     worker.pid = pid;
     worker.fd = fds[0];
     workers_.push_back(worker);
-    assign(workers_.back());
+    assign(workers_.back(), *task);
+    return true;
   }
 
-  void assign(Worker& worker) {
-    worker.index = tasks_.throws[next_++];
+  static void assign(Worker& worker, const Task& task) {
+    worker.task = task;
     worker.begin = Clock::now();
     // A worker that died between two throws is noticed when its socket reports the end.
-    write_all(worker.fd, &worker.index, sizeof(worker.index));
+    write_all(worker.fd, &task, sizeof(task));
   }
 
   int reap(Worker& worker) {
@@ -274,9 +277,9 @@ class Pool {
     if (header.kind == Kind::kScenarioError) throw ScenarioError(body);
     if (worker.first_mb == 0) worker.first_mb = header.resident_mb;
     worker.last_mb = header.resident_mb;
-    tasks_.receive(result_from_bytes(body));
-    if (has_next()) {
-      assign(worker);
+    tasks_.receive(worker.task, result_from_bytes(body));
+    if (const std::optional<Task> next = tasks_.next()) {
+      assign(worker, *next);
     } else {
       reap(worker);
       workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -285,15 +288,14 @@ class Pool {
 
   // The throw of a worker that is no more.
   void lose(std::size_t i, const std::string& reason) {
-    const int index = workers_[i].index;
+    const Task task = workers_[i].task;
     workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
-    tasks_.receive(failed_throw(tasks_, index, reason));
-    if (has_next()) start_worker();
+    tasks_.receive(task, failed_throw(tasks_, task, reason));
+    start_worker();
   }
 
   const WorkerTasks& tasks_;
   std::vector<Worker> workers_;
-  std::size_t next_ = 0;  // throw to assign
   double first_mb_ = 0, last_mb_ = 0;
   int counted_ = 0;  // workers that have flown a throw
 };

@@ -5,15 +5,17 @@
 
 #include <cstdint>
 #include <functional>
-#include <vector>
+#include <optional>
 
 #include "sim/campaign/result.h"
 
 namespace dodgesim {
 
-// Flies one throw. ScenarioError means that no throw of this scenario can be flown; any other
-// exception costs this throw.
-using FlyFunction = std::function<ThrowResult(int throw_index)>;
+// A throw of one of several campaigns.
+struct Task {
+  int campaign = 0;
+  int throw_index = 0;
+};
 
 struct WorkerLimits {
   double wall_s = 0;           // a throw that takes longer is given up; 0: none
@@ -21,14 +23,17 @@ struct WorkerLimits {
 };
 
 struct WorkerTasks {
-  std::vector<int> throws;  // their numbers, in the order in which they are begun
-  int jobs = 1;             // worker processes
+  // What to fly next; nothing when there is no more. Asked whenever a worker has nothing to do.
+  std::function<std::optional<Task>()> next;
+  int jobs = 1;  // worker processes
   WorkerLimits limits;
-  FlyFunction fly;
+  // Flies one throw. ScenarioError means that no throw of this scenario can be flown; any other
+  // exception costs this throw.
+  std::function<ThrowResult(const Task&)> fly;
   // The result of a throw that could not be flown, with everything known before the flight.
-  FlyFunction blank;
+  std::function<ThrowResult(const Task&)> blank;
   // Receives the results in the order in which they finish.
-  std::function<void(ThrowResult)> receive;
+  std::function<void(const Task&, const ThrowResult&)> receive;
   // Asked several times a second: whether to stop, giving up the throws in flight. May be empty.
   std::function<bool()> stop;
 };
@@ -39,9 +44,9 @@ struct WorkerMemory {
   double last_mb = 0;   // after its last one
 };
 
-// Every throw is flown exactly once. A worker that dies or takes too long costs its throw (status
-// "lost", saying why) and is replaced. Throws ScenarioError as `fly` does, IoError when processes
-// cannot be made, and whatever `receive` does; no worker survives the call.
+// Every throw that next() gives is flown exactly once. A worker that dies or takes too long costs
+// its throw (status "lost", saying why) and is replaced. Throws ScenarioError as `fly` does,
+// IoError when processes cannot be made, and whatever `receive` does; no worker survives the call.
 WorkerMemory fly_in_workers(const WorkerTasks& tasks);
 
 }  // namespace dodgesim

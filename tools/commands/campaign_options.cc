@@ -95,23 +95,33 @@ void append_settings(const RepeatOptions& options, std::vector<Setting>& setting
   append("--seed", "seed", options.seed);
 }
 
-CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options) {
-  options.models = digest_of_models(scenario);
+CampaignRun campaign_run(const Scenario& scenario, CampaignOptions options) {
   watch_signals();
+  options.models = digest_of_models(scenario);
   options.stop = [] { return stop_signal != 0; };
   options.show_progress = ::isatty(STDERR_FILENO) == 1;
   options.gl_renderer = renderer_name;
   const bool truth = options.truth;
-  return run_campaign(scenario, options, [&scenario, truth](int index) {
-    return truth ? fly_with_truth(scenario, index) : fly_throw(scenario, index);
-  });
+  return {scenario, std::move(options), [&scenario, truth](int index) {
+            return truth ? fly_with_truth(scenario, index) : fly_throw(scenario, index);
+          }};
+}
+
+CampaignSummary fly_campaign(const Scenario& scenario, const CampaignOptions& options) {
+  const CampaignRun run = campaign_run(scenario, options);
+  return run_campaign(run.scenario, run.options, run.fly);
+}
+
+int report_stop(const std::string& flown, const CampaignOptions& options) {
+  std::cerr << "Stopped after " << flown << "; the same command with --resume"
+            << (options.force ? " in place of --force" : "") << " flies the rest.\n";
+  return kIncomplete;
 }
 
 int report_stop(const CampaignSummary& summary, const CampaignOptions& options) {
-  std::cerr << "Stopped after " << summary.wanted - summary.missing << " of "
-            << count_of_throws(summary.wanted) << "; the same command with --resume"
-            << (options.force ? " in place of --force" : "") << " flies the rest.\n";
-  return kIncomplete;
+  return report_stop(
+      std::to_string(summary.wanted - summary.missing) + " of " + count_of_throws(summary.wanted),
+      options);
 }
 
 }  // namespace dodgesim

@@ -22,11 +22,13 @@ void add_repeat_options(CLI::App& command, RepeatOptions& options, const std::st
                         const std::string& seed_help);
 void append_settings(const RepeatOptions& options, std::vector<Setting>& settings);
 
-// Flies the throws in workers, with progress on a terminal, until done or until the user asks for
-// the end (SIGINT, SIGTERM). Call try_models() before.
-CampaignSummary fly_campaign(const Scenario& scenario, CampaignOptions options);
+// A campaign that shows its progress on a terminal and ends when the user asks for it (SIGINT,
+// SIGTERM). Call try_models() before it is flown.
+CampaignRun campaign_run(const Scenario& scenario, CampaignOptions options);
+CampaignSummary fly_campaign(const Scenario& scenario, const CampaignOptions& options);
 
-// Says that the campaign was stopped and how it goes on; returns the exit code.
+// Says that the flights were stopped, after how much, and how they go on; returns the exit code.
+int report_stop(const std::string& flown, const CampaignOptions& options);
 int report_stop(const CampaignSummary& summary, const CampaignOptions& options);
 
 }  // namespace dodgesim

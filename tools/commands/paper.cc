@@ -46,6 +46,33 @@ std::string table_command(const Arguments& arguments) {
   return line;
 }
 
+struct Flown {
+  std::size_t campaigns = 0;  // to their end
+  int errors = 0;             // throws that could not be flown
+};
+
+Flown fly(const Arguments& arguments, const std::vector<PaperFlight>& flights,
+          const std::vector<Scenario>& scenarios) {
+  std::vector<CampaignRun> runs;
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    CampaignOptions options = arguments.options;
+    options.out = flight_directory(options.out, flights[i]);
+    options.truth = flights[i].truth;
+    runs.push_back(campaign_run(scenarios[i], options));
+  }
+  Flown flown;
+  CampaignListener listener;
+  listener.begun = [&](std::size_t i) {
+    std::cerr << "Flying " << flights[i].name << " (" << i + 1 << " of " << flights.size() << ")\n";
+  };
+  listener.ended = [&](std::size_t /*i*/, const CampaignSummary& summary) {
+    if (summary.complete()) ++flown.campaigns;
+    flown.errors += summary.errors;
+  };
+  run_campaigns(runs, listener);
+  return flown;
+}
+
 int paper(const Arguments& arguments) {
   const std::vector<PaperExperiment> experiments = chosen_experiments(arguments);
   const std::vector<PaperFlight> flights = flights_of(experiments);
@@ -57,21 +84,16 @@ int paper(const Arguments& arguments) {
   }
 
   try_models(scenarios);  // all of them before an hour of flights
-
-  int errors = 0;
-  for (std::size_t i = 0; i < flights.size(); ++i) {
-    CampaignOptions options = arguments.options;
-    options.out = flight_directory(arguments.options.out, flights[i]);
-    options.truth = flights[i].truth;
-    std::cerr << "Flying " << flights[i].name << " (" << i + 1 << " of " << flights.size() << ")\n";
-    const CampaignSummary summary = fly_campaign(scenarios[i], options);
-    if (!summary.complete()) return report_stop(summary, options);
-    errors += summary.errors;
+  const Flown flown = fly(arguments, flights, scenarios);
+  if (flown.campaigns < flights.size()) {
+    return report_stop(
+        std::to_string(flown.campaigns) + " of " + std::to_string(flights.size()) + " campaigns",
+        arguments.options);
   }
   std::cout << write_paper_tables(arguments.options.out, experiments, arguments.models_dir,
                                   table_command(arguments));
-  if (errors == 0) return kOk;
-  std::cerr << count_of_throws(errors) << " could not be flown; see the tables in "
+  if (flown.errors == 0) return kOk;
+  std::cerr << count_of_throws(flown.errors) << " could not be flown; see the tables in "
             << (arguments.options.out / "flights") << ".\n";
   return kIncomplete;
 }

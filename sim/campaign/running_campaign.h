@@ -1,0 +1,49 @@
+// A campaign while its throws are flown: which is the next, and what has come back.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/campaign/campaign.h"
+#include "sim/campaign/campaign_directory.h"
+#include "sim/campaign/early_stop.h"
+#include "sim/campaign/journal.h"
+
+namespace dodgesim {
+
+class RunningCampaign {
+ public:
+  // Begins or goes on with what options.out holds; scenario and options must outlive it. Throws
+  // ScenarioError and IoError, as run_campaign().
+  RunningCampaign(const Scenario& scenario, const CampaignOptions& options);
+
+  // The throw to begin next; nothing when all were begun or the scenario's `stop` has ended it.
+  std::optional<int> next();
+  void add(const ThrowResult& result);  // throws IoError
+
+  int to_fly() const { return static_cast<int>(throws_.size()); }
+  int flown() const { return summary_.flown; }
+  // No result is awaited any more.
+  bool over() const;
+
+  // Writes the results, unless somebody has stopped it before it was over.
+  CampaignSummary finish();
+
+ private:
+  std::optional<int> early_end() const;
+
+  const Scenario& scenario_;
+  const CampaignOptions& options_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::string started_;
+  DirectoryLock lock_;
+  std::optional<EarlyStop> stop_;
+  std::optional<Journal> journal_;
+  std::vector<int> throws_;  // to fly, in the order in which they are begun
+  std::size_t next_ = 0;     // of throws_
+  CampaignSummary summary_;
+};
+
+}  // namespace dodgesim
