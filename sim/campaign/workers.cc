@@ -277,13 +277,15 @@ class Pool {
     if (header.kind == Kind::kScenarioError) throw ScenarioError(body);
     if (worker.first_mb == 0) worker.first_mb = header.resident_mb;
     worker.last_mb = header.resident_mb;
-    tasks_.receive(worker.task, result_from_bytes(body));
+    // The worker does not wait until its result is written.
+    const Task done = worker.task;
     if (const std::optional<Task> next = tasks_.next()) {
       assign(worker, *next);
     } else {
       reap(worker);
       workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
     }
+    tasks_.receive(done, result_from_bytes(body));
   }
 
   // The throw of a worker that is no more.
