@@ -113,7 +113,7 @@ std::vector<synthetic::Disk> scene() {
 
 class Allocation : public ::testing::TestWithParam<Variant> {};
 
-TEST_P(Allocation, none_from_the_first_cycle_on) {
+TEST_P(Allocation, NoneFromTheFirstCycleOn) {
   if (!DODGESIM_OWN_MALLOC) GTEST_SKIP() << "malloc cannot be counted in this build.";
   synthetic::Flight flight(synthetic::turning, scene(), {}, 5);
   Dodger dodger(GetParam().config);
@@ -135,7 +135,7 @@ TEST_P(Allocation, none_from_the_first_cycle_on) {
   EXPECT_GT(evading, 5);
 }
 
-TEST(AllocationCount, sees_operator_new_and_opencv) {
+TEST(AllocationCount, SeesOperatorNewAndOpencv) {
   if (!DODGESIM_OWN_MALLOC) GTEST_SKIP() << "malloc cannot be counted in this build.";
   long before = allocations;
   std::vector<int> numbers(1000);

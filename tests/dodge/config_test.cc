@@ -26,9 +26,9 @@ std::string complaint(const Config& config) {
   return "";
 }
 
-TEST(Config, defaults_are_valid) { EXPECT_EQ(complaint(valid()), ""); }
+TEST(Config, DefaultsAreValid) { EXPECT_EQ(complaint(valid()), ""); }
 
-TEST(Config, names_the_parameter_that_is_out_of_range) {
+TEST(Config, NamesTheParameterThatIsOutOfRange) {
   Config config = valid();
   config.window.window_us = 10;
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("window.window_us is 10"));
@@ -43,7 +43,7 @@ TEST(Config, names_the_parameter_that_is_out_of_range) {
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("must be one of mono, stereo"));
 }
 
-TEST(Config, refuses_kernels_without_a_centre_and_empty_ranges) {
+TEST(Config, RefusesKernelsWithoutACentreAndEmptyRanges) {
   Config config = valid();
   config.time_image.blur_px = 4;
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("blur_px is 4 but must be odd"));
@@ -64,7 +64,7 @@ TEST(Config, refuses_kernels_without_a_centre_and_empty_ranges) {
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("min_size_m"));
 }
 
-TEST(Config, stereo_needs_a_rectified_vertical_pair) {
+TEST(Config, StereoNeedsARectifiedVerticalPair) {
   Config config = valid();
   config.cameras.pop_back();
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("needs 2 camera(s)"));
@@ -82,7 +82,7 @@ TEST(Config, stereo_needs_a_rectified_vertical_pair) {
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("same intrinsics"));
 }
 
-TEST(Config, mono_needs_one_camera) {
+TEST(Config, MonoNeedsOneCamera) {
   Config config = valid();
   config.position.depth = "mono";
   config.cameras.pop_back();

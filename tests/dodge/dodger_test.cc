@@ -25,7 +25,7 @@ synthetic::Disk crossing_ball(double diameter_m, double depth_m) {
                                 1);
 }
 
-TEST(Dodger, still_camera_with_default_noise_sees_nothing) {
+TEST(Dodger, StillCameraWithDefaultNoiseSeesNothing) {
   Flight flight(still, {}, {.noise_hz = 0.44, .hot_fraction = 0.0007, .hot_hz = 120}, 5);
   Dodger dodger(stereo());
   for (TimeUs t = kCycleUs; t < 12000000; t += kCycleUs) {
@@ -36,7 +36,7 @@ TEST(Dodger, still_camera_with_default_noise_sees_nothing) {
   }
 }
 
-TEST(Dodger, static_scene_seen_by_a_turning_camera_is_no_obstacle) {
+TEST(Dodger, StaticSceneSeenByATurningCameraIsNoObstacle) {
   Flight flight(turning, synthetic::far_background(60, 8), {}, 5);
   Dodger dodger(stereo());
   int clusters = 0, cycles = 0;
@@ -48,7 +48,7 @@ TEST(Dodger, static_scene_seen_by_a_turning_camera_is_no_obstacle) {
   EXPECT_LT(clusters, 0.1 * cycles);
 }
 
-TEST(Dodger, without_compensation_the_same_scene_is_full_of_obstacles) {
+TEST(Dodger, WithoutCompensationTheSameSceneIsFullOfObstacles) {
   Flight flight(turning, synthetic::far_background(60, 8), {}, 5);
   Config config = stereo();
   config.ego_motion.enabled = false;
@@ -109,12 +109,12 @@ double mean_error(const std::string& disparity) {
   return sum / 6;
 }
 
-TEST(Dodger, stereo_finds_a_ball_over_a_still_and_a_turning_background) {
+TEST(Dodger, StereoFindsABallOverAStillAndATurningBackground) {
   EXPECT_LT(mean_error("centres"), 0.13);  // Table 1 of the paper: 0.13 m at 1.0 to 1.5 m
   EXPECT_LT(mean_error("correlation"), 0.02);
 }
 
-TEST(Dodger, mono_finds_a_ball_of_known_size) {
+TEST(Dodger, MonoFindsABallOfKnownSize) {
   Config config = stereo();
   config.cameras.pop_back();
   config.position.depth = "mono";
@@ -124,7 +124,7 @@ TEST(Dodger, mono_finds_a_ball_of_known_size) {
   EXPECT_LT(score.mean_m, 0.15);
 }
 
-TEST(Dodger, range_cap_drops_what_is_beyond) {
+TEST(Dodger, RangeCapDropsWhatIsBeyond) {
   EXPECT_EQ(watch(stereo(), still, crossing_ball(0.2, 2.2), 0).seen, 0);
   Config far = stereo();
   far.position.max_range_m = 3;
@@ -132,7 +132,7 @@ TEST(Dodger, range_cap_drops_what_is_beyond) {
   EXPECT_GT(score.seen, 0.8 * score.cycles);
 }
 
-TEST(Dodger, evades_a_ball_that_comes) {
+TEST(Dodger, EvadesABallThatComes) {
   const synthetic::Disk ball = synthetic::thrown_ball({3.5, 0.2, -0.2}, {0.1, 0, 0}, 6, 0.2, 1);
   Flight flight(still, {ball}, {}, 5);
   Dodger dodger(stereo());
@@ -148,7 +148,7 @@ TEST(Dodger, evades_a_ball_that_comes) {
   EXPECT_TRUE(evading);
 }
 
-TEST(Dodger, packets_do_not_matter) {
+TEST(Dodger, PacketsDoNotMatter) {
   const synthetic::Disk ball = crossing_ball(0.2, 1.2);
   const std::vector<CameraModel> cameras = synthetic::vertical_pair();
   Dodger one(stereo()), many(stereo());
@@ -177,7 +177,7 @@ TEST(Dodger, packets_do_not_matter) {
   EXPECT_GT(compared, 20);
 }
 
-TEST(Dodger, silence_gives_no_detection_twice) {
+TEST(Dodger, SilenceGivesNoDetectionTwice) {
   Flight flight(still, {crossing_ball(0.2, 1.2)}, {.noise_hz = 0}, 5);
   Dodger dodger(stereo());
   TimeUs t = kCycleUs;
@@ -192,7 +192,7 @@ TEST(Dodger, silence_gives_no_detection_twice) {
   EXPECT_TRUE(dodger.clusters(0).empty());
 }
 
-TEST(Dodger, nothing_received_is_a_zero_command) {
+TEST(Dodger, NothingReceivedIsAZeroCommand) {
   Dodger dodger(stereo());
   const VelocityCommand command = dodger.update(1000000);
   EXPECT_EQ(command.v_W, Eigen::Vector3d::Zero());
@@ -201,7 +201,7 @@ TEST(Dodger, nothing_received_is_a_zero_command) {
   EXPECT_TRUE(dodger.obstacles().empty());
 }
 
-TEST(Dodger, events_of_unknown_cameras_and_pixels_are_ignored) {
+TEST(Dodger, EventsOfUnknownCamerasAndPixelsAreIgnored) {
   Dodger dodger(stereo());
   const std::vector<Event> events = {{.t_us = 1, .x = 65000, .y = 65000, .polarity = 1}};
   dodger.add_events(0, events);
@@ -212,7 +212,7 @@ TEST(Dodger, events_of_unknown_cameras_and_pixels_are_ignored) {
   EXPECT_TRUE(dodger.clusters(7).empty());
 }
 
-TEST(Dodger, captures_the_panels_of_figure_4_on_request) {
+TEST(Dodger, CapturesThePanelsOfFigure4OnRequest) {
   Flight flight(still, {crossing_ball(0.3, 1.0)}, {}, 5);
   Dodger dodger(stereo());
   for (TimeUs t = kCycleUs; t <= 100000; t += kCycleUs) flight.cycle(dodger, t);
@@ -249,7 +249,7 @@ VelocityCommand with_height_error(Dodger& dodger, const std::function<double(dou
   return command;
 }
 
-TEST(Dodger, lands_when_the_range_sensor_disagrees_with_the_estimated_height) {
+TEST(Dodger, LandsWhenTheRangeSensorDisagreesWithTheEstimatedHeight) {
   const auto jumps = [](double t_s) { return t_s < 1 ? 0.0 : -0.5; };
   Dodger dodger(stereo());
   const VelocityCommand command = with_height_error(dodger, jumps);
@@ -265,14 +265,14 @@ TEST(Dodger, lands_when_the_range_sensor_disagrees_with_the_estimated_height) {
   EXPECT_GT(flies_on.v_W.z(), 0);
 }
 
-TEST(Dodger, flies_on_when_only_the_start_was_at_another_height) {
+TEST(Dodger, FliesOnWhenOnlyTheStartWasAtAnotherHeight) {
   Dodger dodger(stereo());
   const VelocityCommand command = with_height_error(dodger, [](double) { return -1.5; });
   EXPECT_FALSE(command.landing);
   EXPECT_GT(command.v_W.z(), 0);
 }
 
-TEST(Dodger, range_readings_before_the_first_state_estimate_are_forgotten) {
+TEST(Dodger, RangeReadingsBeforeTheFirstStateEstimateAreForgotten) {
   Dodger dodger(stereo());
   for (TimeUs t = 0; t < 1000000; t += kCycleUs) {
     dodger.add_range({t, 7});

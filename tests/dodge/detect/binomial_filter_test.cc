@@ -41,7 +41,7 @@ cv::Mat1f averaged_by_opencv(const cv::Mat1f& image, int size_px) {
   return out;
 }
 
-TEST(BinomialFilter, equals_opencv_to_the_bit_where_weights_are_powers_of_two) {
+TEST(BinomialFilter, EqualsOpencvToTheBitWhereWeightsArePowersOfTwo) {
   Generator random(1);
   for (const cv::Size size :
        {cv::Size(320, 240), cv::Size(37, 23), cv::Size(3, 2), cv::Size(1, 1)}) {
@@ -54,7 +54,7 @@ TEST(BinomialFilter, equals_opencv_to_the_bit_where_weights_are_powers_of_two) {
 }
 
 // There, OpenCV fuses multiplications and additions on processors that can.
-TEST(BinomialFilter, equals_opencv_but_for_rounding_with_larger_kernels) {
+TEST(BinomialFilter, EqualsOpencvButForRoundingWithLargerKernels) {
   Generator random(2);
   for (const cv::Size size : {cv::Size(320, 240), cv::Size(37, 23), cv::Size(4, 3)}) {
     const cv::Mat1f image = random_image(random, size.width, size.height);
@@ -67,7 +67,7 @@ TEST(BinomialFilter, equals_opencv_but_for_rounding_with_larger_kernels) {
   }
 }
 
-TEST(BinomialFilter, has_the_weights_of_pascals_triangle) {
+TEST(BinomialFilter, HasTheWeightsOfPascalsTriangle) {
   cv::Mat1f image(21, 21, 0.0F);
   image(10, 10) = 1;
   const cv::Mat1f out = averaged(image, 7);

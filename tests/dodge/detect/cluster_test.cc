@@ -70,7 +70,7 @@ ClusterConfig separate() {
   return {.min_group_pixels = 1, .eps = 0, .min_pixels = 1, .min_events = 1, .max_aspect = 1000};
 }
 
-TEST(RectangleDistance, agrees_with_a_brute_force_search) {
+TEST(RectangleDistance, AgreesWithABruteForceSearch) {
   dodgesim::RandomStream random(3, 0, "rectangles");
   for (int trial = 0; trial < 200; ++trial) {
     std::array<cv::RotatedRect, 2> r;
@@ -108,14 +108,14 @@ TEST(RectangleDistance, agrees_with_a_brute_force_search) {
   }
 }
 
-TEST(RectangleDistance, is_zero_when_one_contains_the_other_and_when_they_cross) {
+TEST(RectangleDistance, IsZeroWhenOneContainsTheOtherAndWhenTheyCross) {
   const cv::RotatedRect outer({10, 10}, {20, 20}, 30), inner({11, 9}, {2, 2}, 10);
   const cv::RotatedRect bar({10, 10}, {60, 2}, 0);
   EXPECT_EQ(rectangle_distance(outer, inner), 0);
   EXPECT_EQ(rectangle_distance(outer, bar), 0);
 }
 
-TEST(Clusterer, connects_diagonals_and_separates_what_does_not_touch) {
+TEST(Clusterer, ConnectsDiagonalsAndSeparatesWhatDoesNotTouch) {
   MaskImage image;
   for (int i = 0; i < 5; ++i) image.add(10 + i, 10 + i);
   image.add_block(40, 10, 4, 3);
@@ -130,7 +130,7 @@ TEST(Clusterer, connects_diagonals_and_separates_what_does_not_touch) {
   EXPECT_EQ(clusters[2].events, 24);
 }
 
-TEST(Clusterer, follows_a_group_up_and_to_the_left) {
+TEST(Clusterer, FollowsAGroupUpAndToTheLeft) {
   MaskImage image;
   for (int i = 0; i < 10; ++i) {
     image.add(20 + i, 20 + i);  // down to the right ...
@@ -145,7 +145,7 @@ TEST(Clusterer, follows_a_group_up_and_to_the_left) {
   EXPECT_EQ(clusters[0].pixels, 40);
 }
 
-TEST(Clusterer, rectangle_covers_whole_pixels) {
+TEST(Clusterer, RectangleCoversWholePixels) {
   MaskImage image;
   image.add_block(40, 20, 8, 4);
   const std::vector<Cluster> clusters = find(image, separate());
@@ -159,7 +159,7 @@ TEST(Clusterer, rectangle_covers_whole_pixels) {
   EXPECT_NEAR(clusters[0].rho, 0.5, 1e-6);
 }
 
-TEST(Clusterer, rectangle_follows_a_slanted_object) {
+TEST(Clusterer, RectangleFollowsASlantedObject) {
   MaskImage image;
   for (int i = 0; i < 20; ++i) {
     for (int k = 0; k < 4; ++k) image.add(30 + i, 20 + i + k);
@@ -169,7 +169,7 @@ TEST(Clusterer, rectangle_follows_a_slanted_object) {
   EXPECT_NEAR(std::fmod(clusters[0].rectangle.angle + 90, 90), 45, 3);
 }
 
-TEST(Clusterer, merges_near_groups_of_like_rho_only) {
+TEST(Clusterer, MergesNearGroupsOfLikeRhoOnly) {
   ClusterConfig config = separate();
   config.eps = 3;
   config.weight_position = 0.2;
@@ -188,7 +188,7 @@ TEST(Clusterer, merges_near_groups_of_like_rho_only) {
   EXPECT_EQ(clusters[2].pixels, 25);
 }
 
-TEST(Clusterer, lone_groups_are_noise_when_a_core_needs_neighbours) {
+TEST(Clusterer, LoneGroupsAreNoiseWhenACoreNeedsNeighbours) {
   ClusterConfig config = separate();
   config.eps = 2;
   config.weight_position = 0.2;  // 10 px
@@ -202,7 +202,7 @@ TEST(Clusterer, lone_groups_are_noise_when_a_core_needs_neighbours) {
   EXPECT_EQ(clusters[0].pixels, 64);  // the chain's ends are border points of its cores
 }
 
-TEST(Clusterer, drops_small_clusters_and_long_edges) {
+TEST(Clusterer, DropsSmallClustersAndLongEdges) {
   MaskImage image;
   image.add_block(10, 10, 3, 3);
   image.add_block(30, 10, 2, 2);
@@ -218,7 +218,7 @@ TEST(Clusterer, drops_small_clusters_and_long_edges) {
   EXPECT_EQ(find(image, config).size(), 2U);
 }
 
-TEST(Clusterer, keeps_the_groups_with_most_events_when_there_are_too_many) {
+TEST(Clusterer, KeepsTheGroupsWithMostEventsWhenThereAreTooMany) {
   MaskImage image;
   for (int i = 0; i < 20; ++i) image.add_block(4 * i, 10, 2, 1 + i % 3);
   ClusterConfig config = separate();
@@ -228,7 +228,7 @@ TEST(Clusterer, keeps_the_groups_with_most_events_when_there_are_too_many) {
   for (const Cluster& cluster : clusters) EXPECT_EQ(cluster.pixels, 6);
 }
 
-TEST(Clusterer, cost_is_6) {
+TEST(Clusterer, CostIs6) {
   const Clusterer clusterer({.weight_position = 2, .weight_velocity = 3, .weight_rho = 5}, 10, 10);
   Cluster a, b;
   a.rectangle = {{0, 0}, {2, 2}, 0};

@@ -51,7 +51,7 @@ class DepthTest : public ::testing::Test {
   std::array<cv::Mat1f, 2> rho_ = {cv::Mat1f(240, 320, 0.0F), cv::Mat1f(240, 320, 0.0F)};
 };
 
-TEST_F(DepthTest, stereo_recovers_position_and_size) {
+TEST_F(DepthTest, StereoRecoversPositionAndSize) {
   state_.t_us = 77;
   state_.p_WB = {1, 2, 3};
   state_.q_WB = Eigen::AngleAxisd(0.5, Eigen::Vector3d(0.2, 0.3, 1).normalized());
@@ -66,7 +66,7 @@ TEST_F(DepthTest, stereo_recovers_position_and_size) {
   EXPECT_LT((d.centre_W - (state_.p_WB + state_.q_WB * p_B)).norm(), 1e-4);
 }
 
-TEST_F(DepthTest, a_vertical_pair_measures_depth_by_the_vertical_focal_length) {
+TEST_F(DepthTest, AVerticalPairMeasuresDepthByTheVerticalFocalLength) {
   for (CameraModel& camera : cameras_) camera.fy = 1.2 * camera.fx;
   const Eigen::Vector3d p_B(1.3, 0.2, -0.1);
   const auto detections = locate(centres(), {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
@@ -74,7 +74,7 @@ TEST_F(DepthTest, a_vertical_pair_measures_depth_by_the_vertical_focal_length) {
   EXPECT_NEAR(detections[0].depth_m, 1.2, 1e-4);
 }
 
-TEST_F(DepthTest, speaks_of_the_time_of_the_events_and_the_place_of_the_vehicle_then) {
+TEST_F(DepthTest, SpeaksOfTheTimeOfTheEventsAndThePlaceOfTheVehicleThen) {
   state_.t_us = 500000;
   state_.v_WB = {4, 0, 0};
   const Eigen::Vector3d p_B(1.3, 0.2, -0.1);
@@ -86,7 +86,7 @@ TEST_F(DepthTest, speaks_of_the_time_of_the_events_and_the_place_of_the_vehicle_
   EXPECT_LT((detections[0].centre_W - (p_B - Eigen::Vector3d(0.012, 0, 0))).norm(), 1e-4);
 }
 
-TEST_F(DepthTest, mono_recovers_position_from_the_known_size) {
+TEST_F(DepthTest, MonoRecoversPositionFromTheKnownSize) {
   const Eigen::Vector3d p_B(1.1, -0.3, 0.2);
   DepthConfig config;
   config.depth = "mono";
@@ -98,7 +98,7 @@ TEST_F(DepthTest, mono_recovers_position_from_the_known_size) {
   EXPECT_NEAR(detections[0].size_m, 0.15, 1e-4);
 }
 
-TEST_F(DepthTest, six_points_are_the_corners_and_the_centre_moved_by_the_size) {
+TEST_F(DepthTest, SixPointsAreTheCornersAndTheCentreMovedByTheSize) {
   // Straight ahead of the top camera, whose axes are then those of the body.
   const Eigen::Vector3d p_B(1.1, 0, 0.075);
   auto detections = locate(centres(), {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
@@ -123,7 +123,7 @@ TEST_F(DepthTest, six_points_are_the_corners_and_the_centre_moved_by_the_size) {
   EXPECT_NEAR(detections[0].p_W[5].x(), 1.3 + detections[0].depth_sigma_m, 1e-4);
 }
 
-TEST_F(DepthTest, whole_pixels_give_depth_within_the_quantisation_of_the_disparity) {
+TEST_F(DepthTest, WholePixelsGiveDepthWithinTheQuantisationOfTheDisparity) {
   const double focal_baseline = cameras_[0].fx * 0.15;
   for (int depth_cm = 30; depth_cm < 140; ++depth_cm) {
     const double depth_m = 0.01 * depth_cm;
@@ -139,7 +139,7 @@ TEST_F(DepthTest, whole_pixels_give_depth_within_the_quantisation_of_the_dispari
   }
 }
 
-TEST_F(DepthTest, depth_uncertainty_is_that_of_one_disparity_sigma) {
+TEST_F(DepthTest, DepthUncertaintyIsThatOfOneDisparitySigma) {
   const Eigen::Vector3d p_B(1.6 - 1e-6, 0, 0.075);
   const auto detections = locate(centres(), {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
   ASSERT_EQ(detections.size(), 1U);
@@ -148,7 +148,7 @@ TEST_F(DepthTest, depth_uncertainty_is_that_of_one_disparity_sigma) {
   EXPECT_NEAR(detections[0].depth_sigma_m, 0.0787 * sigma_px, 0.0005 * sigma_px);
 }
 
-TEST_F(DepthTest, mono_uncertainty_grows_with_the_square_of_the_depth) {
+TEST_F(DepthTest, MonoUncertaintyGrowsWithTheSquareOfTheDepth) {
   DepthConfig config;
   config.depth = "mono";
   const auto near = locate(config, {square(160, 120, 60)}, {});
@@ -156,13 +156,13 @@ TEST_F(DepthTest, mono_uncertainty_grows_with_the_square_of_the_depth) {
   EXPECT_NEAR(far.at(0).depth_sigma_m / near.at(0).depth_sigma_m, 4, 1e-6);
 }
 
-TEST_F(DepthTest, disparity_must_be_positive) {
+TEST_F(DepthTest, DisparityMustBePositive) {
   EXPECT_EQ(locate(centres(), {square(160, 100, 20)}, {square(160, 130, 20)}).size(), 0U);
   EXPECT_EQ(locate(centres(), {square(160, 100, 20)}, {square(160, 100, 20)}).size(), 0U);
   EXPECT_EQ(locate(centres(), {square(160, 130, 20)}, {square(160, 100, 20)}).size(), 1U);
 }
 
-TEST_F(DepthTest, a_pair_of_negative_disparity_does_not_take_the_place_of_the_right_one) {
+TEST_F(DepthTest, APairOfNegativeDisparityDoesNotTakeThePlaceOfTheRightOne) {
   // The first top cluster equals the bottom one, but lies above it.
   const auto detections =
       locate(centres(), {square(160, 90, 20), square(161, 130, 21)}, {square(160, 100, 20)});
@@ -170,7 +170,7 @@ TEST_F(DepthTest, a_pair_of_negative_disparity_does_not_take_the_place_of_the_ri
   EXPECT_NEAR(detections[0].depth_m, 190.7 * 0.15 / 30, 1e-4);
 }
 
-TEST_F(DepthTest, matching_cost_is_8_and_symmetric) {
+TEST_F(DepthTest, MatchingCostIs8AndSymmetric) {
   DepthConfig config;
   config.stereo.weight_position_1ppx = 2;
   config.stereo.weight_area = 3;
@@ -184,7 +184,7 @@ TEST_F(DepthTest, matching_cost_is_8_and_symmetric) {
   EXPECT_EQ(estimator.matching_cost(a, a), 0);
 }
 
-TEST_F(DepthTest, matches_two_objects_crosswise_and_each_once) {
+TEST_F(DepthTest, MatchesTwoObjectsCrosswiseAndEachOnce) {
   const Eigen::Vector3d p1(1.2, 0.4, 0), p2(0.9, -0.3, 0.1);
   const std::vector<Cluster> top = {seen_by(0, p1, 0.1), seen_by(0, p2, 0.3)};
   const std::vector<Cluster> bottom = {seen_by(1, p2, 0.3), seen_by(1, p1, 0.1),
@@ -197,12 +197,12 @@ TEST_F(DepthTest, matches_two_objects_crosswise_and_each_once) {
   EXPECT_GT((detections[0].centre_W - detections[1].centre_W).norm(), 0.5);
 }
 
-TEST_F(DepthTest, unlike_clusters_do_not_match) {
+TEST_F(DepthTest, UnlikeClustersDoNotMatch) {
   EXPECT_EQ(locate(centres(), {square(100, 130, 20)}, {square(160, 100, 20)}).size(), 0U);
   EXPECT_EQ(locate(centres(), {square(160, 130, 40)}, {square(160, 100, 10)}).size(), 0U);
 }
 
-TEST_F(DepthTest, correlation_measures_depth_though_each_camera_sees_another_part) {
+TEST_F(DepthTest, CorrelationMeasuresDepthThoughEachCameraSeesAnotherPart) {
   // A ring 20 px wide, 25 px of disparity; the top camera sees only its upper edge.
   for (int y = 0; y < 240; ++y) {
     for (int x = 0; x < 320; ++x) {
@@ -237,7 +237,7 @@ TEST_F(DepthTest, correlation_measures_depth_though_each_camera_sees_another_par
   EXPECT_TRUE(locate(config, {top}, {bottom}).empty());
 }
 
-TEST_F(DepthTest, drops_what_is_too_far_too_near_too_large_or_too_small) {
+TEST_F(DepthTest, DropsWhatIsTooFarTooNearTooLargeOrTooSmall) {
   const auto count = [&](double x_m, double size_m) {
     const Eigen::Vector3d p_B(x_m + 0.1, 0, 0.075);
     return locate(centres(), {seen_by(0, p_B, size_m)}, {seen_by(1, p_B, size_m)}).size();
@@ -250,7 +250,7 @@ TEST_F(DepthTest, drops_what_is_too_far_too_near_too_large_or_too_small) {
   EXPECT_EQ(count(1, 0.01), 0U);
 }
 
-TEST_F(DepthTest, range_is_the_distance_from_the_camera_not_the_depth) {
+TEST_F(DepthTest, RangeIsTheDistanceFromTheCameraNotTheDepth) {
   const auto count = [&](double y_m) {
     const Eigen::Vector3d p_B(1.3 + 0.1, y_m, 0.075);  // 1.3 m of depth
     return locate(centres(), {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)}).size();

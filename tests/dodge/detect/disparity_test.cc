@@ -25,7 +25,7 @@ cv::Rect around(double x0, double y0, double radius) {
   return {static_cast<int>(x0) - r, static_cast<int>(y0) - r, 2 * r + 1, 2 * r + 1};
 }
 
-TEST(FindRowShift, is_exact_to_a_tenth_of_a_pixel) {
+TEST(FindRowShift, IsExactToATenthOfAPixel) {
   const cv::Mat1f pattern = ring(80, 80, 8);
   for (double shift = -40; shift < -20; shift += 0.3) {
     const auto found =
@@ -36,7 +36,7 @@ TEST(FindRowShift, is_exact_to_a_tenth_of_a_pixel) {
   }
 }
 
-TEST(FindRowShift, finds_a_part_of_the_outline_in_the_whole) {
+TEST(FindRowShift, FindsAPartOfTheOutlineInTheWhole) {
   const cv::Mat1f whole = ring(80, 50, 10);
   cv::Mat1f part = ring(80, 80, 10);
   part.rowRange(76, 120) = 0.0F;  // one camera sees the upper edge only
@@ -45,14 +45,14 @@ TEST(FindRowShift, finds_a_part_of_the_outline_in_the_whole) {
   EXPECT_NEAR(found->shift_px, -30, 0.1);
 }
 
-TEST(FindRowShift, finds_nothing_in_nothing) {
+TEST(FindRowShift, FindsNothingInNothing) {
   const cv::Mat1f empty(120, 160, 0.0F), pattern = ring(80, 60, 8);
   EXPECT_FALSE(find_row_shift(pattern, around(80, 60, 8), empty, -20, 20).has_value());
   EXPECT_FALSE(find_row_shift(empty, around(80, 60, 8), pattern, -20, 20).has_value());
   EXPECT_FALSE(find_row_shift(pattern, around(80, 60, 8), pattern, 70, 90).has_value());
 }
 
-TEST(FindRowShift, cuts_patches_and_shifts_at_the_border) {
+TEST(FindRowShift, CutsPatchesAndShiftsAtTheBorder) {
   const cv::Mat1f pattern = ring(3, 115, 8);
   const auto found = find_row_shift(pattern, around(3, 115, 8), ring(3, 4, 8), -200, 200);
   ASSERT_TRUE(found.has_value());

@@ -19,7 +19,7 @@ Eigen::Vector3d ray(const CameraModel& camera, double u, double v) {
   return camera.bearing({u, v}).homogeneous();
 }
 
-TEST(Rodrigues, agrees_with_the_angle_axis_form) {
+TEST(Rodrigues, AgreesWithTheAngleAxisForm) {
   for (const Eigen::Vector3d& v :
        {Eigen::Vector3d(0.3, -0.2, 0.9), Eigen::Vector3d(1e-5, 0, 0), Eigen::Vector3d(0, 0, 3)}) {
     EXPECT_LT((rodrigues(v) - rotation(v)).norm(), 1e-12);
@@ -27,7 +27,7 @@ TEST(Rodrigues, agrees_with_the_angle_axis_form) {
   EXPECT_EQ(rodrigues(Eigen::Vector3d::Zero()), Eigen::Matrix3d::Identity());
 }
 
-TEST(RateHistory, is_zero_without_samples_and_constant_outside_of_them) {
+TEST(RateHistory, IsZeroWithoutSamplesAndConstantOutsideOfThem) {
   RateHistory rates;
   EXPECT_EQ(rates.mean(0, 1000), Eigen::Vector3d::Zero());
   rates.add({.t_us = 5000, .w_WB_B = {1, 2, 3}});
@@ -35,7 +35,7 @@ TEST(RateHistory, is_zero_without_samples_and_constant_outside_of_them) {
   EXPECT_EQ(rates.mean(9000, 9000), Eigen::Vector3d(1, 2, 3));
 }
 
-TEST(RateHistory, weighs_irregular_samples_by_time) {
+TEST(RateHistory, WeighsIrregularSamplesByTime) {
   // A rate that grows linearly has its mean at the middle of the window, whatever the sampling.
   RateHistory rates;
   for (const TimeUs t : {0, 10, 900, 1000, 4000, 4100, 7000, 15000}) {
@@ -45,7 +45,7 @@ TEST(RateHistory, weighs_irregular_samples_by_time) {
   EXPECT_NEAR(rates.mean(4000, 4100).x(), 4050, 1e-9);
 }
 
-TEST(RateHistory, keeps_the_newest_samples_of_a_long_flight) {
+TEST(RateHistory, KeepsTheNewestSamplesOfALongFlight) {
   RateHistory rates;
   for (TimeUs t = 0; t < 5000000; t += 1000) {
     rates.add({.t_us = t, .w_WB_B = Eigen::Vector3d(t < 4000000 ? 1 : 2, 0, 0)});
@@ -53,7 +53,7 @@ TEST(RateHistory, keeps_the_newest_samples_of_a_long_flight) {
   EXPECT_EQ(rates.mean(4980000, 4990000).x(), 2);
 }
 
-TEST(EgoMotion, leaves_pixels_in_place_without_rotation) {
+TEST(EgoMotion, LeavesPixelsInPlaceWithoutRotation) {
   const CameraModel camera;
   EgoMotion ego_motion({}, camera);
   ego_motion.set_motion(Eigen::Vector3d::Zero(), kBeginUs, kEndUs);
@@ -90,7 +90,7 @@ double largest_error(const CameraModel& camera, const EgoMotionConfig& config,
   return largest;
 }
 
-TEST(EgoMotion, is_exact_to_its_bound_at_the_end_and_at_the_start) {
+TEST(EgoMotion, IsExactToItsBoundAtTheEndAndAtTheStart) {
   const CameraModel camera;
   for (const double rate : {0.1, 1.0, 8.0, 15.0}) {
     const Eigen::Vector3d w = rate * Eigen::Vector3d(0.6, -0.7, 0.4).normalized();
@@ -99,7 +99,7 @@ TEST(EgoMotion, is_exact_to_its_bound_at_the_end_and_at_the_start) {
   }
 }
 
-TEST(EgoMotion, warps_many_events_as_each_alone) {
+TEST(EgoMotion, WarpsManyEventsAsEachAlone) {
   const CameraModel camera;
   EgoMotion ego_motion({}, camera);
   ego_motion.set_motion({3, -5, 2}, kBeginUs, kEndUs);
@@ -119,7 +119,7 @@ TEST(EgoMotion, warps_many_events_as_each_alone) {
   }
 }
 
-TEST(EgoMotion, undistorts) {
+TEST(EgoMotion, Undistorts) {
   CameraModel camera{.width = 240,
                      .height = 180,
                      .fx = 199.1,
@@ -133,7 +133,7 @@ TEST(EgoMotion, undistorts) {
   EXPECT_LT(largest_error(camera, {}, {1.97, -0.11, 1.15}, kEndUs), 0.021);
 }
 
-TEST(EgoMotion, a_static_edge_seen_from_a_yawing_camera_stays_where_it_is_now) {
+TEST(EgoMotion, AStaticEdgeSeenFromAYawingCameraStaysWhereItIsNow) {
   // Camera axes: x right, y down. Turning right (+y) moves the world to the left in the image.
   const CameraModel camera;
   EgoMotion ego_motion({}, camera);
@@ -146,7 +146,7 @@ TEST(EgoMotion, a_static_edge_seen_from_a_yawing_camera_stays_where_it_is_now) {
   EXPECT_NEAR(warped.x(), 100, 0.6);  // the rounding to whole pixels
 }
 
-TEST(EgoMotion, switched_off_it_ignores_the_rotation) {
+TEST(EgoMotion, SwitchedOffItIgnoresTheRotation) {
   const CameraModel camera;
   EgoMotion ego_motion({.enabled = false}, camera);
   ego_motion.set_motion({3, 3, 3}, kBeginUs, kEndUs);
@@ -155,7 +155,7 @@ TEST(EgoMotion, switched_off_it_ignores_the_rotation) {
   EXPECT_NEAR(warped.y(), 30, 1e-3);
 }
 
-TEST(EgoMotion, events_outside_of_the_window_use_the_nearest_time) {
+TEST(EgoMotion, EventsOutsideOfTheWindowUseTheNearestTime) {
   const CameraModel camera;
   EgoMotion ego_motion({}, camera);
   ego_motion.set_motion({0, 5, 0}, kBeginUs, kEndUs);

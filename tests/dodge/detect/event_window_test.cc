@@ -19,7 +19,7 @@ std::vector<TimeUs> times(const EventWindow& window, TimeUs until_us) {
   return times;
 }
 
-TEST(EventWindow, holds_the_half_open_interval) {
+TEST(EventWindow, HoldsTheHalfOpenInterval) {
   EventWindow window;
   window.add(events_every(100, 0, 1000));
   window.forget_until(300);
@@ -27,7 +27,7 @@ TEST(EventWindow, holds_the_half_open_interval) {
   EXPECT_EQ(window.newest_us(), 900);
 }
 
-TEST(EventWindow, is_empty_before_the_first_and_after_the_last_event) {
+TEST(EventWindow, IsEmptyBeforeTheFirstAndAfterTheLastEvent) {
   EventWindow window;
   EXPECT_TRUE(window.empty());
   EXPECT_TRUE(times(window, 1000).empty());
@@ -36,7 +36,7 @@ TEST(EventWindow, is_empty_before_the_first_and_after_the_last_event) {
   EXPECT_TRUE(window.empty());
 }
 
-TEST(EventWindow, keeps_the_order_across_the_end_of_its_memory) {
+TEST(EventWindow, KeepsTheOrderAcrossTheEndOfItsMemory) {
   EventWindow window;
   const TimeUs length_us = 10000;
   for (TimeUs begin = 0; begin < 2000000; begin += 1000) {
@@ -50,7 +50,7 @@ TEST(EventWindow, keeps_the_order_across_the_end_of_its_memory) {
   }
 }
 
-TEST(EventWindow, stops_growing_in_steady_state) {
+TEST(EventWindow, StopsGrowingInSteadyState) {
   EventWindow window;
   std::size_t capacity = 0;
   for (TimeUs begin = 0; begin < 500000; begin += 1000) {

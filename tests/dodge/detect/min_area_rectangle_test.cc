@@ -49,7 +49,7 @@ void add_outline(Generator& random, int most_rows, Points& points) {
   }
 }
 
-TEST(MinAreaRectangle, equals_opencv_around_outlines_of_pixels) {
+TEST(MinAreaRectangle, EqualsOpencvAroundOutlinesOfPixels) {
   Generator random(1);
   MinAreaRectangle finder(1);  // grows
   for (int trial = 0; trial < 20000; ++trial) {
@@ -61,7 +61,7 @@ TEST(MinAreaRectangle, equals_opencv_around_outlines_of_pixels) {
   }
 }
 
-TEST(MinAreaRectangle, equals_opencv_around_points_anywhere) {
+TEST(MinAreaRectangle, EqualsOpencvAroundPointsAnywhere) {
   Generator random(2);
   MinAreaRectangle finder(50);
   for (int trial = 0; trial < 10000; ++trial) {
@@ -74,7 +74,7 @@ TEST(MinAreaRectangle, equals_opencv_around_points_anywhere) {
 }
 
 // Parallel sides: several rectangles have the same area but for rounding.
-TEST(MinAreaRectangle, equals_opencv_around_two_rectangles) {
+TEST(MinAreaRectangle, EqualsOpencvAroundTwoRectangles) {
   Generator random(3);
   MinAreaRectangle finder(8);
   for (int trial = 0; trial < 20000; ++trial) {
@@ -96,7 +96,7 @@ TEST(MinAreaRectangle, equals_opencv_around_two_rectangles) {
   }
 }
 
-TEST(MinAreaRectangle, of_points_on_a_line_has_no_height) {
+TEST(MinAreaRectangle, OfPointsOnALineHasNoHeight) {
   MinAreaRectangle finder(10);
   for (const Points& points :
        {Points{{3, 4}}, Points{{3, 4}, {3, 4}, {3, 4}}, Points{{0, 0}, {5, 0}, {3, 0}},
@@ -108,7 +108,7 @@ TEST(MinAreaRectangle, of_points_on_a_line_has_no_height) {
   EXPECT_NEAR(finder.around(Points{{1, 1}, {2, 2}, {4, 4}}).size.width, std::sqrt(18), 1e-6);
 }
 
-TEST(MinAreaRectangle, is_smaller_than_any_other_around_the_points) {
+TEST(MinAreaRectangle, IsSmallerThanAnyOtherAroundThePoints) {
   Generator random(4);
   MinAreaRectangle finder(100);
   for (int trial = 0; trial < 200; ++trial) {

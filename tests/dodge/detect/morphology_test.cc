@@ -27,7 +27,7 @@ cv::Mat1b random_image(Generator& random, const Case& c) {
   return image;
 }
 
-TEST(Morphology, equals_opencv) {
+TEST(Morphology, EqualsOpencv) {
   Generator random(1);
   constexpr int kLargest = 15;
   for (const Case& c : {Case{{320, 240}, 0.002}, Case{{320, 240}, 0.5}, Case{{320, 240}, 0.9, true},
@@ -49,7 +49,7 @@ TEST(Morphology, equals_opencv) {
   }
 }
 
-TEST(Morphology, outside_of_the_image_neither_erodes_nor_dilates) {
+TEST(Morphology, OutsideOfTheImageNeitherErodesNorDilates) {
   Morphology morphology(10, 10, 5);
   cv::Mat1b full(10, 10, std::uint8_t{255}), none(10, 10, std::uint8_t{0});
   morphology.erode(full, 5, 2);

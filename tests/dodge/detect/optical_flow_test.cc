@@ -20,7 +20,7 @@ cv::Mat1f blob(double x0, double y0) {
   return image;
 }
 
-TEST(OpticalFlow, measures_a_small_displacement) {
+TEST(OpticalFlow, MeasuresASmallDisplacement) {
   const cv::Mat1f before = blob(40, 30), now = blob(40.4, 29.7);
   OpticalFlow flow({});
   flow.set_images(before, now, 1);
@@ -31,14 +31,14 @@ TEST(OpticalFlow, measures_a_small_displacement) {
   }
 }
 
-TEST(OpticalFlow, counts_per_event_window) {
+TEST(OpticalFlow, CountsPerEventWindow) {
   const cv::Mat1f before = blob(40, 30), now = blob(40.4, 29.7);
   OpticalFlow flow({});
   flow.set_images(before, now, 0.25);  // updates every quarter of a window
   EXPECT_NEAR(flow.velocity({40, 30}).x(), 1.6, 0.16);
 }
 
-TEST(OpticalFlow, is_zero_where_it_is_undetermined) {
+TEST(OpticalFlow, IsZeroWhereItIsUndetermined) {
   const cv::Mat1f flat(60, 80, 0.1F);
   cv::Mat1f edge(60, 80, 0.0F), moved_edge(60, 80, 0.0F);
   edge.colRange(30, 80) = 0.3F;
@@ -53,14 +53,14 @@ TEST(OpticalFlow, is_zero_where_it_is_undetermined) {
   EXPECT_EQ(flow.velocity({40, 30}), Eigen::Vector2d::Zero());
 }
 
-TEST(OpticalFlow, limits_incredible_velocities) {
+TEST(OpticalFlow, LimitsIncredibleVelocities) {
   const cv::Mat1f before = blob(40, 30), now = blob(41, 30);
   OpticalFlow flow({.max_px = 5});
   flow.set_images(before, now, 0.01);
   EXPECT_NEAR(flow.velocity({40, 30}).norm(), 5, 1e-9);
 }
 
-TEST(OpticalFlow, works_at_the_border) {
+TEST(OpticalFlow, WorksAtTheBorder) {
   const cv::Mat1f before = blob(4, 4), now = blob(4.3, 4.2);
   OpticalFlow flow({});
   flow.set_images(before, now, 1);
@@ -71,7 +71,7 @@ TEST(OpticalFlow, works_at_the_border) {
   EXPECT_NEAR(flow.velocity({4, 4}).x(), 0.3, 0.06);
 }
 
-TEST(OpticalFlow, averages_over_the_pixels_of_a_group) {
+TEST(OpticalFlow, AveragesOverThePixelsOfAGroup) {
   const cv::Mat1f before = blob(40, 30), now = blob(40.4, 29.7);
   OpticalFlow flow({.samples = 4});
   flow.set_images(before, now, 1);

@@ -110,7 +110,7 @@ class ShapesRotation : public ::testing::Test {
   std::vector<Event> events_;
 };
 
-TEST_F(ShapesRotation, compensation_sharpens_the_image_and_the_wrong_sign_blurs_it) {
+TEST_F(ShapesRotation, CompensationSharpensTheImageAndTheWrongSignBlursIt) {
   const double none = variance(0, 30000), right = variance(1, 30000), wrong = variance(-1, 30000);
   RecordProperty("variance",
                  std::to_string(none) + " " + std::to_string(right) + " " + std::to_string(wrong));
@@ -119,7 +119,7 @@ TEST_F(ShapesRotation, compensation_sharpens_the_image_and_the_wrong_sign_blurs_
   EXPECT_NEAR(wrong, 0.18, 0.03);
 }
 
-TEST_F(ShapesRotation, static_blobs_vanish_with_compensation) {
+TEST_F(ShapesRotation, StaticBlobsVanishWithCompensation) {
   // rho > 0, then opening and closing by 3x3: no threshold helps here.
   const TimeImageConfig config{.threshold_a_s = 0,
                                .threshold_b = 1e-6,
@@ -143,7 +143,7 @@ TEST_F(ShapesRotation, static_blobs_vanish_with_compensation) {
   EXPECT_LT(blobs_per_window(1), 0.2);
 }
 
-TEST_F(ShapesRotation, nothing_static_remains_as_an_obstacle) {
+TEST_F(ShapesRotation, NothingStaticRemainsAsAnObstacle) {
   int with = 0, without = 0;
   Windows compensated({}, camera(), events_);
   compensated.each(rate, [&](const TimeImage&, const auto& clusters) {
@@ -174,7 +174,7 @@ std::pair<int, int> clusters_at_rest(std::vector<Event> events, int width, int h
   return {clusters, count};
 }
 
-TEST(NoiseRecording, background_activity_is_no_obstacle) {
+TEST(NoiseRecording, BackgroundActivityIsNoObstacle) {
   // Four regions of the SEES1's size.
   for (const auto& [left, top] : {std::pair(0, 0), {320, 0}, {0, 240}, {320, 240}}) {
     std::vector<Event> events =
@@ -186,7 +186,7 @@ TEST(NoiseRecording, background_activity_is_no_obstacle) {
   }
 }
 
-TEST(PersonRecording, a_turning_head_is_seen_again_and_again) {
+TEST(PersonRecording, ATurningHeadIsSeenAgainAndAgain) {
   std::vector<Event> events =
       recording::read_events("tonic_dvxplorerlite_person.events.csv", 320, 240);
   if (events.empty()) GTEST_SKIP() << "The recording is absent.";
@@ -196,7 +196,7 @@ TEST(PersonRecording, a_turning_head_is_seen_again_and_again) {
   EXPECT_GT(clusters, 10);
 }
 
-TEST(FlickerRecording, lamp_flicker_is_bounded_work_though_it_looks_like_obstacles) {
+TEST(FlickerRecording, LampFlickerIsBoundedWorkThoughItLooksLikeObstacles) {
   // A hard negative: nothing moves, but one lamp fires 9000 events per window. The time image alone
   // cannot tell it from motion; what is asserted is that the stages stay within their bounds.
   std::vector<Event> events =

@@ -21,9 +21,9 @@ double yaw_of(const StateEstimate& s) {
   return std::atan2(x.y(), x.x());
 }
 
-TEST(StateHistory, is_empty_without_estimates) { EXPECT_FALSE(StateHistory().at(5).has_value()); }
+TEST(StateHistory, IsEmptyWithoutEstimates) { EXPECT_FALSE(StateHistory().at(5).has_value()); }
 
-TEST(StateHistory, interpolates_between_estimates) {
+TEST(StateHistory, InterpolatesBetweenEstimates) {
   StateHistory history;
   history.add(state(1000, {0, 0, 1}, 0.0, {1, 0, 0}, 0));
   history.add(state(5000, {4, 0, 1}, 0.4, {3, 0, 0}, 0));
@@ -37,7 +37,7 @@ TEST(StateHistory, interpolates_between_estimates) {
   EXPECT_NEAR(history.at(5000)->p_WB.x(), 4, 1e-12);
 }
 
-TEST(StateHistory, carries_the_newest_estimate_on_and_the_oldest_back) {
+TEST(StateHistory, CarriesTheNewestEstimateOnAndTheOldestBack) {
   StateHistory history;
   history.add(state(10000, {1, 2, 3}, 0.1, {2, 0, -1}, 5));
   const StateEstimate later = *history.at(30000), earlier = *history.at(0);
@@ -47,7 +47,7 @@ TEST(StateHistory, carries_the_newest_estimate_on_and_the_oldest_back) {
   EXPECT_NEAR(yaw_of(earlier), 0.05, 1e-12);
 }
 
-TEST(StateHistory, forgets_the_oldest) {
+TEST(StateHistory, ForgetsTheOldest) {
   StateHistory history;
   for (TimeUs t = 0; t < 10000000; t += 4000) {
     history.add(state(t, {static_cast<double>(t), 0, 0}, 0, {0, 0, 0}, 0));

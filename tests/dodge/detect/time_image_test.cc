@@ -38,7 +38,7 @@ class TimeImageTest : public ::testing::Test {
   EgoMotion still_{{}, camera()};
 };
 
-TEST_F(TimeImageTest, counts_averages_and_normalises_as_in_2_to_4) {
+TEST_F(TimeImageTest, CountsAveragesAndNormalisesAsIn2To4) {
   TimeImage image(plain(), kWidth, kHeight);
   process(image, {at(5, 6, 1000), at(5, 6, 3000), at(7, 8, 6000), at(9, 9, 10000)});
   // T = 0.2, 0.6, 1.0 of the window; their mean over the three active pixels is 0.6.
@@ -52,7 +52,7 @@ TEST_F(TimeImageTest, counts_averages_and_normalises_as_in_2_to_4) {
   EXPECT_EQ(image.threshold_mask()(9, 9), 255);
 }
 
-TEST_F(TimeImageTest, forgets_the_window_before) {
+TEST_F(TimeImageTest, ForgetsTheWindowBefore) {
   TimeImage image(plain(), kWidth, kHeight);
   process(image, {at(5, 6, 1000), at(5, 6, 9000), at(7, 8, 6000)});
   process(image, {at(1, 1, 2000), at(2, 2, 8000)});
@@ -64,7 +64,7 @@ TEST_F(TimeImageTest, forgets_the_window_before) {
   EXPECT_EQ(cv::countNonZero(image.threshold_mask()), 0);
 }
 
-TEST_F(TimeImageTest, threshold_grows_with_the_angular_rate) {
+TEST_F(TimeImageTest, ThresholdGrowsWithTheAngularRate) {
   TimeImageConfig config = plain();
   config.threshold_a_s = 0.1;
   TimeImage image(config, kWidth, kHeight);
@@ -75,7 +75,7 @@ TEST_F(TimeImageTest, threshold_grows_with_the_angular_rate) {
   EXPECT_EQ(cv::countNonZero(image.threshold_mask()), 0);
 }
 
-TEST_F(TimeImageTest, averaging_keeps_the_sum_and_treats_empty_pixels_as_neutral) {
+TEST_F(TimeImageTest, AveragingKeepsTheSumAndTreatsEmptyPixelsAsNeutral) {
   TimeImageConfig config = plain();
   config.blur_px = 5;
   TimeImage image(config, kWidth, kHeight);
@@ -86,7 +86,7 @@ TEST_F(TimeImageTest, averaging_keeps_the_sum_and_treats_empty_pixels_as_neutral
   EXPECT_EQ(image.averaged()(0, 0), 0);
 }
 
-TEST_F(TimeImageTest, keeps_the_averaged_image_of_the_window_before) {
+TEST_F(TimeImageTest, KeepsTheAveragedImageOfTheWindowBefore) {
   TimeImage image(plain(), kWidth, kHeight);
   process(image, {at(5, 6, 1000), at(7, 8, 7000)});
   const cv::Mat1f first = image.averaged().clone();
@@ -94,7 +94,7 @@ TEST_F(TimeImageTest, keeps_the_averaged_image_of_the_window_before) {
   EXPECT_EQ(cv::countNonZero(image.previous_averaged() != first), 0);
 }
 
-TEST_F(TimeImageTest, opening_removes_a_line_and_keeps_a_block) {
+TEST_F(TimeImageTest, OpeningRemovesALineAndKeepsABlock) {
   TimeImageConfig config = plain();
   config.open_px = 3;
   TimeImage image(config, kWidth, kHeight);
@@ -109,7 +109,7 @@ TEST_F(TimeImageTest, opening_removes_a_line_and_keeps_a_block) {
   EXPECT_EQ(cv::countNonZero(image.obstacle_mask()), 16);
 }
 
-TEST_F(TimeImageTest, even_kernels_leave_the_mask_in_place) {
+TEST_F(TimeImageTest, EvenKernelsLeaveTheMaskInPlace) {
   std::vector<Event> events;
   for (int i = 0; i < 20; ++i) events.push_back(at(i, 29, 1000));
   for (int y = 10; y < 14; ++y) {
@@ -127,7 +127,7 @@ TEST_F(TimeImageTest, even_kernels_leave_the_mask_in_place) {
   EXPECT_EQ(cv::countNonZero(closed.obstacle_mask() != closed.threshold_mask()), 0);
 }
 
-TEST_F(TimeImageTest, closing_and_dilation_fill_and_grow) {
+TEST_F(TimeImageTest, ClosingAndDilationFillAndGrow) {
   TimeImageConfig config = plain();
   config.close_px = 3;
   TimeImage closed(config, kWidth, kHeight);
@@ -140,7 +140,7 @@ TEST_F(TimeImageTest, closing_and_dilation_fill_and_grow) {
   EXPECT_EQ(cv::countNonZero(dilated.obstacle_mask()), 15);
 }
 
-TEST_F(TimeImageTest, drops_events_outside_of_the_image_before_and_after_the_warp) {
+TEST_F(TimeImageTest, DropsEventsOutsideOfTheImageBeforeAndAfterTheWarp) {
   TimeImage image(plain(), kWidth, kHeight);
   process(image, {at(kWidth, 3, 1000), at(3, kHeight, 2000), at(65535, 65535, 3000)});
   EXPECT_EQ(cv::countNonZero(image.count()), 0);

@@ -31,7 +31,7 @@ Scenario stopping(double half_width, int repeats) {
                         "s.yaml", "");
 }
 
-TEST(EarlyStop, comes_with_the_throw_at_which_the_rule_is_met) {
+TEST(EarlyStop, ComesWithTheThrowAtWhichTheRuleIsMet) {
   EarlyStop stop(stopping(0.1, 1000));
   const FixedWidthRule rule(0.1, 0.95, 1000);
   int dodged = 0, trials = 0, expected = 0;
@@ -47,7 +47,7 @@ TEST(EarlyStop, comes_with_the_throw_at_which_the_rule_is_met) {
                         " throws: " + std::to_string(dodged) + " of " + std::to_string(trials)));
 }
 
-TEST(EarlyStop, does_not_depend_on_the_order_in_which_throws_finish) {
+TEST(EarlyStop, DoesNotDependOnTheOrderInWhichThrowsFinish) {
   EarlyStop in_order(stopping(0.1, 1000));
   for (int i = 0; i < 1000; ++i) in_order.add(nth_throw(i));
   std::vector<int> order(1000);
@@ -64,7 +64,7 @@ TEST(EarlyStop, does_not_depend_on_the_order_in_which_throws_finish) {
   }
 }
 
-TEST(EarlyStop, states_a_wider_interval_when_it_has_not_come) {
+TEST(EarlyStop, StatesAWiderIntervalWhenItHasNotCome) {
   EarlyStop stop(stopping(0.1, 1000));
   for (int i = 0; i < 20; ++i) stop.add(nth_throw(i));
   EXPECT_FALSE(stop.end());
