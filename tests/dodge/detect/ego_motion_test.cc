@@ -105,6 +105,7 @@ TEST(EgoMotion, WarpsManyEventsAsEachAlone) {
   ego_motion.set_motion({3, -5, 2}, kBeginUs, kEndUs);
   dodgesim::RandomStream random(1, 1, "events");
   std::vector<Event> events;
+  events.reserve(1000);
   for (int i = 0; i < 1000; ++i) {  // some before the window, some after it
     events.push_back({.t_us = kBeginUs - 100 + 11 * i,
                       .x = static_cast<std::uint16_t>(random.uniform(0, camera.width)),

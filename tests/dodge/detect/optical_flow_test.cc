@@ -76,6 +76,7 @@ TEST(OpticalFlow, AveragesOverThePixelsOfAGroup) {
   OpticalFlow flow({.samples = 4});
   flow.set_images(before, now, 1);
   std::vector<cv::Point> pixels;
+  pixels.reserve(11);
   for (int i = 0; i < 10; ++i) pixels.emplace_back(36 + i, 30);
   pixels.emplace_back(5, 5);  // undetermined there
   const Eigen::Vector2d v = flow.mean_velocity(pixels);

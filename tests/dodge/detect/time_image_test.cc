@@ -99,6 +99,7 @@ TEST_F(TimeImageTest, OpeningRemovesALineAndKeepsABlock) {
   config.open_px = 3;
   TimeImage image(config, kWidth, kHeight);
   std::vector<Event> events;
+  events.reserve(100);
   for (int i = 0; i < 20; ++i) events.push_back(at(i, 29, 1000));
   for (int y = 2; y < 20; ++y) events.push_back(at(3, y, 9000));
   for (int y = 10; y < 14; ++y) {
@@ -111,6 +112,7 @@ TEST_F(TimeImageTest, OpeningRemovesALineAndKeepsABlock) {
 
 TEST_F(TimeImageTest, EvenKernelsLeaveTheMaskInPlace) {
   std::vector<Event> events;
+  events.reserve(100);
   for (int i = 0; i < 20; ++i) events.push_back(at(i, 29, 1000));
   for (int y = 10; y < 14; ++y) {
     for (int x = 20; x < 24; ++x) events.push_back(at(x, y, 9000));

@@ -24,7 +24,9 @@ class SeveralCampaignsTest : public CampaignTest {
   CampaignListener listener() {
     CampaignListener all;
     all.begun = [this](std::size_t i) { begun_.push_back(i); };
-    all.ended = [this](std::size_t i, CampaignSummary summary) { ended_[i] = summary.complete(); };
+    all.ended = [this](std::size_t i, const CampaignSummary& summary) {
+      ended_[i] = summary.complete();
+    };
     return all;
   }
   // Waits until the file is there; false if it never comes.
