@@ -77,8 +77,11 @@ VelocityCommand Dodger::update(TimeUs now_us) {
   for (Eye& eye : eyes_) find_clusters(eye);
 
   Stopwatch watch;
-  locate_obstacles();
-  tracker_.update(now_us, detections_);
+  if (locate_obstacles()) {
+    tracker_.update(now_us, detections_);
+  } else {
+    tracker_.predict(now_us);
+  }
   VelocityCommand command = decide(now_us);
   command.t_us = end_us_;
   obstacles_.clear();
@@ -134,11 +137,11 @@ void Dodger::find_clusters(Eye& eye) {
   if (capture_) capture_images(eye);
 }
 
-void Dodger::locate_obstacles() {
-  if (elapsed_windows_ <= 0) return;  // the same data again are no new measurement
-  if (const std::optional<StateEstimate> state = states_.at(end_us_)) {
-    depth_.locate(views_, *state, detections_);
-  }
+bool Dodger::locate_obstacles() {
+  if (elapsed_windows_ <= 0) return false;  // the same data again are no new measurement
+  const std::optional<StateEstimate> state = states_.at(end_us_);
+  if (state) depth_.locate(views_, *state, detections_);
+  return state.has_value();
 }
 
 const std::vector<Cluster>& Dodger::clusters(int camera) const {

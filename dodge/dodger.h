@@ -96,7 +96,7 @@ class Dodger : public Pilot {
 
   void move_window(TimeUs now_us);
   void find_clusters(Eye& eye);
-  void locate_obstacles();
+  bool locate_obstacles();  // false without new events or a state estimate
   VelocityCommand decide(TimeUs now_us);
   void capture_images(Eye& eye) const;
 

@@ -196,8 +196,9 @@ void Flight::move() {
 void Flight::sense() {
   const Snapshot& now = world_.snapshot();
   gyro_B_radps_ = flight_controller_imu_.sample_gyro(now);
-  // A pilot that knows the truth asks for no IMU.
-  if ((truth_pilot_ == nullptr || observer_ != nullptr) && imu_.due(now.t_us)) {
+  // A pilot that knows the truth asks neither for the IMU nor for the range; a recording has both.
+  const bool asked = truth_pilot_ == nullptr || observer_ != nullptr;
+  if (asked && imu_.due(now.t_us)) {
     const ImuReading imu = imu_.sample(now);
     computer_.send_imu(imu);
     if (observer_ != nullptr) observer_->on_imu(imu);
@@ -208,7 +209,7 @@ void Flight::sense() {
     controller_states_.push(now.t_us, state);
     if (observer_ != nullptr) observer_->on_state(state);
   }
-  if (range_sensor_.due(now.t_us)) {
+  if (asked && range_sensor_.due(now.t_us)) {
     if (const auto reading = range_sensor_.sample(now.t_us, true_range_m())) {
       computer_.send_range(*reading);
       if (observer_ != nullptr) observer_->on_range(*reading);

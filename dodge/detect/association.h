@@ -31,20 +31,21 @@ struct AssociationConfig {
       "Farthest a detection may be from the predicted position of an obstacle. Not given by the "
       "paper; from the authors' group's open code.");
     v("gate_sigmas", gate_sigmas, 0.0, 100.0,
-      "Takes the place of both radii: farthest a detection may be from the predicted position, in "
-      "standard deviations of their difference (Mahalanobis distance; 3 keeps 97 % of what belongs "
-      "to it), and of several the likeliest pair goes together. 0: the paper's spheres.");
+      "Takes the place of both radii and of first_speed_mps: farthest a detection may be from the "
+      "predicted position, in standard deviations of their difference (Mahalanobis distance; 3 "
+      "keeps 97 % of what belongs to it), and of several the likeliest pair goes together. 0: the "
+      "paper's spheres.");
     v("min_detections", min_detections, 1, 1000,
       "Detections before an obstacle is confirmed, that is, may cause an escape. One has no "
-      "velocity; two false ones fall together once in some minutes of flight through a textured "
-      "room. Not given by the paper.");
+      "velocity; two false ones fall together once in some eight minutes of flight through a "
+      "textured room. Not given by the paper.");
     v("max_velocity_sigma_mps", max_velocity_sigma_mps, 1e-3, 1000.0,
       "An obstacle is confirmed only when the standard deviation of its velocity (root mean square "
       "over the axes) has fallen below this. 1000: no such condition, as in the paper.");
     v("tentative_timeout_us", tentative_timeout_us, 0, 10000000,
       "An obstacle that is not confirmed is dropped this long after its last detection, so that "
-      "unrelated noise does not add up to an obstacle, but never before a cycle has missed it. Not "
-      "given by the paper.");
+      "unrelated noise does not add up to an obstacle, but never before it was looked for and "
+      "missed. Not given by the paper.");
   }
 };
 

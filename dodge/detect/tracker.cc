@@ -59,6 +59,11 @@ void Tracker::update(TimeUs now, std::span<Detection> detections) {
   publish(now);
 }
 
+void Tracker::predict(TimeUs now) {
+  remove_stale(now);
+  publish(now);
+}
+
 // One camera's detections at a time: it sees an obstacle once, another camera may see it again.
 void Tracker::take_in(std::span<Detection> detections) {
   const TimeUs t_us = detections.front().t_us;

@@ -32,12 +32,15 @@ class Tracker {
   // repulsive field, (33)). Throws std::invalid_argument on values out of range.
   Tracker(const AssociationConfig& association, const KalmanConfig& kalman, double lifetime_s);
 
-  // Takes in the detections of one cycle (none is fine), those of one camera in a row, fills their
-  // obstacle_id, removes obstacles that were not seen for too long, and predicts all to `now`.
-  // Detections that are not finite are ignored and keep id -1.
+  // Takes in the detections of one look (none: it has missed all obstacles), those of one camera in
+  // a row, fills their obstacle_id, removes obstacles that were not seen for too long, and predicts
+  // all to `now`. Detections that are not finite are ignored and keep id -1.
   void update(TimeUs now, std::span<Detection> detections);
 
-  // In the order of their ids, predicted to the last update's `now`.
+  // The same without a look, between the cameras' data.
+  void predict(TimeUs now);
+
+  // In the order of their ids, predicted to the last `now`.
   const std::vector<TrackedObstacle>& obstacles() const { return obstacles_; }
 
  private:
@@ -49,7 +52,7 @@ class Tracker {
     double size_m;
     Ellipsoid ellipsoid;  // its centre relative to the obstacle's position
     bool confirmed;
-    bool missed;  // not detected in the last cycle
+    bool missed;  // not detected by the last look
   };
 
   void take_in(std::span<Detection> detections);

@@ -1,9 +1,12 @@
 #include "sim/campaign/campaign.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 
+#include "sim/base/error.h"
 #include "sim/campaign/progress.h"
 #include "sim/campaign/running_campaign.h"
 #include "sim/campaign/workers.h"
@@ -13,80 +16,101 @@ namespace dodgesim {
 
 namespace {
 
+// The lock is the process's: it would not keep two campaigns of one process apart.
+void expect_different_directories(const std::vector<PlannedCampaign>& plans) {
+  std::set<std::filesystem::path> directories;
+  for (const PlannedCampaign& plan : plans) {
+    const std::filesystem::path& out = plan.options.out;
+    if (directories.insert(std::filesystem::weakly_canonical(out)).second) continue;
+    throw ScenarioError("Two campaigns would write to " + out.string() + ".");
+  }
+}
+
 // Campaigns one after the other, in the same workers.
-class Fleet {
+class CampaignQueue {
  public:
-  Fleet(const std::vector<CampaignRun>& runs, const CampaignListener& listener)
-      : runs_(runs), listener_(listener) {}
+  CampaignQueue(const std::vector<PlannedCampaign>& plans, const CampaignListener& listener)
+      : plans_(plans), listener_(listener) {
+    expect_different_directories(plans);
+    for (const PlannedCampaign& plan : plans) {
+      campaigns_.push_back(std::make_unique<RunningCampaign>(*plan.scenario, plan.options));
+    }
+    for (const auto& campaign : campaigns_) campaign->prepare();
+  }
 
   WorkerMemory fly() {
-    const CampaignOptions& options = runs_.front().options;
+    const CampaignOptions& options = plans_.front().options;
     WorkerTasks tasks;
     tasks.next = [this] { return next(); };
     tasks.jobs = options.jobs;
     tasks.limits = options.limits;
-    tasks.fly = [this](const Task& task) { return run_of(task).fly(task.throw_index); };
+    tasks.fly = [this](const Task& task) { return plan_of(task).fly(task.throw_index); };
     tasks.blank = [this](const Task& task) {
-      return blank_result(case_of(run_of(task).scenario, task.throw_index));
+      return blank_result(case_of(*plan_of(task).scenario, task.throw_index));
     };
     tasks.receive = [this](const Task& task, const ThrowResult& result) { receive(task, result); };
+    tasks.meanwhile = [this] { end_those_over(); };
     tasks.stop = [&] { return all_ended() || (options.stop && options.stop()); };
     const WorkerMemory memory = fly_in_workers(tasks);
-    for (std::size_t i = 0; i < running_.size(); ++i) {
-      if (running_[i]) end(i);  // somebody has stopped it
+    for (std::size_t i = 0; i < begun_; ++i) {
+      if (campaigns_[i]) end(i);  // also what somebody has stopped
     }
     return memory;
   }
 
  private:
-  const CampaignRun& run_of(const Task& task) const {
-    return runs_[static_cast<std::size_t>(task.campaign)];
+  const PlannedCampaign& plan_of(const Task& task) const {
+    return plans_[static_cast<std::size_t>(task.campaign)];
   }
 
   std::optional<Task> next() {
     while (true) {
-      if (!running_.empty() && running_.back()) {
-        if (const std::optional<int> index = running_.back()->next()) {
-          return Task{static_cast<int>(running_.size()) - 1, *index};
+      if (begun_ > 0 && campaigns_[begun_ - 1]) {
+        if (const std::optional<int> index = campaigns_[begun_ - 1]->next()) {
+          return Task{static_cast<int>(begun_) - 1, *index};
         }
       }
-      if (running_.size() == runs_.size()) return std::nullopt;
+      if (begun_ == campaigns_.size()) return std::nullopt;
       begin();
     }
   }
 
   void begin() {
-    const std::size_t i = running_.size();
+    const std::size_t i = begun_++;
     progress_.reset();
     if (listener_.begun) listener_.begun(i);
-    running_.push_back(std::make_unique<RunningCampaign>(runs_[i].scenario, runs_[i].options));
-    progress_.emplace(running_[i]->to_fly(), runs_[i].options.show_progress);
-    if (running_[i]->over()) end(i);
+    campaigns_[i]->begin();
+    progress_.emplace(campaigns_[i]->to_fly(), plans_[i].options.show_progress);
   }
 
   void receive(const Task& task, const ThrowResult& result) {
     const auto i = static_cast<std::size_t>(task.campaign);
-    if (!running_[i]) return;  // it has ended early
-    running_[i]->add(result);
-    if (i + 1 == running_.size()) progress_->show(running_[i]->flown());
-    if (running_[i]->over()) end(i);
+    if (!campaigns_[i]) return;  // it has ended early
+    campaigns_[i]->add(result);
+    if (i + 1 == begun_) progress_->show(campaigns_[i]->flown());
+  }
+
+  void end_those_over() {
+    for (std::size_t i = 0; i < begun_; ++i) {
+      if (campaigns_[i] && campaigns_[i]->over()) end(i);
+    }
   }
 
   void end(std::size_t i) {
-    CampaignSummary summary = running_[i]->finish();
-    running_[i].reset();
+    CampaignSummary summary = campaigns_[i]->finish();
+    campaigns_[i].reset();
     if (listener_.ended) listener_.ended(i, std::move(summary));
   }
 
   bool all_ended() const {
-    return running_.size() == runs_.size() &&
-           std::all_of(running_.begin(), running_.end(), [](const auto& r) { return !r; });
+    return std::all_of(campaigns_.begin(), campaigns_.end(), [](const auto& c) { return !c; });
   }
 
-  const std::vector<CampaignRun>& runs_;
+  const std::vector<PlannedCampaign>& plans_;
   const CampaignListener& listener_;
-  std::vector<std::unique_ptr<RunningCampaign>> running_;  // those that were begun; null: ended
-  std::optional<Progress> progress_;                       // of the one that was begun last
+  std::vector<std::unique_ptr<RunningCampaign>> campaigns_;  // null: ended
+  std::size_t begun_ = 0;                                    // so many of them
+  std::optional<Progress> progress_;                         // of the one that was begun last
 };
 
 ObjectRow as_drawn(const Throw& toss, int throw_index, int object) {
@@ -136,14 +160,15 @@ CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& op
   CampaignSummary summary;
   CampaignListener listener;
   listener.ended = [&](std::size_t /*i*/, CampaignSummary ended) { summary = std::move(ended); };
-  const WorkerMemory memory = run_campaigns({{scenario, options, fly}}, listener);
+  const WorkerMemory memory = run_campaigns({{&scenario, options, fly}}, listener);
   summary.memory = memory;
   return summary;
 }
 
-WorkerMemory run_campaigns(const std::vector<CampaignRun>& runs, const CampaignListener& listener) {
-  if (runs.empty()) return {};
-  return Fleet(runs, listener).fly();
+WorkerMemory run_campaigns(const std::vector<PlannedCampaign>& plans,
+                           const CampaignListener& listener) {
+  if (plans.empty()) return {};
+  return CampaignQueue(plans, listener).fly();
 }
 
 }  // namespace dodgesim

@@ -31,7 +31,7 @@ struct CampaignOptions {
   bool resume = false;  // fly what is missing in `out`
   Shard shard;
   WorkerLimits limits;
-  std::string models;        // digest of the scenario's models (sim/try_models.h)
+  std::string models;  // digest of the scenario's models (sim/try_models.h) before all flights
   std::string command_line;  // for the manifest
   // Name of the OpenGL renderer, for the manifest; may be empty. It must not leave a GL context in
   // this process, which forks workers.
@@ -48,7 +48,7 @@ struct CampaignSummary {
   std::string table;                 // Markdown
   int errors = 0;                    // throws of which a flight failed
   EventTruthSums truth;              // of all throws, when their results have it
-  double wall_s = 0;                 // of this run
+  double wall_s = 0;                 // of this run, from its first throw's begin to the tables
   double real_time_factor = 0;  // simulated time of the flown pilots per computing time, one core
   WorkerMemory memory;          // of this run
   int flown = 0;                // throws of this run
@@ -69,9 +69,9 @@ using FlyFunction = std::function<ThrowResult(int throw_index)>;
 CampaignSummary run_campaign(const Scenario& scenario, const CampaignOptions& options,
                              const FlyFunction& fly);
 
-// What to fly, where to, and how; the scenario must outlive it.
-struct CampaignRun {
-  const Scenario& scenario;
+// What to fly, where to, and how.
+struct PlannedCampaign {
+  const Scenario* scenario = nullptr;  // must outlive it
   CampaignOptions options;
   FlyFunction fly;
 };
@@ -79,14 +79,19 @@ struct CampaignRun {
 // Hears of campaigns by their number; either function may be empty.
 struct CampaignListener {
   std::function<void(std::size_t)> begun;
-  // All results are written, or somebody has stopped it. The summary lacks the workers' memory.
+  // All results are written, or somebody has stopped it after it was begun. The summary lacks the
+  // workers' memory.
   std::function<void(std::size_t, CampaignSummary)> ended;
 };
 
-// The same for several campaigns, one after the other, but without a pause: workers that find no
-// throw of one any more begin the next. jobs, limits, stop and show_progress are those of the
-// first.
-WorkerMemory run_campaigns(const std::vector<CampaignRun>& runs, const CampaignListener& listener);
+// The same for several campaigns, one after the other, but workers that find no throw of one any
+// more begin the next while its last throws are in the air, so that the times of neighbours
+// overlap. All directories are made, locked and looked through before the first throw. jobs, limits
+// and stop are those of the first campaign. Throws in the air when a campaign ends early (the
+// scenario's key stop) do not count. After an exception, too, every journal has what was flown, and
+// those campaigns that were told to have ended are whole.
+WorkerMemory run_campaigns(const std::vector<PlannedCampaign>& plans,
+                           const CampaignListener& listener);
 
 // A merge lacks throws; what() lists them.
 class MissingThrows : public std::runtime_error {

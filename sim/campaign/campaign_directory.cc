@@ -43,17 +43,16 @@ bool holds_anything(const fs::path& out) {
 
 }  // namespace
 
-void make_directory(const fs::path& out) {
+const fs::path& make_directory(const fs::path& out) {
   if (out.empty()) throw IoError("The name of the directory for the results is empty.");
   std::error_code error;
   fs::create_directories(out, error);
-  if (fs::is_directory(out)) return;
+  if (fs::is_directory(out)) return out;
   throw IoError(out.string() + " could not be created: " +
                 (error ? error.message() : "a file of that name exists") + ".");
 }
 
 DirectoryLock::DirectoryLock(const fs::path& out) {
-  make_directory(out);
   const fs::path path = out / kLockFile;
   fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (fd_ < 0) {

@@ -10,14 +10,13 @@
 
 namespace dodgesim {
 
-// Throws IoError.
-void make_directory(const std::filesystem::path& out);
+// Makes it when it is missing, and returns it. Throws IoError.
+const std::filesystem::path& make_directory(const std::filesystem::path& out);
 
 // One process at a time writes to a directory. The lock ends with the process, however that ends.
 class DirectoryLock {
  public:
-  // Makes the directory when it is missing. Throws ScenarioError if another process holds the
-  // lock, IoError.
+  // Throws ScenarioError if another process holds the lock, IoError.
   explicit DirectoryLock(const std::filesystem::path& out);
   DirectoryLock(const DirectoryLock&) = delete;
   DirectoryLock& operator=(const DirectoryLock&) = delete;

@@ -64,23 +64,33 @@ bool has_flown(const JournalIndex& found, int throw_index) {
 }  // namespace
 
 RunningCampaign::RunningCampaign(const Scenario& scenario, const CampaignOptions& options)
-    : scenario_(scenario), options_(options), started_(utc_now()), lock_(options.out) {
-  const CampaignIdentity identity = identity_of(scenario, options);
-  const std::optional<JournalIndex> found = find_journal(options, identity);
-  if (found) expect_throws_of(options.shard, scenario, *found, options.out);
-  stop_ = early_stop(scenario, options, found);
-  remove_result_files(options.out);
-  write_file(options.out / kScenarioFile, to_yaml(scenario));
-  const fs::path path = options.out / kJournalFile;
-  if (found) {
-    journal_.emplace(path, *found);
-  } else {
-    journal_.emplace(path, identity);
-  }
+    : scenario_(scenario),
+      options_(options),
+      lock_(make_directory(options.out)),
+      identity_(identity_of(scenario, options)),
+      found_(find_journal(options, identity_)) {
+  if (found_) expect_throws_of(options.shard, scenario, *found_, options.out);
+  stop_ = early_stop(scenario, options, found_);
   for (const int throw_index : throws_of(scenario, options.shard)) {
     ++summary_.wanted;
-    if (!found || !has_flown(*found, throw_index)) throws_.push_back(throw_index);
+    if (!found_ || !has_flown(*found_, throw_index)) throws_.push_back(throw_index);
   }
+}
+
+void RunningCampaign::prepare() {
+  remove_result_files(options_.out);
+  write_file(options_.out / kScenarioFile, identity_.scenario);
+  const fs::path path = options_.out / kJournalFile;
+  if (found_) {
+    journal_.emplace(path, *found_);
+  } else {
+    journal_.emplace(path, identity_);
+  }
+}
+
+void RunningCampaign::begin() {
+  begin_ = std::chrono::steady_clock::now();
+  started_ = utc_now();
 }
 
 std::optional<int> RunningCampaign::early_end() const {

@@ -15,10 +15,13 @@ namespace dodgesim {
 
 class RunningCampaign {
  public:
-  // Begins or goes on with what options.out holds; scenario and options must outlive it. Throws
-  // ScenarioError and IoError, as run_campaign().
+  // Locks options.out and looks what it holds, but changes nothing of it; scenario and options must
+  // outlive it. Throws ScenarioError and IoError, as run_campaign().
   RunningCampaign(const Scenario& scenario, const CampaignOptions& options);
 
+  // Writes what is there before the first throw; what is to be overwritten goes. Throws IoError.
+  void prepare();
+  void begin();  // its time
   // The throw to begin next; nothing when all were begun or the scenario's `stop` has ended it.
   std::optional<int> next();
   void add(const ThrowResult& result);  // throws IoError
@@ -36,9 +39,11 @@ class RunningCampaign {
 
   const Scenario& scenario_;
   const CampaignOptions& options_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point begin_;
   std::string started_;
   DirectoryLock lock_;
+  CampaignIdentity identity_;
+  std::optional<JournalIndex> found_;  // to go on with
   std::optional<EarlyStop> stop_;
   std::optional<Journal> journal_;
   std::vector<int> throws_;  // to fly, in the order in which they are begun

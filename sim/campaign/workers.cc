@@ -161,6 +161,7 @@ class Pool {
     while (!workers_.empty()) {
       if (tasks_.stop && tasks_.stop()) break;
       wait_for_results();
+      if (tasks_.meanwhile) tasks_.meanwhile();
       give_up_late_ones();
     }
     if (counted_ == 0) return {};
@@ -247,11 +248,17 @@ class Pool {
     }
   }
 
+  // Its throw may have ended in time and wait to be received.
+  static bool has_result(const Worker& worker) {
+    pollfd polled = {worker.fd, POLLIN, 0};
+    return ::poll(&polled, 1, 0) > 0;
+  }
+
   void give_up_late_ones() {
     if (tasks_.limits.wall_s <= 0) return;
     const std::chrono::duration<double> limit(tasks_.limits.wall_s);
     for (std::size_t i = workers_.size(); i-- > 0;) {
-      if (Clock::now() - workers_[i].begin < limit) continue;
+      if (Clock::now() - workers_[i].begin < limit || has_result(workers_[i])) continue;
       std::ostringstream reason;
       reason << "The throw took longer than the " << tasks_.limits.wall_s
              << " s of computing time of the limit.";
@@ -277,15 +284,10 @@ class Pool {
     if (header.kind == Kind::kScenarioError) throw ScenarioError(body);
     if (worker.first_mb == 0) worker.first_mb = header.resident_mb;
     worker.last_mb = header.resident_mb;
-    // The worker does not wait until its result is written.
-    const Task done = worker.task;
-    if (const std::optional<Task> next = tasks_.next()) {
-      assign(worker, *next);
-    } else {
-      reap(worker);
-      workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
-    }
-    tasks_.receive(done, result_from_bytes(body));
+    tasks_.receive(worker.task, result_from_bytes(body));
+    if (const std::optional<Task> next = tasks_.next()) return assign(worker, *next);
+    reap(worker);
+    workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
   }
 
   // The throw of a worker that is no more.

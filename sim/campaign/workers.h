@@ -23,7 +23,8 @@ struct WorkerLimits {
 };
 
 struct WorkerTasks {
-  // What to fly next; nothing when there is no more. Asked whenever a worker has nothing to do.
+  // What to fly next; nothing when there is no more. Asked whenever a worker has nothing to do,
+  // after its result was received.
   std::function<std::optional<Task>()> next;
   int jobs = 1;  // worker processes
   WorkerLimits limits;
@@ -32,8 +33,10 @@ struct WorkerTasks {
   std::function<ThrowResult(const Task&)> fly;
   // The result of a throw that could not be flown, with everything known before the flight.
   std::function<ThrowResult(const Task&)> blank;
-  // Receives the results in the order in which they finish.
+  // Receives the results in the order in which they finish, while a worker waits.
   std::function<void(const Task&, const ThrowResult&)> receive;
+  // Called when all workers have their next throws: for work that takes longer. May be empty.
+  std::function<void()> meanwhile;
   // Asked several times a second: whether to stop, giving up the throws in flight. May be empty.
   std::function<bool()> stop;
 };
@@ -46,7 +49,8 @@ struct WorkerMemory {
 
 // Every throw that next() gives is flown exactly once. A worker that dies or takes too long costs
 // its throw (status "lost", saying why) and is replaced. Throws ScenarioError as `fly` does,
-// IoError when processes cannot be made, and whatever `receive` does; no worker survives the call.
+// IoError when processes cannot be made, and whatever next, receive and meanwhile do; no worker
+// survives the call.
 WorkerMemory fly_in_workers(const WorkerTasks& tasks);
 
 }  // namespace dodgesim

@@ -54,6 +54,9 @@ constexpr const char* kProtocol = R"(How the protocol is read:
   by depth. That is so for a disc that faces the camera; the outline of a ball off the axis is an
   ellipse that is longer, and puts it too near. Here the same detections are moved to where a ball
   has an outline of that length: what is left is the detector's own error.
+- *Rigs that are calibrated to a pixel or two*: the lower camera is turned by 0.3 or 0.6 degrees up or
+  down, that is by one or two pixels of disparity, and the pilot does not know. The simulated pair is
+  exact otherwise; no real one is, and the paper's flew and was hit.
 - *Stereo* is the paper's way, the disparity of the clusters' centres, and the default of our pilot,
   the correlation of the two cameras' time images. The same throws with the same noise.
 - Intervals: 95 %, bootstrap over throws.
@@ -221,15 +224,18 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
   const std::vector<const LoadedCampaign*> mono = {&campaigns[0], &campaigns[1], &campaigns[2]};
   const std::vector<const LoadedCampaign*> centres = {&campaigns[3]};
   const std::vector<const LoadedCampaign*> correlation = {&campaigns[4]};
+  const std::vector<const LoadedCampaign*> rigs = {&campaigns[5]};
   const Selection all, whole{true, false}, sphere{true, true};
-  const std::array<Setup, 7> setups = {
+  const std::array<Setup, 8> setups = {
       setup("monocular, ball wholly in view", true, whole, mono),
       setup("monocular, all detections", true, all, mono),
       setup("monocular, ball wholly in view, unstretched", true, sphere, mono),
       setup("stereo by centres, all detections", false, all, centres),
       setup("stereo by centres, ball wholly in view", false, whole, centres),
       setup("stereo by correlation, all detections", false, all, correlation),
-      setup("stereo by correlation, ball wholly in view", false, whole, correlation)};
+      setup("stereo by correlation, ball wholly in view", false, whole, correlation),
+      setup("stereo by centres, rigs calibrated to a pixel or two, ball wholly in view", false,
+            whole, rigs)};
   PaperTables tables;
   TextTable csv;
   csv.head = {"setup",          "from_m",      "to_m",
@@ -250,7 +256,9 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
                      trend_markdown({{&setups[3], &setups[0]},
                                      {&setups[4], &setups[0]},
                                      {&setups[5], &setups[0]},
-                                     {&setups[6], &setups[0]}}) +
+                                     {&setups[6], &setups[0]},
+                                     {&setups[4], &setups[2]},
+                                     {&setups[7], &setups[2]}}) +
                      kProtocol;
   tables.csv = csv.to_csv();
   return tables;
@@ -265,7 +273,8 @@ PaperExperiment table1_experiment() {
            mono_passing("0.15"),
            mono_passing("0.25"),
            {"passing_centres", "passing_centres.yaml", {}},
-           stereo_passing()},
+           stereo_passing(),
+           {"passing_rigs", "passing_rigs.yaml", {}}},
           analyse};
 }
 

@@ -8,6 +8,7 @@ namespace {
 
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
+using dodgesim::testing::shell;
 using testing::HasSubstr;
 
 class PaperCommandTest : public dodgesim::testing::CommandTest {};
@@ -33,6 +34,29 @@ TEST_F(PaperCommandTest, MakesTheSameTablesAgain) {
   }
   EXPECT_THAT(contents("a/table2.md"), HasSubstr("`dodgesim paper table2 --throws 1 --seed 3`"));
   EXPECT_EQ(fly("b", "").exit_code, 2) << "without --force or --resume";
+}
+
+// Nine campaigns in the same workers.
+TEST_F(PaperCommandTest, GivesTheSameFilesForAnyNumberOfWorkersAndAfterAStop) {
+  const auto fly = [&](const std::string& out, const std::string& options) {
+    return "paper physics --throws 1 --seed 3 --set 'grid.speed_mps=[6]' --out " + path(out) + " " +
+           options;
+  };
+  ASSERT_EQ(dodgesim(fly("one", "-j 1")).exit_code, 0);
+  ASSERT_EQ(dodgesim(fly("three", "-j 3")).exit_code, 0);
+  const Outcome stopped =
+      shell("(" + std::string(DODGESIM_BINARY_DIR) + "/dodgesim " + fly("stopped", "-j 2 & ") +
+            "until [ -e " + path("stopped/flights/physics_1_5m/manifest.json") +
+            " ]; do sleep 0.02; done; kill -TERM $!; wait $!)");
+  EXPECT_EQ(stopped.exit_code, 3);
+  EXPECT_THAT(stopped.output, HasSubstr("of 9 campaigns; the same command with --resume"));
+  ASSERT_EQ(dodgesim(fly("stopped", "--resume")).exit_code, 0);
+  for (const char* file : {"physics.csv", "flights/physics_1_5m/throws.csv",
+                           "flights/physics_middle/throws.csv", "flights/physics_slow/table.md"}) {
+    const std::string whole = contents(std::string("one/") + file);
+    EXPECT_EQ(contents(std::string("three/") + file), whole) << file;
+    EXPECT_EQ(contents(std::string("stopped/") + file), whole) << file;
+  }
 }
 
 // The oracle's campaign, over the open field, would be flown first.

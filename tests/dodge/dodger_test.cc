@@ -177,6 +177,28 @@ TEST(Dodger, PacketsDoNotMatter) {
   EXPECT_GT(compared, 20);
 }
 
+// A camera whose packets are farther apart than the time after which an obstacle is dropped that
+// was not found again: between them nobody looks.
+TEST(Dodger, SlowPacketsLoseNoObstacle) {
+  Flight flight(still, {crossing_ball(0.2, 1.2)}, {}, 5);
+  Config config = stereo();
+  config.window.event_timeout_us = 100000;
+  Dodger dodger(config);
+  int most = 0;
+  for (TimeUs t = 30000; t <= 210000; t += 30000) {
+    flight.cycle(dodger, t);
+    for (TimeUs between = t + kCycleUs; between < t + 30000; between += kCycleUs) {
+      dodger.add_state(flight.state(t));
+      dodger.update(between);
+      ASSERT_TRUE(dodger.detections().empty());
+    }
+    for (const Obstacle& obstacle : dodger.obstacles()) {
+      most = std::max(most, obstacle.detections);
+    }
+  }
+  EXPECT_GE(most, 5);
+}
+
 TEST(Dodger, SilenceGivesNoDetectionTwice) {
   Flight flight(still, {crossing_ball(0.2, 1.2)}, {.noise_hz = 0}, 5);
   Dodger dodger(stereo());

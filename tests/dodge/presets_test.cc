@@ -35,6 +35,12 @@ TEST(Presets, LeaveThePaperAsItIs) {
   EXPECT_EQ(paper.cluster.weight_position, 0.2);
 }
 
+// With a gate it needs no stricter rule for the second detection.
+TEST(Presets, TheBetterPilotRemembersAnObstacleLongerUntilItIsConfirmed) {
+  EXPECT_EQ(preset("dodgesim").association.tentative_timeout_us, 100000);
+  EXPECT_EQ(preset("falanga2020").association.tentative_timeout_us, 25000);
+}
+
 TEST(Presets, ThereAreNoOthers) { EXPECT_THROW(preset("oracle"), std::invalid_argument); }
 
 }  // namespace

@@ -95,21 +95,26 @@ void append_settings(const RepeatOptions& options, std::vector<Setting>& setting
   append("--seed", "seed", options.seed);
 }
 
-CampaignRun campaign_run(const Scenario& scenario, CampaignOptions options) {
-  watch_signals();
+PlannedCampaign plan_campaign(const Scenario& scenario, CampaignOptions options) {
   options.models = digest_of_models(scenario);
   options.stop = [] { return stop_signal != 0; };
   options.show_progress = ::isatty(STDERR_FILENO) == 1;
   options.gl_renderer = renderer_name;
   const bool truth = options.truth;
-  return {scenario, std::move(options), [&scenario, truth](int index) {
+  return {&scenario, std::move(options), [&scenario, truth](int index) {
             return truth ? fly_with_truth(scenario, index) : fly_throw(scenario, index);
           }};
 }
 
+void fly_campaigns(const std::vector<PlannedCampaign>& plans, const CampaignListener& listener) {
+  watch_signals();
+  run_campaigns(plans, listener);
+}
+
 CampaignSummary fly_campaign(const Scenario& scenario, const CampaignOptions& options) {
-  const CampaignRun run = campaign_run(scenario, options);
-  return run_campaign(run.scenario, run.options, run.fly);
+  watch_signals();
+  const PlannedCampaign plan = plan_campaign(scenario, options);
+  return run_campaign(scenario, plan.options, plan.fly);
 }
 
 int report_stop(const std::string& flown, const CampaignOptions& options) {

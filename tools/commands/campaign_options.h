@@ -22,9 +22,10 @@ void add_repeat_options(CLI::App& command, RepeatOptions& options, const std::st
                         const std::string& seed_help);
 void append_settings(const RepeatOptions& options, std::vector<Setting>& settings);
 
-// A campaign that shows its progress on a terminal and ends when the user asks for it (SIGINT,
-// SIGTERM). Call try_models() before it is flown.
-CampaignRun campaign_run(const Scenario& scenario, CampaignOptions options);
+// Campaigns that show their progress on a terminal and end when the user asks for it (SIGINT,
+// SIGTERM). Call try_models() before they are flown. fly_campaigns() is run_campaigns().
+PlannedCampaign plan_campaign(const Scenario& scenario, CampaignOptions options);
+void fly_campaigns(const std::vector<PlannedCampaign>& plans, const CampaignListener& listener);
 CampaignSummary fly_campaign(const Scenario& scenario, const CampaignOptions& options);
 
 // Says that the flights were stopped, after how much, and how they go on; returns the exit code.

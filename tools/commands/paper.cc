@@ -53,12 +53,12 @@ struct Flown {
 
 Flown fly(const Arguments& arguments, const std::vector<PaperFlight>& flights,
           const std::vector<Scenario>& scenarios) {
-  std::vector<CampaignRun> runs;
+  std::vector<PlannedCampaign> plans;
   for (std::size_t i = 0; i < flights.size(); ++i) {
     CampaignOptions options = arguments.options;
     options.out = flight_directory(options.out, flights[i]);
     options.truth = flights[i].truth;
-    runs.push_back(campaign_run(scenarios[i], options));
+    plans.push_back(plan_campaign(scenarios[i], options));
   }
   Flown flown;
   CampaignListener listener;
@@ -69,7 +69,7 @@ Flown fly(const Arguments& arguments, const std::vector<PaperFlight>& flights,
     if (summary.complete()) ++flown.campaigns;
     flown.errors += summary.errors;
   };
-  run_campaigns(runs, listener);
+  fly_campaigns(plans, listener);
   return flown;
 }
 

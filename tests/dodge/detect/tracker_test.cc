@@ -137,6 +137,26 @@ TEST(Tracker, DropsWhatWasNotConfirmedEarlier) {
   EXPECT_TRUE(tracker.obstacles().empty());
 }
 
+TEST(Tracker, DropsWhatWasNotConfirmedOnlyOnceItWasLookedForAndMissed) {
+  Tracker tracker({}, {}, kLifetimeS);
+  update(tracker, 0, {seen(0, Vector3d(2, 0, 0))});
+  tracker.predict(60000);  // long after the timeout, but nobody has looked
+  EXPECT_EQ(tracker.obstacles().size(), 1);
+  update(tracker, 64000, {});
+  EXPECT_EQ(tracker.obstacles().size(), 1) << "missed by this look, dropped by what follows";
+  tracker.predict(68000);
+  EXPECT_TRUE(tracker.obstacles().empty());
+}
+
+TEST(Tracker, BetweenLooksItPredictsAndForgets) {
+  Tracker tracker({}, {}, kLifetimeS);
+  for (int i = 0; i < 3; ++i) update(tracker, 1000 * i, {seen(1000 * i, Vector3d(2, 0, 0))});
+  tracker.predict(5000);
+  EXPECT_EQ(tracker.obstacles().at(0).obstacle.t_us, 5000);
+  tracker.predict(2000 + 800001);
+  EXPECT_TRUE(tracker.obstacles().empty());
+}
+
 // A slow pilot's cycles, farther apart than the timeout.
 TEST(Tracker, ConfirmsWhatEveryCycleSeesHoweverFarApartTheyAre) {
   Tracker tracker({}, {}, kLifetimeS);

@@ -17,8 +17,8 @@ using testing::Pair;
 
 class SeveralCampaignsTest : public CampaignTest {
  protected:
-  CampaignRun run(const std::string& name, int jobs) {
-    return {scenario_, options(name, jobs), [this](int index) { return fly(index); }};
+  PlannedCampaign plan(const std::string& name, int jobs) {
+    return {&scenario_, options(name, jobs), [this](int index) { return fly(index); }};
   }
   // Notes who began and which summaries came.
   CampaignListener listener() {
@@ -49,11 +49,11 @@ TEST_F(SeveralCampaignsTest, GiveTheFilesOfEachOne) {
     result.flown = result.none = flown(true);
     return result;
   };
-  run_campaign(scenario_, options("a"), run("a", 1).fly);
+  run_campaign(scenario_, options("a"), plan("a", 1).fly);
   run_campaign(other, options("b"), fly_other);
   for (const int jobs : {1, 3, 20}) {
     const std::string both = std::to_string(jobs);
-    run_campaigns({run(both + "a", jobs), {other, options(both + "b", jobs), fly_other}},
+    run_campaigns({plan(both + "a", jobs), {&other, options(both + "b", jobs), fly_other}},
                   listener());
     EXPECT_THAT(begun_, ElementsAre(0, 1));
     EXPECT_THAT(ended_, ElementsAre(Pair(0, true), Pair(1, true)));
@@ -68,7 +68,7 @@ TEST_F(SeveralCampaignsTest, GiveTheFilesOfEachOne) {
 
 TEST_F(SeveralCampaignsTest, BeginTheNextWhileTheLastThrowOfOneIsInTheAir) {
   const fs::path sign = root_ / "sign";
-  CampaignRun first = run("first", 2), second = run("second", 2);
+  PlannedCampaign first = plan("first", 2), second = plan("second", 2);
   first.fly = [&](int index) {
     if (index == 11 && !comes(sign)) throw SimulationError("the next campaign did not begin");
     return fly(index);
@@ -83,20 +83,20 @@ TEST_F(SeveralCampaignsTest, BeginTheNextWhileTheLastThrowOfOneIsInTheAir) {
 }
 
 TEST_F(SeveralCampaignsTest, AStopLeavesThoseThatHaveEndedWhole) {
-  CampaignRun first = run("first", 2);
+  PlannedCampaign first = plan("first", 2);
   first.options.stop = [this] { return ended_.contains(1); };
-  CampaignRun slow = run("third", 2);
+  PlannedCampaign slow = plan("third", 2);
   slow.fly = [&](int index) {
     std::this_thread::sleep_for(std::chrono::seconds(10));
     return fly(index);
   };
-  run_campaigns({first, run("second", 2), slow, run("fourth", 2)}, listener());
+  run_campaigns({first, plan("second", 2), slow, plan("fourth", 2)}, listener());
   EXPECT_THAT(ended_, ElementsAre(Pair(0, true), Pair(1, true), Pair(2, false)));
   EXPECT_TRUE(fs::exists(root_ / "second/manifest.json"));
   EXPECT_FALSE(fs::exists(root_ / "third/throws.csv"));
-  EXPECT_FALSE(fs::exists(root_ / "fourth"));
+  EXPECT_FALSE(fs::exists(root_ / "fourth/throws.csv"));
 
-  CampaignRun third = run("third", 2), second = run("second", 2);
+  PlannedCampaign third = plan("third", 2), second = plan("second", 2);
   second.options.resume = third.options.resume = true;
   int flown = 0;
   CampaignListener counting;
@@ -108,14 +108,14 @@ TEST_F(SeveralCampaignsTest, AStopLeavesThoseThatHaveEndedWhole) {
 }
 
 TEST_F(SeveralCampaignsTest, ALostThrowCostsItsOwnCampaign) {
-  CampaignRun first = run("first", 2);
+  PlannedCampaign first = plan("first", 2);
   first.fly = [](int) -> ThrowResult { ::_exit(3); };
   std::map<std::size_t, int> errors;
   CampaignListener counting;
   counting.ended = [&](std::size_t i, const CampaignSummary& summary) {
     errors[i] = summary.errors;
   };
-  run_campaigns({first, run("second", 2)}, counting);
+  run_campaigns({first, plan("second", 2)}, counting);
   EXPECT_THAT(errors, ElementsAre(Pair(0, 12), Pair(1, 0)));
 }
 
@@ -135,8 +135,91 @@ TEST_F(SeveralCampaignsTest, ThatEndEarlyMakeRoomForTheNext) {
   counting.ended = [&](std::size_t i, const CampaignSummary& summary) {
     counts[i] = static_cast<int>(summary.results.size());
   };
-  run_campaigns({{stopping, options("first", 3), always}, run("second", 3)}, counting);
+  run_campaigns({{&stopping, options("first", 3), always}, plan("second", 3)}, counting);
   EXPECT_THAT(counts, ElementsAre(Pair(0, wanted), Pair(1, 12)));
+}
+
+TEST_F(SeveralCampaignsTest, GoOnWithAWholeOneWhileTheOneBeforeItIsInTheAir) {
+  run_campaign(scenario_, options("second"), plan("second", 1).fly);
+  const std::string table = read(root_ / "second/throws.csv");
+  PlannedCampaign second = plan("second", 2);
+  second.options.resume = true;
+  second.fly = [](int) -> ThrowResult { ::_exit(3); };
+  run_campaigns({plan("first", 2), second, plan("third", 2)}, listener());
+  EXPECT_THAT(ended_, ElementsAre(Pair(0, true), Pair(1, true), Pair(2, true)));
+  EXPECT_EQ(read(root_ / "second/throws.csv"), table);
+}
+
+TEST_F(SeveralCampaignsTest, AreAllLookedThroughBeforeTheFirstThrow) {
+  fs::create_directories(root_ / "second");
+  std::ofstream(root_ / "second/thesis.txt") << "years of work";
+  PlannedCampaign first = plan("first", 2);
+  first.options.force = true;
+  run_campaign(scenario_, first.options, first.fly);
+  const std::string before = read(root_ / "first/results.bin");
+  EXPECT_THROW(run_campaigns({first, plan("second", 2)}, listener()), ScenarioError);
+  EXPECT_THAT(begun_, testing::IsEmpty());
+  EXPECT_EQ(read(root_ / "first/results.bin"), before) << "nothing is overwritten for nothing";
+}
+
+TEST_F(SeveralCampaignsTest, NeverShareADirectory) {
+  PlannedCampaign again = plan("first", 1);
+  again.options.out = root_ / "elsewhere/../first";
+  EXPECT_THAT(
+      [&] {
+        run_campaigns({plan("first", 1), again}, listener());
+      },
+      testing::ThrowsMessage<ScenarioError>(testing::HasSubstr("Two campaigns would write to")));
+  EXPECT_FALSE(fs::exists(root_ / "first"));
+}
+
+TEST_F(SeveralCampaignsTest, StoppedAfterForceTheRestCanBeResumed) {
+  Scenario old = scenario_;
+  old.seed = 5;
+  run_campaign(old, options("second"), plan("second", 1).fly);
+  PlannedCampaign first = plan("first", 1), second = plan("second", 1);
+  first.options.force = second.options.force = true;
+  first.options.stop = [] { return true; };
+  run_campaigns({first, second}, {});
+  EXPECT_FALSE(fs::exists(root_ / "second/throws.csv"));
+  for (PlannedCampaign* campaign : {&first, &second}) {
+    campaign->options.force = false;
+    campaign->options.resume = true;
+  }
+  first.options.stop = {};
+  run_campaigns({first, second}, listener());
+  EXPECT_THAT(ended_, ElementsAre(Pair(0, true), Pair(1, true)));
+}
+
+TEST_F(SeveralCampaignsTest, ThatCannotBeFlownTakeNothingFromThoseBefore) {
+  PlannedCampaign second = plan("second", 1);
+  second.fly = [](int) -> ThrowResult { throw ScenarioError("no such throw"); };
+  EXPECT_THROW(run_campaigns({plan("first", 1), second}, listener()), ScenarioError);
+  EXPECT_THAT(ended_, ElementsAre(Pair(0, true)));
+  EXPECT_TRUE(fs::exists(root_ / "first/manifest.json"));
+}
+
+TEST_F(SeveralCampaignsTest, ThatCannotBeginLoseNoThrowOfThoseBefore) {
+  CampaignListener refusing;
+  refusing.begun = [](std::size_t i) {
+    if (i == 1) throw IoError("the disk is full");
+  };
+  EXPECT_THROW(run_campaigns({plan("first", 1), plan("second", 1)}, refusing), IoError);
+  EXPECT_EQ(read_journal(root_ / "first/results.bin").throws.size(), 12u);
+}
+
+// Its tables take longer than the limit; the other worker's throw ended long before that.
+TEST_F(SeveralCampaignsTest, WhileTablesAreWrittenNoFinishedThrowIsGivenUp) {
+  PlannedCampaign first = plan("first", 2);
+  first.options.limits.wall_s = 0.5;
+  int errors = 0;
+  CampaignListener slow;
+  slow.ended = [&](std::size_t i, const CampaignSummary& summary) {
+    errors += summary.errors;
+    if (i == 0) std::this_thread::sleep_for(std::chrono::seconds(1));
+  };
+  run_campaigns({first, plan("second", 2)}, slow);
+  EXPECT_EQ(errors, 0);
 }
 
 TEST_F(SeveralCampaignsTest, OfNoneThereIsNothingToFly) {
