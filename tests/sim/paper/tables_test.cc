@@ -59,9 +59,10 @@ TEST(Table1, PutsErrorsIntoBinsOfTheTrueDistance) {
   near.detection_rows.push_back(
       detection(kSomeTimeUs, ahead(0.4) + Vector3d(0, 0.5, 0), ahead(0.4), 0.4));
   const LoadedCampaign mono = campaign("mono", {near, far}), empty = campaign("mono", {});
-  const LoadedCampaign stereo = campaign("stereo", {far});
+  const LoadedCampaign stereo = campaign("stereo", {far}), rigs = campaign("stereo", {near});
 
-  const PaperTables tables = table1_experiment().analyse({mono, empty, empty, stereo, stereo});
+  const PaperTables tables =
+      table1_experiment().analyse({mono, empty, empty, stereo, stereo, rigs});
   // setup, bin, throws, detections, mean with interval, paper, median with interval, paper, ...
   EXPECT_EQ(line_with(tables.csv, "\"monocular, all detections\",0.2,0.5"),
             "\"monocular, all detections\",0.2,0.5,1,3,0.0300,0.0300,0.0300,0.0800,0.0200,0.0200,"
@@ -71,6 +72,8 @@ TEST(Table1, PutsErrorsIntoBinsOfTheTrueDistance) {
               HasSubstr(",1,2,0.1500,"));
   EXPECT_THAT(line_with(tables.csv, "\"stereo by centres, all detections\",1.0,1.5"),
               HasSubstr(",1,2,0.1500,0.1500,0.1500,0.1300,"));
+  EXPECT_THAT(line_with(tables.csv, "\"stereo by centres, rigs calibrated to a pixel or two"),
+              HasSubstr(",0.2,0.5,1,3,0.0300,"));
   EXPECT_THAT(tables.markdown,
               HasSubstr("5 detections of the ball in 2 throws; false detections: 1."));
 }
@@ -81,7 +84,7 @@ TEST(Table1, DiscardsWhatIsPartlyOutsideOfTheImageOnRequest) {
   cut.trajectory = to_bytes(straight_flight(ahead(0.3) + Vector3d(0, 0.15, 0), {0, 0, 0}, 0.3));
   detect(cut, 0.3, 0.05);
   const LoadedCampaign mono = campaign("mono", {cut}), empty = campaign("mono", {});
-  const PaperTables tables = table1_experiment().analyse({mono, empty, empty, empty, empty});
+  const PaperTables tables = table1_experiment().analyse({mono, empty, empty, empty, empty, empty});
   EXPECT_NE(line_with(tables.csv, "\"monocular, all detections\",0.2"), "");
   EXPECT_EQ(line_with(tables.csv, "\"monocular, ball wholly in view\",0.2"), "");
 }
