@@ -21,7 +21,9 @@ void expect_different_directories(const std::vector<PlannedCampaign>& plans) {
   std::set<std::filesystem::path> directories;
   for (const PlannedCampaign& plan : plans) {
     const std::filesystem::path& out = plan.options.out;
-    if (directories.insert(std::filesystem::weakly_canonical(out)).second) continue;
+    std::error_code error;  // what cannot be, make_directory() refuses
+    const auto where = std::filesystem::weakly_canonical(out, error);
+    if (error || directories.insert(where).second) continue;
     throw ScenarioError("Two campaigns would write to " + out.string() + ".");
   }
 }

@@ -45,9 +45,9 @@ bool holds_anything(const fs::path& out) {
 
 const fs::path& make_directory(const fs::path& out) {
   if (out.empty()) throw IoError("The name of the directory for the results is empty.");
-  std::error_code error;
+  std::error_code error, unknown;
   fs::create_directories(out, error);
-  if (fs::is_directory(out)) return out;
+  if (fs::is_directory(out, unknown)) return out;
   throw IoError(out.string() + " could not be created: " +
                 (error ? error.message() : "a file of that name exists") + ".");
 }

@@ -174,6 +174,12 @@ TEST_F(CampaignTest, ADirectoryOfSomethingElseIsLeftAlone) {
                IoError);
 }
 
+TEST_F(CampaignTest, ADirectoryThatCannotBeIsRefusedInOneSentence) {
+  EXPECT_THAT([&] { run_campaign(scenario_, options(std::string(300, 'a')), {}); },
+              testing::ThrowsMessage<IoError>(
+                  testing::HasSubstr("aaa could not be created: File name too long.")));
+}
+
 TEST_F(CampaignTest, TheResolvedScenarioIsTheScenario) {
   run_campaign(scenario_, options("out"), [&](int index) { return fly(index); });
   const Scenario again = load_scenario(root_ / "out" / "scenario.resolved.yaml", "");
