@@ -56,7 +56,7 @@ constexpr const char* kProtocol = R"(How the protocol is read:
   has an outline of that length: what is left is the detector's own error.
 - *Rigs that are calibrated to a pixel or two*: the lower camera is turned by 0.3 or 0.6 degrees up or
   down, that is by one or two pixels of disparity, and the pilot does not know. The simulated pair is
-  exact otherwise; no real one is, and the paper's flew and was hit.
+  exact otherwise; no real one is.
 - *Stereo* is the paper's way, the disparity of the clusters' centres, and the default of our pilot,
   the correlation of the two cameras' time images. The same throws with the same noise.
 - Intervals: 95 %, bootstrap over throws.
