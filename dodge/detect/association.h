@@ -37,8 +37,8 @@ struct AssociationConfig {
       "paper's spheres.");
     v("min_detections", min_detections, 1, 1000,
       "Detections before an obstacle is confirmed, that is, may cause an escape. One has no "
-      "velocity; two false ones fall together once in some eight minutes of flight through a "
-      "textured room. Not given by the paper.");
+      "velocity; two false ones fall together now and then in flight through a textured room. Not "
+      "given by the paper.");
     v("max_velocity_sigma_mps", max_velocity_sigma_mps, 1e-3, 1000.0,
       "An obstacle is confirmed only when the standard deviation of its velocity (root mean square "
       "over the axes) has fallen below this. 1000: no such condition, as in the paper.");

@@ -46,7 +46,7 @@ TEST_F(PaperCommandTest, GivesTheSameFilesForAnyNumberOfWorkersAndAfterAStop) {
   ASSERT_EQ(dodgesim(fly("three", "-j 3")).exit_code, 0);
   const Outcome stopped =
       shell("(" + std::string(DODGESIM_BINARY_DIR) + "/dodgesim " + fly("stopped", "-j 2 & ") +
-            "until [ -e " + path("stopped/flights/physics_1_5m/manifest.json") +
+            "while kill -0 $! && ! [ -e " + path("stopped/flights/physics_1_5m/manifest.json") +
             " ]; do sleep 0.02; done; kill -TERM $!; wait $!)");
   EXPECT_EQ(stopped.exit_code, 3);
   EXPECT_THAT(stopped.output, HasSubstr("of 9 campaigns; the same command with --resume"));
