@@ -50,7 +50,7 @@ void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_
   std::ostringstream message;
   message << "The throw starts at (" << launch_p_W.x() << ", " << launch_p_W.y() << ", "
           << launch_p_W.z() << ") m, behind the room's \"" << geom_name(world, hit->geom)
-          << "\": reduce throw.distance_m or move mission.start_m.";
+          << "\": reduce throw.distance_m or throw.launch_height_m, or move mission.start_m.";
   throw ScenarioError(message.str());
 }
 

@@ -19,6 +19,8 @@ namespace {
 
 constexpr int kSceneWidth = 1280, kSceneHeight = 600;
 constexpr TimeUs kDotEveryUs = 10000;
+// As long as nothing is detected, the pilot is looked at again when an object is so much nearer.
+constexpr double kNearer = 0.9;
 
 const Eigen::Vector4f kVehicleColour(0.1F, 0.6F, 1.0F, 1.0F);
 const Eigen::Vector4f kObjectColour(1.0F, 0.35F, 0.1F, 1.0F);
@@ -79,23 +81,27 @@ void Poster::draw_scene(const World& world) {
 
 void Poster::on_cycle(TimeUs /*now_us*/, const dodge::Pilot& pilot) {
   const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);
-  if (dodger == nullptr || world_ == nullptr || !stages_.empty()) return;
-  if (pilot.detections().empty() || trail_.empty()) return;
+  if (dodger == nullptr || world_ == nullptr || detected_ || trail_.empty()) return;
+  detected_ = !pilot.detections().empty();
+  if (!detected_ && nearest_m_ > kNearer * looked_at_m_) return;
+  looked_at_m_ = nearest_m_;
   stages_ = stage_panels(*dodger, 0);
   luminance_ = log_picture(*world_, intrinsics_);
 }
 
 void Poster::save(const std::string& path) const {
-  if (scene_.empty() || stages_.empty()) {
-    throw ScenarioError("There is no picture to make: nothing was thrown, or nothing detected.");
+  if (scene_.empty()) {
+    throw ScenarioError("There is no picture to make: nothing was thrown.");
   }
-  const int width = intrinsics_.width;
-  cv::Mat3b strip;
-  const auto panel = [&](int i) { return stages_(cv::Rect(i * width, 0, width, stages_.rows)); };
-  cv::hconcat(std::vector<cv::Mat>{luminance_, panel(0), panel(2), panel(4)}, strip);
-  cv::resize(strip, strip, {scene_.cols, strip.rows * scene_.cols / strip.cols});
-  cv::Mat3b picture;
-  cv::vconcat(scene_, strip, picture);
+  cv::Mat picture = scene_;
+  if (!stages_.empty()) {
+    const int width = intrinsics_.width;
+    cv::Mat3b strip;
+    const auto panel = [&](int i) { return stages_(cv::Rect(i * width, 0, width, stages_.rows)); };
+    cv::hconcat(std::vector<cv::Mat>{luminance_, panel(0), panel(2), panel(4)}, strip);
+    cv::resize(strip, strip, {scene_.cols, strip.rows * scene_.cols / strip.cols});
+    cv::vconcat(scene_, strip, picture);
+  }
   std::vector<unsigned char> png;
   cv::imencode(".png", picture, png);
   write_file(path, {reinterpret_cast<const char*>(png.data()), png.size()});

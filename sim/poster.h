@@ -21,7 +21,8 @@ class Poster : public FlightObserver {
   void on_tick(const World& world) override;
   void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
 
-  // Throws IoError if the file cannot be written, ScenarioError if nothing was detected or thrown.
+  // Throws IoError if the file cannot be written, ScenarioError if nothing was thrown. Of a pilot
+  // that is no dodge::Dodger there are the flight paths only.
   void save(const std::string& path) const;
 
  private:
@@ -32,8 +33,10 @@ class Poster : public FlightObserver {
   std::vector<PictureDot> trail_;
   const World* world_ = nullptr;  // of the running flight
   double nearest_m_ = 1e9;        // of the object so far
+  double looked_at_m_ = 1e9;      // the same when the pilot was looked at last
+  bool detected_ = false;
   cv::Mat3b scene_;               // at the closest approach
-  cv::Mat3b luminance_, stages_;  // at the first detection
+  cv::Mat3b luminance_, stages_;  // at the first detection; without one, near the closest approach
 };
 
 }  // namespace dodgesim

@@ -1,5 +1,6 @@
 // The program `dodgesim`: a closed-loop simulator of a quadrotor that dodges thrown objects with
 // event cameras.
+#include <csignal>
 #include <iostream>
 #include <new>
 #include <string>
@@ -95,6 +96,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
   try {
     return flushed(run_program(argc, argv));
   } catch (const ScenarioError& error) {

@@ -37,8 +37,10 @@ bool holds_anything(const fs::path& out) {
 }
 
 [[noreturn]] void refuse_finished(const fs::path& out, const JournalIndex& index) {
-  throw ScenarioError(out.string() + " holds results of " + std::to_string(index.throws.size()) +
-                      " throws; add --resume to fly what is missing, or --force to start anew.");
+  throw ScenarioError(
+      out.string() + " holds results of " + std::to_string(index.throws.size()) +
+      " throws; run it with --resume to fly what is missing, or add --force to start "
+      "anew.");
 }
 
 }  // namespace

@@ -70,6 +70,17 @@ NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, dou
   return found;
 }
 
+// Events of a pixel that leaks from a random start, and after each event is held first.
+double leaks_expected(const EventCameraSpec& spec, double duration_s) {
+  const double period_s = 1 / spec.leak_hz;
+  const double held_s = seconds(spec.refractory_us);
+  double events = 0;
+  for (double before_s = 0; before_s < duration_s; before_s += period_s + held_s) {
+    events += std::min(1.0, (duration_s - before_s) / period_s);
+  }
+  return events;
+}
+
 void judge_leak(const NoiseCount& leak, const EventCameraSpec& spec, Check& check) {
   if (!leak.filmed) {
     check.off("noise.leak", "leak_hz is 0");
@@ -78,7 +89,7 @@ void judge_leak(const NoiseCount& leak, const EventCameraSpec& spec, Check& chec
   // Each pixel leaks regularly from a random start: its count is off by less than one.
   const double seconds_pixels = leak.duration_s * kPixels;
   const double alive = 1 - spec.dead_pixel_fraction;
-  const double rate_hz = alive * with_dead_time(spec.leak_hz, spec);
+  const double rate_hz = alive * leaks_expected(spec, leak.duration_s) / leak.duration_s;
   const double per_pixel = rate_hz * leak.duration_s;
   const double start_sd = std::sqrt(per_pixel < 0.5 ? per_pixel * (1 - per_pixel) : 0.25);
   const double dead_sd = std::sqrt(spec.dead_pixel_fraction * alive) * per_pixel;

@@ -10,7 +10,7 @@
 namespace dodgesim {
 
 struct Burst {
-  bool filmed = false;     // false: the readout has no limit
+  bool filmed = false;     // false: the readout has no limit, or is too slow for a film
   int pixels = 0;          // that fire
   double first_us = 0;     // after the first step, of the first event
   double duration_us = 0;  // from the first to the last event of the first burst

@@ -19,17 +19,18 @@ constexpr double kSettlesShare = 0.5;     // of the film
 constexpr double kIntervalLimit = 0.02;
 constexpr double kRoundedUs = 1;  // both stamps of an interval are rounded
 constexpr double kSigmas = 4;
+constexpr double kMedianSigma = 1.2533;  // of the median of normal values, to that of their mean
 
 double log_light(const EventCameraSpec& spec, double lux) {
   return std::log(spec.log_epsilon + lux / spec.illuminance_lux);
 }
 
-// ln(eps + I) grows evenly.
+// ln(eps + I) grows evenly, until film_us.
 Scene growing_light(const EventCameraSpec& spec, TimeUs film_us) {
   const double from = log_light(spec, kFromLux), by = log_light(spec, kToLux) - from;
   return even_scene([=](TimeUs t_us) {
-    return std::exp(from + by * static_cast<double>(t_us) / static_cast<double>(film_us)) -
-           spec.log_epsilon;
+    const auto grown_us = static_cast<double>(std::min(t_us, film_us));
+    return std::exp(from + by * grown_us / static_cast<double>(film_us)) - spec.log_epsilon;
   });
 }
 
@@ -51,6 +52,16 @@ std::vector<std::vector<TimeUs>> by_pixel(const std::vector<Event>& events) {
   return stamps;
 }
 
+// Between the events of a pixel, from those on that come when the light has settled.
+std::vector<double> intervals_after(double settled_us, const std::vector<TimeUs>& stamps_us) {
+  std::vector<double> intervals_us;
+  for (std::size_t i = 1; i < stamps_us.size(); ++i) {
+    if (static_cast<double>(stamps_us[i - 1]) < settled_us) continue;
+    intervals_us.push_back(static_cast<double>(stamps_us[i] - stamps_us[i - 1]));
+  }
+  return intervals_us;
+}
+
 }  // namespace
 
 RampEvents measure_ramp(const EventCameraSpec& camera, std::uint64_t seed) {
@@ -65,11 +76,13 @@ RampEvents measure_ramp(const EventCameraSpec& camera, std::uint64_t seed) {
   spec.stamp_resolution_us = camera.stamp_resolution_us;
   const auto coarse = by_pixel(film_of(spec, seed, film_us));
   for (std::size_t pixel = 0; pixel < fine.size(); ++pixel) {
-    for (std::size_t i = 1; i < fine[pixel].size(); ++i) {
-      if (static_cast<double>(fine[pixel][i - 1]) < kSettlesShare * static_cast<double>(film_us)) {
-        continue;
-      }
-      measured.intervals_us.push_back(static_cast<double>(fine[pixel][i] - fine[pixel][i - 1]));
+    const std::vector<double> intervals_us =
+        intervals_after(kSettlesShare * static_cast<double>(film_us), fine[pixel]);
+    measured.intervals_us.insert(measured.intervals_us.end(), intervals_us.begin(),
+                                 intervals_us.end());
+    if (!fine[pixel].empty()) {
+      measured.pixel_medians_us.push_back(intervals_us.empty() ? INFINITY
+                                                               : quantile(intervals_us, 0.5));
     }
     for (std::size_t i = 0; i < std::min(fine[pixel].size(), coarse[pixel].size()); ++i) {
       measured.rounded_by_us.push_back(static_cast<double>(coarse[pixel][i] - fine[pixel][i]));
@@ -83,24 +96,34 @@ Check judge(const RampEvents& measured, const EventCameraSpec& expected) {
   Check check{"Refractory period and clock",
               "The light grows evenly in its logarithm. After each event a pixel is held for the "
               "refractory period and then waits until the light has grown by its threshold: the "
-              "median time between two events of a pixel is the sum of both, and no two are nearer "
-              "than the period. With the clock's resolution the same events come later, by half of "
+              "median time between two events of a pixel is the sum of both, in the median over "
+              "the pixels, and no two are nearer than the period. With the clock's resolution the "
+              "same events come later, by half of "
               "it on average. Noise, jitter and the readout's limit are off.",
               {},
               {}};
   const std::vector<double>& intervals = measured.intervals_us;
   const auto period_us = static_cast<double>(expected.refractory_us);
-  if (intervals.empty()) {
+  const std::vector<double>& medians = measured.pixel_medians_us;
+  if (intervals.empty() || std::isinf(quantile(medians, 0.5))) {
     check.off("refractory", "the thresholds are too high for two events of a pixel");
   } else {
     const double median_us = period_us + measured.threshold_takes_us;
-    check.within("refractory.interval", quantile(intervals, 0.5), median_us,
-                 kIntervalLimit * median_us + kRoundedUs, "us", 1);
+    const double chance_us = kSigmas * kMedianSigma * measured.threshold_takes_us *
+                             expected.mismatch_sigma / expected.contrast_threshold_on /
+                             std::sqrt(static_cast<double>(medians.size()));
+    check.within("refractory.interval", quantile(medians, 0.5), median_us,
+                 kIntervalLimit * median_us + kRoundedUs + chance_us, "us", 1);
     check.between("refractory.shortest", *std::min_element(intervals.begin(), intervals.end()),
                   period_us - kRoundedUs, median_us, "us", 0);
   }
   if (expected.stamp_resolution_us == 1 || measured.rounded_by_us.empty()) {
     check.off("clock", "stamp_resolution_us is 1, or there is no event");
+    return check;
+  }
+  const auto [first, last] = std::ranges::minmax(measured.stamps_us);
+  if (first == last) {
+    check.off("clock", "stamp_resolution_us is longer than the film");
     return check;
   }
   const auto n = static_cast<double>(measured.rounded_by_us.size());

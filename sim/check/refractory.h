@@ -13,6 +13,8 @@ namespace dodgesim {
 struct RampEvents {
   // Between two events of a pixel while the light grows steadily [us].
   std::vector<double> intervals_us;
+  // Of each pixel that made an event, the median of its own; infinite if it made no second one.
+  std::vector<double> pixel_medians_us;
   double threshold_takes_us = 0;  // what the light takes to grow by the threshold that is set
   // Of the same events with the camera's clock: their stamps since the first picture, and by how
   // much these are later than by a clock of 1 us.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 #include "sim/base/time.h"
 #include "sim/config/expand.h"
@@ -77,6 +78,17 @@ void check_stop(const Scenario& scenario, ReadContext& context) {
   }
 }
 
+// What the flight core says of a parameter, at the place of its key; of several, at that of all.
+void add_core_problem(const std::string& what, ReadContext& context) {
+  constexpr std::string_view kBegins = "The parameter ";
+  if (what.starts_with(kBegins)) {
+    const std::string text = "dodger." + what.substr(kBegins.size());
+    const auto at = context.where.find(text.substr(0, text.find(' ')));
+    if (at != context.where.end()) return context.problems.add(at->second, text);
+  }
+  context.problems.add(position_of(context, "dodger"), "dodger does not fit together: " + what);
+}
+
 // The flight core checks its own configuration. Which cameras it gets is known only with the
 // vehicle's model; a rectified pair stands for them.
 void check_dodger(const Scenario& scenario, ReadContext& context) {
@@ -87,8 +99,7 @@ void check_dodger(const Scenario& scenario, ReadContext& context) {
   try {
     dodge::validate(config);
   } catch (const std::invalid_argument& error) {
-    context.problems.add(position_of(context, "dodger"),
-                         std::string("dodger does not fit together: ") + error.what());
+    add_core_problem(error.what(), context);
   }
 }
 
@@ -184,6 +195,9 @@ void check_axis(const Scenario& scenario, const VariedKey& axis, bool in_grid,
   }
   if (in_grid && axis.key == "pilot") {
     context.problems.add(axis.at, "pilot belongs into sweep: pilots are compared, not pooled.");
+  }
+  if (axis.key == "stop" || axis.key.starts_with("stop.")) {
+    context.problems.add(axis.at, axis.key + " cannot vary: it is about the whole campaign.");
   }
   for (const VariedKey& other : scenario.sweep) {
     if (in_grid && other.key == axis.key) {

@@ -162,8 +162,11 @@ std::string explain(const std::vector<ParameterDoc>& docs, const std::string& ke
     if (wanted) text += paragraph(doc);
   }
   if (!text.empty()) return text;
-  for (const ParameterDoc& doc : docs) {
-    if (last_part(doc.path) == key) text += paragraph(doc);
+  for (const ParameterDoc& named : docs) {
+    if (last_part(named.path) != key) continue;
+    for (const ParameterDoc& doc : docs) {
+      if (doc.path == named.path || doc.path.starts_with(named.path + ".")) text += paragraph(doc);
+    }
   }
   if (!text.empty()) return text;
   std::vector<std::string> names;

@@ -20,9 +20,44 @@ bool may_vary(const ParameterDoc& doc) {
          std::find(std::begin(kSingle), std::end(kSingle), doc.path) == std::end(kSingle);
 }
 
-}  // namespace
+// A key whose value decides on the defaults of a group of keys.
+struct Preset {
+  const char *key, *group;
+};
+constexpr Preset kPresets[] = {{"pilot", "dodger"}, {"sensors.events.preset", "sensors.events"}};
 
-namespace {
+// Of a dotted key; empty if it is not there.
+std::string text_at(const YamlNode& root, const std::string& key) {
+  const YamlNode* node = &root;
+  for (std::size_t begin = 0; begin <= key.size();) {
+    const std::size_t end = std::min(key.find('.', begin), key.size());
+    const std::string part = key.substr(begin, end - begin);
+    const auto named = [&part](const YamlNode::Key& k) { return k.name == part; };
+    const auto found = std::find_if(node->keys.begin(), node->keys.end(), named);
+    if (found == node->keys.end()) return "";
+    node = &node->items[static_cast<std::size_t>(found - node->keys.begin())];
+    begin = end + 1;
+  }
+  return node->text;
+}
+
+// Where a file gives all keys of the group, as a resolved scenario does, another preset on the
+// command line would be one by its name only.
+void check_preset(const Preset& preset, const YamlNode& file, const YamlNode& root,
+                  ReadContext& context) {
+  const std::string before = text_at(file, preset.key), now = text_at(root, preset.key);
+  if (before.empty() || now == before) return;
+  const std::string group = preset.group;
+  if (group == "dodger" && dodger_preset(now) == dodger_preset(before)) return;
+  for (const std::string& key : context.all_keys) {
+    const bool of_group = key.starts_with(group + ".") && key != preset.key;
+    if (of_group && !context.where.contains(key)) return;
+  }
+  context.problems.add(context.where.at(preset.key),
+                       std::string(preset.key) + " is " + now + " instead of " + before +
+                           " by its name only: the file sets all keys of " + group +
+                           " itself. Put --set " + group + "=~ in front to take them away.");
+}
 
 Scenario read(const std::string& text, const std::string& file, const std::string& models_dir,
               const std::vector<Setting>& settings) {
@@ -38,6 +73,11 @@ Scenario read(const std::string& text, const std::string& file, const std::strin
   Reader reader(root, "", context);
   scenario.visit(reader);
   reader.finish();
+  if (!settings.empty()) {
+    Problems known(file);
+    const YamlNode alone = scenario_tree(text, file, {}, known);
+    for (const Preset& preset : kPresets) check_preset(preset, alone, root, context);
+  }
   context.problems.raise_if_any();
   check_scenario(scenario, context);
   context.problems.raise_if_any();

@@ -113,7 +113,8 @@ struct ThrowSpec {
     v("size_m", size_m, 0.01, 1, "Its longest extension; a ball's diameter.");
     v("speed_mps", speed_mps, 0.5, 30,
       "Mean closing speed over the ground: the object reaches the aim point distance_m / speed_mps "
-      "after its launch.");
+      "after its launch. A ball that meets the room on its way, such as a slow lob the ceiling, "
+      "counts as one that would have missed.");
     v("distance_m", distance_m, 0.5, 20,
       "Distance over the ground from the launch to the aim point, where the vehicle will be on "
       "arrival.");
@@ -209,7 +210,7 @@ struct Scenario {
       "flown.");
     const std::string before = dodger_preset(pilot);
     v("pilot", pilot, {kPaperPilot, kOwnPilot, "oracle", "none"},
-      "Who flies: the paper's dodger, the same with what improves it (as a value of grid or sweep "
+      "Who flies: the paper's dodger, the same with what improves it (as a value of sweep "
       "it takes the place of all keys of dodger), one that is told the true obstacle, or one that "
       "never dodges.");
     if (dodger_preset(pilot) != before) dodger = dodge::preset(dodger_preset(pilot));

@@ -1,6 +1,7 @@
 #include "sim/files/staged_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,6 +11,18 @@
 
 namespace dodgesim {
 
+namespace {
+
+// Whether the path still names the file that is open.
+bool is_open_file(const std::filesystem::path& path, int fd) {
+  struct stat named {};
+  struct stat open {};
+  return ::stat(path.c_str(), &named) == 0 && ::fstat(fd, &open) == 0 &&
+         named.st_dev == open.st_dev && named.st_ino == open.st_ino;
+}
+
+}  // namespace
+
 StagedFile::StagedFile(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code ignored;
   const std::filesystem::file_status there = std::filesystem::status(path_, ignored);
@@ -18,10 +31,30 @@ StagedFile::StagedFile(std::filesystem::path path) : path_(std::move(path)) {
   if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
     fail("is not a regular file", 0);
   }
-  if (std::filesystem::is_symlink(path_)) path_ = std::filesystem::weakly_canonical(path_);
+  path_ = target(path_);
   partial_ = partial_name(path_);
-  fd_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd_ < 0) fail("could not be created", errno);
+  do {
+    if (fd_ >= 0) ::close(fd_);
+    fd_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (fd_ < 0) fail("could not be created", errno);
+    lock();
+  } while (!is_open_file(partial_, fd_));  // somebody gave it its name, or removed it, in between
+  if (::ftruncate(fd_, 0) != 0 && errno != EINVAL) fail("could not be created", errno);
+}
+
+std::filesystem::path StagedFile::target(const std::filesystem::path& path) {
+  return std::filesystem::is_symlink(path) ? std::filesystem::weakly_canonical(path) : path;
+}
+
+// Two programs must not write to one file. File systems that know no locks do without.
+void StagedFile::lock() {
+  struct flock whole {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  if (::fcntl(fd_, F_SETLK, &whole) == 0 || (errno != EAGAIN && errno != EACCES)) return;
+  ::close(fd_);
+  fd_ = -1;
+  fail("is being written by another program", 0);
 }
 
 StagedFile::~StagedFile() {

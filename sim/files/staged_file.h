@@ -10,13 +10,16 @@ namespace dodgesim {
 class StagedFile {
  public:
   // Creates PATH.partial, empty; PATH is followed if it is a link, and refused if it is a device, a
-  // pipe or a directory. All functions throw IoError with the path and the reason.
+  // pipe or a directory, or if another program is writing to it. All functions throw IoError with
+  // the path and the reason.
   explicit StagedFile(std::filesystem::path path);
   StagedFile(const StagedFile&) = delete;
   StagedFile& operator=(const StagedFile&) = delete;
   ~StagedFile();  // without commit() the temporary file is removed
 
-  // What PATH is called until it is whole.
+  // What PATH names: itself, or what it links to.
+  static std::filesystem::path target(const std::filesystem::path& path);
+  // What PATH, if it is no link, is called until it is whole.
   static std::filesystem::path partial_name(const std::filesystem::path& path) {
     return path.string() + ".partial";
   }
@@ -32,6 +35,8 @@ class StagedFile {
   [[noreturn]] void fail(const std::string& what, int error_number) const;
 
  private:
+  void lock();
+
   std::filesystem::path path_, partial_;
   int fd_ = -1;
 };

@@ -21,6 +21,7 @@ constexpr const char* kProtocol = R"(How the protocol is read:
 - *Dodged / would have hit*: only throws count that hit a vehicle which stays as it is, as in the
   paper's indoor experiments. The paper's outdoor "more than 90 % of the time" counts all throws,
   also those that would have missed: see more_throws.md.
+- *Speeds* are those of the first ball; further ones of the same throw may be faster or slower.
 - *Oracle*: is told of the object's true state within 1.5 m of the camera, and then avoids it like
   falanga2020.
 - *falanga2020* believes nothing beyond 1.5 m, as in the paper.

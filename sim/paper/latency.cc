@@ -10,7 +10,8 @@ namespace {
 
 constexpr const char* kProtocol = R"(How the claim is read:
 
-- *Latency of perception*: 3.5 ms are the paper's, 60 ms those of a pipeline of frames. More than
+- *Latency of perception*: 3.5 ms are the paper's, 60 ms those that it gives for its authors' earlier
+  pilot, which segments streams of events with shallow neural networks. More than
   3.5 ms are a delay of every command of the pilot (`delays.perception_us`), which sees as often as
   before and only acts later. (A computer that takes longer for each cycle also sees less often:
   results/latency.)

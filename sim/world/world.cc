@@ -175,6 +175,9 @@ void World::read_object(int i) {
   }
   object.drag_area_m2 =
       numeric(prefix + "drag_coefficient", 0, 1) * numeric(prefix + "frontal_area_m2", 0, 1);
+  if (!(object.drag_area_m2 >= 0)) {
+    throw ScenarioError(label_ + ": drag_coefficient times frontal_area_m2 must not be negative.");
+  }
   objects_.push_back(object);
   object_bodies_.push_back(body);
   objects_free_.push_back(find_free_body(body));

@@ -64,7 +64,7 @@ TEST_F(CampaignCommandTest, ResultsAreNeitherLostNorFlownTwice) {
   const std::string before = contents("out/throws.csv");
   const Outcome again = run("out");
   EXPECT_EQ(again.exit_code, 2);
-  EXPECT_THAT(again.output, HasSubstr("holds results of 6 throws; add --resume"));
+  EXPECT_THAT(again.output, HasSubstr("holds results of 6 throws; run it with --resume"));
   EXPECT_EQ(contents("out/throws.csv"), before);
   EXPECT_EQ(run("out", "--resume").exit_code, 0);
   EXPECT_EQ(contents("out/throws.csv"), before);

@@ -55,6 +55,13 @@ TEST_F(EmulateRefusalsTest, RefusesBadCamerasWithFileLineAndKey) {
   expect_refused(emulate("--camera none.yaml --out " + out_), 2, "There is no such file.");
 }
 
+TEST_F(EmulateRefusalsTest, AFileThatMayNotGrowIsAnErrorOfWriting) {
+  const std::string limited = "ulimit -f 1; " + std::string(DODGESIM_BINARY_DIR) + "/dodgesim " +
+                              "emulate " + (root_ / "f.npy").string() + " --timestamps " +
+                              (root_ / "t.npy").string() + " --camera ideal --out " + out_;
+  expect_refused(dodgesim::testing::shell(limited), 4, "could not be written: File too large.");
+}
+
 TEST_F(EmulateRefusalsTest, RefusesBadVideosWithOneSentence) {
   const std::string good = contents(root_ / "f.npy");
   put(root_ / "f.npy", good.substr(0, good.size() - 1));

@@ -2,8 +2,6 @@
 
 #include <unistd.h>
 
-#include <csignal>
-#include <ctime>
 #include <iostream>
 #include <thread>
 
@@ -12,36 +10,11 @@
 #include "sim/render/osmesa_context.h"
 #include "sim/try_models.h"
 #include "tools/commands/command.h"
+#include "tools/commands/stop_signal.h"
 
 namespace dodgesim {
 
 namespace {
-
-// Set by a signal that asks for the end. A second one ends the program at once, unless it comes
-// with the first: a supervisor such as timeout(1) sends one to the program and one to its group.
-volatile std::sig_atomic_t stop_signal = 0;
-timespec stopped_at{};  // the handler's own
-
-void ask_to_stop(int signal) {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  if (stop_signal == 0) {
-    stop_signal = signal;
-    stopped_at = now;
-  } else if (now.tv_sec - stopped_at.tv_sec > 1) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-}
-
-void watch_signals() {
-  struct sigaction action {};
-  action.sa_handler = ask_to_stop;
-  sigaddset(&action.sa_mask, SIGINT);
-  sigaddset(&action.sa_mask, SIGTERM);
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-}
 
 ThrowResult fly_with_truth(const Scenario& scenario, int index) {
   EventTruth truth;
@@ -97,7 +70,7 @@ void append_settings(const RepeatOptions& options, std::vector<Setting>& setting
 
 PlannedCampaign plan_campaign(const Scenario& scenario, CampaignOptions options) {
   options.models = digest_of_models(scenario);
-  options.stop = [] { return stop_signal != 0; };
+  options.stop = asked_to_stop;
   options.show_progress = ::isatty(STDERR_FILENO) == 1;
   options.gl_renderer = renderer_name;
   const bool truth = options.truth;
@@ -107,12 +80,12 @@ PlannedCampaign plan_campaign(const Scenario& scenario, CampaignOptions options)
 }
 
 void fly_campaigns(const std::vector<PlannedCampaign>& plans, const CampaignListener& listener) {
-  watch_signals();
+  watch_stop_signals();
   run_campaigns(plans, listener);
 }
 
 CampaignSummary fly_campaign(const Scenario& scenario, const CampaignOptions& options) {
-  watch_signals();
+  watch_stop_signals();
   const PlannedCampaign plan = plan_campaign(scenario, options);
   return run_campaign(scenario, plan.options, plan.fly);
 }

@@ -91,7 +91,9 @@ void add_compare_command(CLI::App& program, int& exit_code) {
       ->required()
       ->type_name("DIR2");
   command->footer(
-      "Success is to dodge a throw that would have hit or, where nobody throws, not to evade.\n"
+      "Success is to dodge a throw that would have hit or, where nobody throws, neither to evade "
+      "nor\n"
+      "to land or crash.\n"
       "Campaigns of the same seed and throws are compared throw by throw (McNemar's exact test),\n"
       "others as independent samples (Boschloo's exact test). Intervals are of 95 %.\n\n"
       "Example:\n"

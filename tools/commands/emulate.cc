@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 
 #include "sim/base/error.h"
 #include "sim/bench/timed_emulation.h"
@@ -13,6 +14,7 @@
 #include "sim/files/staged_file.h"
 #include "sim/files/video.h"
 #include "tools/commands/command.h"
+#include "tools/commands/stop_signal.h"
 
 namespace dodgesim {
 
@@ -71,6 +73,7 @@ Counts emulate(Video& video, EventCamera& camera, TimedEmulation& timed, EventWr
   camera.reset(t_us, luminance.data());
   std::vector<Event> events;
   while (video.next(t_us, luminance)) {
+    if (asked_to_stop()) throw std::runtime_error("The emulation was stopped; nothing is written.");
     events.clear();
     timed.update(t_us, luminance, events);
     for (const Event& event : events) ++(event.polarity > 0 ? counts.on : counts.off);
@@ -107,7 +110,8 @@ void report(const Video& video, const EventCamera& camera, const Counts& counts,
 void refuse_same_file(const std::string& out, const std::string& input) {
   std::error_code ignored;
   if (!std::filesystem::equivalent(out, input, ignored) &&
-      !std::filesystem::equivalent(StagedFile::partial_name(out), input, ignored)) {
+      !std::filesystem::equivalent(StagedFile::partial_name(StagedFile::target(out)), input,
+                                   ignored)) {
     return;
   }
   throw ScenarioError("--out " + out + " would overwrite the input " + input + ".");
@@ -122,6 +126,7 @@ void emulate(const Arguments& arguments) {
       arguments.out, {video.width(), video.height(), video.first_us(), video.duration_us()});
   EventCamera camera(spec, video.width(), video.height(), arguments.seed, 0, "emulate");
   TimedEmulation timed(camera, spec.log_epsilon);
+  watch_stop_signals();
   const Counts counts = emulate(video, camera, timed, *writer);
   writer->finish();
   report(video, camera, counts, timed);

@@ -88,6 +88,16 @@ TEST(RefractoryCheck, FailsForAnotherPeriodAndForAnotherClock) {
   }
 }
 
+TEST(RefractoryCheck, HoldsForCamerasThatAreLateSlowOrUneven) {
+  EventCameraSpec late, slow, uneven;
+  late.latency_us = 20000;
+  slow.stamp_resolution_us = 20000;
+  uneven.mismatch_sigma = 0.15;
+  for (const EventCameraSpec& spec : {late, slow, uneven}) {
+    EXPECT_EQ(failures(judge(measure_ramp(spec, 1), spec)), Names());
+  }
+}
+
 TEST(ConservationCheck, FailsForAPixelBeyondItsThresholdUnlessItIsHeld) {
   const EventCameraSpec spec;
   PixelsAfterFilm after = measure_conservation(spec, 1);
@@ -210,6 +220,16 @@ TEST(StepResponseCheck, FailsForAnotherJitterAndLatency) {
   EXPECT_FALSE(failures(judge(measure_step_response(broken, 1), EventCameraSpec())).empty());
 }
 
+TEST(StepResponseCheck, KnowsWhatJitterDoesToTheMedianAndToSeveralEvents) {
+  EventCameraSpec free = event_camera_preset("noisy");
+  free.refractory_us = 0;
+  for (const EventCameraSpec& spec : {event_camera_preset("noisy"), free}) {
+    for (const std::uint64_t seed : {3, 5, 7, 8, 10}) {  // with less room for chance these failed
+      EXPECT_EQ(failures(judge(measure_step_response(spec, seed), spec)), Names()) << seed;
+    }
+  }
+}
+
 TEST(StepResponseCheck, HasTheClosedFormOfOneAndTwoLowPasses) {
   EXPECT_DOUBLE_EQ(step_time_s(0.5, 100, 0), std::log(2) / 100);
   EXPECT_DOUBLE_EQ(step_time_s(0.5, 0, 100), std::log(2) / 100);
@@ -241,11 +261,24 @@ TEST(NoiseCheck, FailsForOtherRates) {
   EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_fraction *= 2; }), Names{"noise.hot.pixels"});
 }
 
+TEST(NoiseCheck, KnowsHowOftenALeakComesThatIsHeldForLong) {
+  EventCameraSpec spec;
+  spec.leak_hz = 10;
+  spec.refractory_us = 10000;
+  EXPECT_EQ(failures(judge(measure_noise(spec, 1), spec)), Names());
+}
+
 TEST(NoiseCheck, FailsForEventsOfAnotherCause) {
   const EventCameraSpec spec;
   NoiseCounts counts = measure_noise(spec, 1);
   counts.leak.other = 1;
   EXPECT_EQ(failures(judge(counts, spec)), Names{"noise.leak.other_causes"});
+}
+
+TEST(ReadoutCheck, IsOffForAReadoutThatIsTooSlowForAFilm) {
+  EventCameraSpec spec;
+  spec.readout_max_hz = 0.001;
+  EXPECT_EQ(lines(judge(measure_burst(spec, 1), spec), Outcome::kOff), Names{"readout.rate"});
 }
 
 TEST(ReadoutCheck, FailsForAnotherRate) {

@@ -249,13 +249,14 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:2:8: throw.size_m is in grid and in sweep."},
     {"GridOfPilots", "grid: {pilot: [none, oracle]}\n",
      "bad.yaml:1:8: pilot belongs into sweep: pilots are compared, not pooled."},
+    {"SweepOfStops", "throw: {}\nsweep: {stop.half_width: [0.1, 0.2]}\n",
+     "bad.yaml:2:9: stop.half_width cannot vary: it is about the whole campaign."},
     {"GridWithoutThrow", "grid: {size_m: [0.1]}\n",
      "bad.yaml:1:8: throw.size_m has several values, but nobody throws; add throw: {}."},
     {"SweepContradiction",
      "dodger: {position: {min_range_m: 0.2}}\nsweep:\n"
      "  dodger.position.max_range_m: [0.1, 1]\n",
-     "bad.yaml:3:33: dodger does not fit together: The parameter position.min_range_m must be less "
-     "than position.max_range_m.\n"
+     "bad.yaml:1:34: dodger.position.min_range_m must be less than position.max_range_m.\n"
      "bad.yaml:3:33: That is so with dodger.position.max_range_m 0.1."},
     {"GridTooLarge", "throw: {}\nrepeats: 1000000\ngrid: {size_m: [" + numbers(11) + "]}\n",
      "bad.yaml:3:7: repeats, grid and sweep make more than 10000000 throws."},
@@ -280,7 +281,10 @@ const BadScenario kBadScenarios[] = {
     {"NegativeMass", "vehicle_overrides: {mass_scale: -1}\n",
      "bad.yaml:1:33: vehicle_overrides.mass_scale is -1, but must be between 0.1 and 10."},
     {"CoreContradiction", "dodger: {position: {min_range_m: 2, max_range_m: 1}}\n",
-     "bad.yaml:1:9: dodger does not fit together: "},
+     "bad.yaml:1:34: dodger.position.min_range_m must be less than position.max_range_m."},
+    {"CoreContradictionOfOneKey",
+     "dodger:\n  position: {max_range_m: 3}\n  time_image: {blur_px: 4}\n",
+     "bad.yaml:3:25: dodger.time_image.blur_px is 4 but must be odd"},
     {"RangeSensorTooSlowForTheMonitor", "sensors: {range: {rate_hz: 10}}\n",
      "bad.yaml:1:28: sensors.range.rate_hz is 10, too slow for dodger.height_monitor.max_gap_us, "
      "which is 50000: the pilot would never land; raise it, or set "

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "sim/base/error.h"
@@ -37,6 +38,24 @@ TEST(StagedFile, AppearsWholeOrNotAtAll) {
   EXPECT_FALSE(fs::exists(StagedFile::partial_name(path)));
   write_file(path, "new");
   EXPECT_EQ(contents(path), "new");
+}
+
+TEST(StagedFile, BelongsToOneProgramAtATime) {
+  const testing::TemporaryDirectory directory;
+  const fs::path path = directory.path() / "file";
+  StagedFile first(path);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::_exit(complaint_about(path) == path.string() + " is being written by another program." ? 0
+                                                                                             : 1);
+  }
+  int status = -1;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  EXPECT_TRUE(fs::exists(StagedFile::partial_name(path)));
+  first.commit();
+  EXPECT_TRUE(fs::exists(path));
+  StagedFile second(path);
 }
 
 TEST(StagedFile, LeavesDevicesPipesAndDirectoriesAsTheyAre) {

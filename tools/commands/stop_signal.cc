@@ -1,0 +1,38 @@
+#include "tools/commands/stop_signal.h"
+
+#include <csignal>
+#include <ctime>
+
+namespace dodgesim {
+
+namespace {
+
+volatile std::sig_atomic_t stop_signal = 0;
+timespec stopped_at{};  // the handler's own
+
+void ask_to_stop(int signal) {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  if (stop_signal == 0) {
+    stop_signal = signal;
+    stopped_at = now;
+  } else if (now.tv_sec - stopped_at.tv_sec > 1) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+}
+
+}  // namespace
+
+void watch_stop_signals() {
+  struct sigaction action {};
+  action.sa_handler = ask_to_stop;
+  sigaddset(&action.sa_mask, SIGINT);
+  sigaddset(&action.sa_mask, SIGTERM);
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+bool asked_to_stop() { return stop_signal != 0; }
+
+}  // namespace dodgesim
