@@ -12,14 +12,15 @@ namespace {
 
 constexpr double kSolvedUs = 0.01;  // size of the last step
 
-constexpr std::int64_t kNothing = Crossings::kNothing, kHeld = Crossings::kHeld;
-constexpr std::int64_t kArmed = Crossings::kArmed, kUnknown = Crossings::kUnknown;
+constexpr std::int64_t kNothing = Crossings::kNothing, kRearmed = Crossings::kRearmed;
+constexpr std::int64_t kHeld = Crossings::kHeld, kArmed = Crossings::kArmed;
+constexpr std::int64_t kAgain = Crossings::kAgain, kUnknown = Crossings::kUnknown;
 
 struct Row {
   std::size_t size;
-  const double *s0, *s1, *dt_us, *rise_per_us, *decay_per_us, *reference, *off, *on;
+  const double *s0, *s1, *dt_us, *rise_per_us, *decay_per_us, *held_us, *reference, *off, *on;
   double *crossing_us, *reference_after;
-  std::int64_t* answer;
+  std::int64_t *answer, *on_event;
   double refractory_us;
 };
 
@@ -28,15 +29,20 @@ inline double size_of(double a) { return a < 0 ? -a : a; }
 // S(t) = s0 + rise t - p (1 - exp(-decay t)), for 0 <= t <= dt.
 struct Curve {
   double s0, rise, p, decay, dt;
+
+  [[gnu::always_inline]] double at(double t_us, double left) const {
+    return s0 + rise * t_us - p * (1 - left);
+  }
 };
 
 // Newton's method: where S - level would be 0 if it ran straight on from t_us.
-[[gnu::always_inline]] inline double newton_step(const Curve& c, double level, double t_us) {
+[[gnu::always_inline]] inline double newton_step(const Curve& c, double level, double first_us,
+                                                 double t_us) {
   const double left = transient_left(c.decay * t_us);
-  const double error = c.s0 + c.rise * t_us - c.p * (1 - left) - level;
+  const double error = c.at(t_us, left) - level;
   const double slope = c.rise - c.p * c.decay * left;
   const double next_us = slope != 0 ? t_us - error / slope : 0.0;
-  return smaller(larger(next_us, 0.0), c.dt);
+  return smaller(larger(next_us, first_us), c.dt);
 }
 
 // kBent: some of the signals may be no straight lines.
@@ -46,49 +52,60 @@ template <bool kBent>
 #pragma GCC ivdep
   for (std::size_t i = 0; i < row.size; ++i) {
     const double s0 = row.s0[i], s1 = row.s1[i], dt = row.dt_us[i];
-    const double reference = row.reference[i], off = row.off[i], on = row.on[i];
+    const double off = row.off[i], on = row.on[i];
     const double given_rise = row.rise_per_us[i], given_decay = row.decay_per_us[i];
     const double decay = kBent ? larger(given_decay, 0.0) : 0.0;
     const double left = kBent ? transient_left(decay * dt) : 1.0;
     const bool straight = left >= 1;
     const double rise = straight ? (s1 - s0) / dt : given_rise;
     const double p = straight ? 0.0 : (s0 + rise * dt - s1) / (straight ? 1.0 : 1 - left);
-    const bool turns = (rise - p * decay) * (rise - p * decay * left) < 0;
+    const Curve curve = {s0, rise, p, decay, dt};
+
+    // From where the pixel is armed on.
+    const double first = row.held_us[i];
+    const bool was_held = first > 0, still_held = first > dt;
+    const double left_first = kBent ? transient_left(decay * first) : 1.0;
+    const double s_first = was_held ? curve.at(first, left_first) : s0;
+    const double reference = was_held ? s_first : row.reference[i];
+    const bool turns = (rise - p * decay * left_first) * (rise - p * decay * left) < 0;
     // Where it turns, p exp(-decay t) = rise / decay.
     const double lag = rise / (turns ? decay : 1.0);
     const double turn_us = natural_log(turns ? p / lag : 1.0) / (turns ? decay : 1.0);
     const double extreme = turns ? s0 + rise * turn_us - p + lag : s1;
     const bool within = (extreme > reference + off) & (extreme < reference + on);
 
-    const bool up = s1 > s0;
+    const bool up = s1 > s_first;
     const double level = reference + (up ? on : off);
-    const bool crosses = (up ? s1 - level : level - s1) >= 0;
+    const bool crosses = ((up ? s1 - level : level - s1) >= 0) & (!still_held);
 
     // From the chord on. Three steps do nearly always.
-    const Curve curve = {s0, rise, p, decay, dt};
-    const double chord_us = crosses ? (level - s0) * dt / (s1 - s0) : 0.0;
+    const double chord_us = crosses ? first + (level - s_first) * (dt - first) / (s1 - s_first) : 0;
     double before = chord_us, t = chord_us;
     if constexpr (kBent) {
-      const double t1 = newton_step(curve, level, chord_us);
-      const double t2 = newton_step(curve, level, t1);
-      const double t3 = newton_step(curve, level, t2);
-      before = newton_step(curve, level, t3);
-      t = newton_step(curve, level, before);
+      const double t1 = newton_step(curve, level, first, chord_us);
+      const double t2 = newton_step(curve, level, first, t1);
+      const double t3 = newton_step(curve, level, first, t2);
+      before = newton_step(curve, level, first, t3);
+      t = newton_step(curve, level, first, before);
     }
 
     const double armed_us = t + refractory_us;
     const bool held = (refractory_us > 0) & (armed_us > dt);
     const double left_armed = kBent ? transient_left(decay * armed_us) : 1.0;
-    const double s_armed = s0 + rise * armed_us - p * (1 - left_armed);
+    const double s_armed = curve.at(armed_us, left_armed);
     const double after = (refractory_us > 0) & (!held) ? s_armed : level;
     const double room = smaller(after + on - s1, s1 - (after + off));
     const bool again = crosses & !held & !(room > 0);
     const bool unsolved = crosses & !(size_of(t - before) < kSolvedUs);
-    const bool unknown = (given_decay < 0) | (turns & (crosses | !within)) | again | unsolved;
+    const bool unknown = (!still_held) & ((given_decay < 0) | (turns & (crosses | !within)) |
+                                          (again & !(refractory_us > 0)) | unsolved);
     row.crossing_us[i] = t;
-    row.reference_after[i] = after;
-    const std::int64_t event = held ? kHeld : kArmed;
-    const std::int64_t answer = crosses ? event : kNothing;
+    row.reference_after[i] = crosses ? after : reference;
+    row.on_event[i] = up ? 1 : 0;
+    const std::int64_t last = held ? kHeld : kArmed;
+    const std::int64_t event = again ? kAgain : last;
+    const std::int64_t none = was_held & (!still_held) ? kRearmed : kNothing;
+    const std::int64_t answer = crosses ? event : none;
     row.answer[i] = unknown ? kUnknown : answer;
   }
 }
@@ -116,11 +133,12 @@ void Crossings::begin(std::size_t most) {
   size_ = 0;
   bent_ = false;
   if (most <= answer_.size()) return;
-  for (auto* values : {&s0_, &s1_, &dt_us_, &rise_per_us_, &decay_per_us_, &reference_, &off_, &on_,
-                       &crossing_us_, &reference_after_}) {
+  for (auto* values : {&s0_, &s1_, &dt_us_, &rise_per_us_, &decay_per_us_, &held_us_, &reference_,
+                       &off_, &on_, &crossing_us_, &reference_after_}) {
     values->resize(most);
   }
   answer_.resize(most);
+  on_event_.resize(most);
 }
 
 void Crossings::add(const Pixel& pixel) {
@@ -131,6 +149,7 @@ void Crossings::add(const Pixel& pixel) {
   dt_us_[i] = pixel.dt_us;
   rise_per_us_[i] = pixel.rise_per_us;
   decay_per_us_[i] = pixel.decay_per_us;
+  held_us_[i] = pixel.held_us;
   reference_[i] = pixel.reference;
   off_[i] = pixel.off;
   on_[i] = pixel.on;
@@ -142,19 +161,11 @@ void Crossings::solve(double refractory_us) {
 }
 
 void Crossings::solve(double refractory_us, int vector_level) {
-  const Row row = {size(),
-                   s0_.data(),
-                   s1_.data(),
-                   dt_us_.data(),
-                   rise_per_us_.data(),
-                   decay_per_us_.data(),
-                   reference_.data(),
-                   off_.data(),
-                   on_.data(),
-                   crossing_us_.data(),
-                   reference_after_.data(),
-                   answer_.data(),
-                   refractory_us};
+  const Row row = {size(),          s0_.data(),          s1_.data(),
+                   dt_us_.data(),   rise_per_us_.data(), decay_per_us_.data(),
+                   held_us_.data(), reference_.data(),   off_.data(),
+                   on_.data(),      crossing_us_.data(), reference_after_.data(),
+                   answer_.data(),  on_event_.data(),    refractory_us};
   const auto level = static_cast<std::size_t>(vector_level);
   (bent_ ? kSolve<true> : kSolve<false>)[level](row);
 }

@@ -16,16 +16,20 @@ class Crossings {
  public:
   // What happens to a pixel until its new sample.
   enum Answer : std::uint8_t {
-    kNothing,  // no event
+    kNothing,  // no event; a pixel that is held still is
+    kRearmed,  // no event; a pixel that was held is armed again
     kHeld,     // one event; it ends in its refractory period
     kArmed,    // one event; it is armed again
-    kUnknown,  // more than that, or an event on a curve that turns: somebody must look
+    kAgain,    // one event, and after its refractory period another may follow
+    kUnknown,  // an event on a curve that turns, or several without a refractory period in between:
+               // somebody must look
   };
 
-  // Of one pixel, which is armed. Times count from its last sample.
+  // Of one pixel. Times count from its last sample.
   struct Pixel {
     double s0, s1, dt_us;
     double rise_per_us, decay_per_us;  // decay 0: a straight line; below: unknown
+    double held_us;                    // the end of its refractory period; 0: armed
     double reference, off, on;         // events at reference + off (off < 0) and reference + on
   };
 
@@ -39,17 +43,19 @@ class Crossings {
   void solve(double refractory_us, int vector_level);
 
   Answer answer(std::size_t i) const { return static_cast<Answer>(answer_[i]); }
-  // Of pixels with an event: the crossing, and the reference after it and the refractory period.
+  // Of pixels with an event: the crossing, and whether it is one of rising light.
   double crossing_us(std::size_t i) const { return crossing_us_[i]; }
+  bool on(std::size_t i) const { return on_event_[i] != 0; }
+  // Of pixels with an event or rearmed: the reference after it and after the refractory period.
   double reference_after(std::size_t i) const { return reference_after_[i]; }
-  bool on(std::size_t i) const { return s1_[i] > s0_[i]; }
 
  private:
   std::size_t size_ = 0;  // the vectors may be longer
   bool bent_ = false;     // is any of them
-  std::vector<double> s0_, s1_, dt_us_, rise_per_us_, decay_per_us_, reference_, off_, on_;
+  std::vector<double> s0_, s1_, dt_us_, rise_per_us_, decay_per_us_, held_us_, reference_, off_,
+      on_;
   std::vector<double> crossing_us_, reference_after_;
-  std::vector<std::int64_t> answer_;  // as wide as the numbers: they are computed together
+  std::vector<std::int64_t> answer_, on_event_;  // as wide as the numbers: computed together
 };
 
 }  // namespace dodgesim

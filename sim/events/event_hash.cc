@@ -2,6 +2,7 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <array>
 #include <new>
 
@@ -10,20 +11,18 @@ namespace dodgesim {
 namespace {
 
 constexpr std::size_t kEventBytes = 13;
+constexpr std::size_t kBlock = 256;  // events that are hashed at once
+
+void put(std::uint64_t value, std::size_t size, unsigned char*& to) {
+  for (std::size_t i = 0; i < size; ++i) *to++ = static_cast<unsigned char>(value >> (8 * i));
+}
 
 // The event as bytes, little-endian, without padding.
-std::array<unsigned char, kEventBytes> packed(const Event& event) {
-  std::array<unsigned char, kEventBytes> bytes{};
-  const auto put = [&bytes](std::size_t at, std::uint64_t value, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-      bytes[at + i] = static_cast<unsigned char>(value >> (8 * i));
-    }
-  };
-  put(0, static_cast<std::uint64_t>(event.t_us), 8);
-  put(8, event.x, 2);
-  put(10, event.y, 2);
-  put(12, static_cast<std::uint8_t>(event.polarity), 1);
-  return bytes;
+void pack(const Event& event, unsigned char*& to) {
+  put(static_cast<std::uint64_t>(event.t_us), 8, to);
+  put(event.x, 2, to);
+  put(event.y, 2, to);
+  put(static_cast<std::uint8_t>(event.polarity), 1, to);
 }
 
 }  // namespace
@@ -38,9 +37,13 @@ EventHash::EventHash() : state_(XXH64_createState()) {
 void EventHash::reset() { XXH64_reset(state_.get(), 0); }
 
 void EventHash::add(std::span<const Event> events) {
-  for (const Event& event : events) {
-    const auto bytes = packed(event);
-    XXH64_update(state_.get(), bytes.data(), bytes.size());
+  std::array<unsigned char, kBlock * kEventBytes> bytes;
+  while (!events.empty()) {
+    const auto block = events.first(std::min(kBlock, events.size()));
+    unsigned char* end = bytes.data();
+    for (const Event& event : block) pack(event, end);
+    XXH64_update(state_.get(), bytes.data(), block.size() * kEventBytes);
+    events = events.subspan(block.size());
   }
 }
 

@@ -86,7 +86,7 @@ class FilteredSignal : public PixelSignal {
       candidate.rise_per_us = kSecondsPerUs * slope_1s + leak_per_us_;
       candidate.decay_per_us = decay_per_us(part.luminance[i]);
       candidates.push_back(candidate);
-      curves_.push_back({before, part.luminance[i], new_u_[i], dt_s, slope_1s});
+      if (order_ > 1) curves_.push_back({before, part.luminance[i], new_u_[i], dt_s, slope_1s});
     }
     const auto first = static_cast<std::ptrdiff_t>(part.first);
     std::copy_n(new_u_.begin(), part.size, u_.begin() + first);

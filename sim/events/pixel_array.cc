@@ -21,6 +21,9 @@ namespace {
 constexpr double kArmed = -std::numeric_limits<double>::infinity();
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+// A pixel that was held at its last sample is held for so long at least, whatever rounding says.
+constexpr double kHeldUs = 1e-9;
+
 // Of an OFF and an ON event.
 constexpr std::array<double, 2> kSign = {-1, 1};
 
@@ -28,8 +31,21 @@ constexpr std::array<double, 2> kSign = {-1, 1};
 // thresholds that are set, before mismatch.
 constexpr double kCurveShare = 0.005;
 
-// Flags are looked at eight at a time.
-constexpr std::size_t kWord = 8;
+// Flags, 0 or 1, are looked at so many at a time.
+constexpr std::size_t kFlags = 64;
+
+// Bit i is flag i.
+std::uint64_t bits_of(const unsigned char* flags) {
+  constexpr std::size_t kBytes = 8;
+  constexpr std::uint64_t kGather = 0x0102040810204080u;  // byte i's lowest bit to bit 56 + i
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < kFlags; i += kBytes) {
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, flags + i, kBytes);
+    bits |= bytes * kGather >> 56 << i;
+  }
+  return bits;
+}
 
 // Rows whose candidates are run together: enough to hide the way to memory, few enough for what
 // they need to stay in the cache.
@@ -40,13 +56,15 @@ TimeUs rounded(double us) {
   return static_cast<TimeUs>(us + 0.5);  // NOLINT(bugprone-incorrect-roundings)
 }
 
-float checked(float luminance) {
-  if (!(luminance >= 0 && luminance <= std::numeric_limits<float>::max())) {
-    std::ostringstream text;
-    text << "An event camera was shown a luminance of " << luminance
-         << "; it must be finite and not negative.";
-    throw SimulationError(text.str());
-  }
+[[noreturn, gnu::cold]] void refuse(float luminance) {
+  std::ostringstream text;
+  text << "An event camera was shown a luminance of " << luminance
+       << "; it must be finite and not negative.";
+  throw SimulationError(text.str());
+}
+
+inline float checked(float luminance) {
+  if (!(luminance >= 0 && luminance <= std::numeric_limits<float>::max())) refuse(luminance);
   return luminance;
 }
 
@@ -60,7 +78,7 @@ PixelArray::PixelArray(const EventCameraSpec& spec, int width, int height,
       pixels_(width_ * static_cast<std::size_t>(height)),
       row_keeps_times_(static_cast<std::size_t>(height)),
       sampled_us_(pixels_.size()),
-      may_fire_((width_ + kWord - 1) / kWord * kWord) {
+      may_fire_((width_ + kFlags - 1) / kFlags * kFlags) {
   draw_thresholds(spec, device);
   double leak_per_s = 0;
   if (spec.leak_hz > 0) {
@@ -163,18 +181,15 @@ void PixelArray::sample_row(int y, double t_us, const Rect& region, const Pictur
   part.last_us = row_keeps_times_[row] != 0 ? sampled_us_.data() + part.first : nullptr;
   part.same_last_us = last_us_;
   unsigned char* const flags = may_fire_.data();
-  std::memset(flags + part.size / kWord * kWord, 0, may_fire_.size() - part.size / kWord * kWord);
+  std::memset(flags + part.size, 0, may_fire_.size() - part.size);
   signal_->scan(part, flags);
   for (; !noise.empty() && noise.front().pixel < part.first + part.size; noise = noise.subspan(1)) {
     flags[noise.front().pixel - part.first] = 1;
   }
   places_.clear();
-  for (std::size_t word = 0; word < part.size; word += kWord) {
-    std::uint64_t any = 0;
-    std::memcpy(&any, flags + word, sizeof any);
-    // Eight flags at once, each 0 or 1; the lowest byte is the leftmost pixel.
-    for (; any != 0; any &= any - 1) {
-      const std::size_t i = word + static_cast<std::size_t>(std::countr_zero(any)) / kWord;
+  for (std::size_t first = 0; first < part.size; first += kFlags) {
+    for (std::uint64_t bits = bits_of(flags + first); bits != 0; bits &= bits - 1) {
+      const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(bits));
       checked(part.luminance[i]);
       places_.push_back(static_cast<std::uint32_t>(i));
       __builtin_prefetch(&pixels_[part.first + i], 1);
@@ -190,48 +205,70 @@ void PixelArray::keep_times(std::size_t y, const Rect& region, double t_us) {
   std::fill(times + region.x0, times + region.x1, t_us);
 }
 
+// First events, and second ones of those that may have another.
 void PixelArray::solve_crossings(double t1_us) {
+  const auto pixel_of = [&](const Candidate& c, double held_us) -> Crossings::Pixel {
+    const Pixel& pixel = pixels_[c.index];
+    return {c.s0,           c.s1,    t1_us - c.t0_us, c.rise_per_us,
+            c.decay_per_us, held_us, pixel.reference, pixel.change[0],
+            pixel.change[1]};
+  };
   crossings_.begin(candidates_.size());
   for (const Candidate& c : candidates_) {
-    const Pixel& pixel = pixels_[c.index];
-    if (pixel.held_until_us != kArmed) continue;
-    crossings_.add({c.s0, c.s1, t1_us - c.t0_us, c.rise_per_us, c.decay_per_us, pixel.reference,
-                    pixel.change[0], pixel.change[1]});
+    const double held_until_us = pixels_[c.index].held_until_us;
+    const bool held = held_until_us != kArmed;
+    crossings_.add(pixel_of(c, held ? std::max(kHeldUs, held_until_us - c.t0_us) : 0.0));
   }
   crossings_.solve(refractory_us_);
+  second_.begin(candidates_.size());
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    if (crossings_.answer(i) != Crossings::kAgain) continue;
+    second_.add(pixel_of(candidates_[i], crossings_.crossing_us(i) + refractory_us_));
+  }
+  second_.solve(refractory_us_);
 }
 
-// Most pixels are armed and make one event or none, at a crossing that is known; the others are
-// followed piece by piece.
+// Most pixels make one event or two or none, at crossings that are known; the others are followed
+// piece by piece.
 void PixelArray::run_all(double t1_us, const Picture& picture, Run& run_state) {
-  std::size_t armed = 0;
-  for (const Candidate& candidate : candidates_) {
+  std::size_t seconds = 0;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const Candidate& candidate = candidates_[i];
     run_state.first_us = static_cast<TimeUs>(candidate.t0_us) + 1;
     const bool noisy = !run_state.noise.empty() && run_state.noise.front().pixel == candidate.index;
-    const bool held = pixels_[candidate.index].held_until_us != kArmed;
-    const std::size_t crossing = held ? armed : armed++;
-    const Crossings::Answer answer =
-        noisy || held ? Crossings::kUnknown : crossings_.answer(crossing);
+    Crossings::Answer answer = crossings_.answer(i);
+    const std::size_t second = answer == Crossings::kAgain ? seconds++ : 0;
+    if (noisy) answer = Crossings::kUnknown;
     if (answer == Crossings::kNothing) continue;
-    const Cause cause = cause_at(candidate.index, picture);
-    if (answer == Crossings::kUnknown) {
-      run(candidate, t1_us, cause, run_state);
-    } else {
-      fire_once(candidate, crossing, t1_us, cause, run_state);
+    const Crossings* crossings = &crossings_;
+    std::size_t at = i;
+    if (answer == Crossings::kAgain) {
+      take_crossing(candidate, crossings_, i, t1_us, picture, run_state);
+      crossings = &second_;
+      at = second;
+      answer = second_.answer(second);
+    }
+    if (answer == Crossings::kAgain || answer == Crossings::kUnknown) {
+      run(candidate, t1_us, cause_at(candidate.index, picture), run_state);
+    } else if (answer != Crossings::kNothing) {
+      take_crossing(candidate, *crossings, at, t1_us, picture, run_state);
     }
     set_bounds(candidate.index);
   }
 }
 
-void PixelArray::fire_once(const Candidate& candidate, std::size_t crossing, double t1_us,
-                           Cause cause, Run& run) {
-  const double crossing_us = candidate.t0_us + crossings_.crossing_us(crossing);
-  fire(candidate.index, crossing_us, t1_us, crossings_.on(crossing), cause, run);
+// The event of a pixel, if it has one, and what the pixel is after it or after the end of its
+// refractory period.
+void PixelArray::take_crossing(const Candidate& candidate, const Crossings& crossings,
+                               std::size_t i, double t1_us, const Picture& picture, Run& run) {
   Pixel& pixel = pixels_[candidate.index];
-  pixel.reference = crossings_.reference_after(crossing);
-  if (crossings_.answer(crossing) == Crossings::kHeld) {
-    pixel.held_until_us = crossing_us + refractory_us_;
-  }
+  pixel.reference = crossings.reference_after(i);
+  pixel.held_until_us = kArmed;
+  if (crossings.answer(i) == Crossings::kRearmed) return;
+  const double crossing_us = candidate.t0_us + crossings.crossing_us(i);
+  fire(candidate.index, crossing_us, t1_us, crossings.on(i), cause_at(candidate.index, picture),
+       run);
+  if (crossings.answer(i) != Crossings::kArmed) pixel.held_until_us = crossing_us + refractory_us_;
 }
 
 void PixelArray::run(const Candidate& candidate, double t1_us, Cause cause, Run& run) {

@@ -104,8 +104,8 @@ class PixelArray {
   void keep_times(std::size_t y, const Rect& region, double t_us);
   void solve_crossings(double t1_us);
   void run_all(double t1_us, const Picture& picture, Run& run);
-  void fire_once(const Candidate& candidate, std::size_t crossing, double t1_us, Cause cause,
-                 Run& run);
+  void take_crossing(const Candidate& candidate, const Crossings& crossings, std::size_t i,
+                     double t1_us, const Picture& picture, Run& run);
   void run(const Candidate& candidate, double t1_us, Cause cause, Run& run);
   void run_piece(std::size_t index, const SignalPiece& piece, Cause cause, Run& run);
   void fire_crossings(std::size_t index, const SignalPiece& piece, double until_us, Cause cause,
@@ -137,7 +137,8 @@ class PixelArray {
   std::vector<unsigned char> may_fire_;  // of a row
   std::vector<std::uint32_t> places_;    // of the row's candidates
   std::vector<Candidate> candidates_;
-  Crossings crossings_;  // of those that are armed
+  Crossings crossings_;  // of the candidates
+  Crossings second_;     // of those with two
   std::vector<Knot> knots_;
 };
 

@@ -79,6 +79,7 @@ GlProgram locate(GLuint name) {
   p.margin = at("u_margin");
   p.conic = at("u_conic");
   p.conic_origin = at("u_conic_origin");
+  p.pieces = at("u_pieces");
   p.R_WC = at("u_R_WC");
   p.X_CW = at("u_X_CW");
   p.image = at("u_image");

@@ -29,9 +29,9 @@ struct GlProgram {
   int camera;                                // f, cx, cy [px]: all but triangles
   int clip_from_G, X_WG, texture_shift, id;  // triangles (and primitives)
   int rectangle, R_GC, eye_G, size, texture_scale, texture_offset, albedo_emission, margin;
-  int conic, conic_origin;  // ellipsoids
-  int R_WC;                 // sky
-  int X_CW, image;          // edges; image: width, height [px]
+  int conic, conic_origin, pieces;  // round outlines
+  int R_WC;                         // sky
+  int X_CW, image;                  // edges; image: width, height [px]
 };
 
 // The textures of a scene.

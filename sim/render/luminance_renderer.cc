@@ -86,6 +86,7 @@ class LuminanceRenderer::Impl {
   };
   Canvas& canvas(const Intrinsics& intrinsics);
   void bind(const Canvas& canvas, bool with_ids);
+  bool single_solid(const Snapshot& snapshot) const;
   void draw_static_triangles(Canvas& canvas, const Shot& shot, bool with_ids);
   void put(const Canvas& canvas, const Rect& region, const float* luminance);
   void read(const Canvas& canvas, const Rect& region, float* luminance, std::int32_t* object_id);
@@ -179,6 +180,15 @@ void LuminanceRenderer::Impl::render_static(const Intrinsics& intrinsics,
   }
 }
 
+// Whether one ray-cast solid is all that the objects in flight consist of.
+bool LuminanceRenderer::Impl::single_solid(const Snapshot& snapshot) const {
+  const auto flies = [&](const auto& part) {
+    return part.object >= 0 && snapshot.launched[static_cast<std::size_t>(part.object)];
+  };
+  return std::ranges::count_if(scene_.primitives, flies) == 1 &&
+         std::ranges::none_of(scene_.moving_triangles, flies);
+}
+
 void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
                                            const Rect& region, bool behind_static, float* luminance,
                                            std::int32_t* object_id) {
@@ -188,7 +198,13 @@ void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen
   Canvas& view = canvas(intrinsics_);
   bind(view, object_id != nullptr);
   set_scissor(shot.region);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  // Nothing can hide a single solid: no depth is needed.
+  const bool with_depth = behind_static || !single_solid(snapshot);
+  if (with_depth) {
+    glClear(GL_DEPTH_BUFFER_BIT);
+  } else {
+    glDisable(GL_DEPTH_TEST);
+  }
   if (behind_static) {
     triangles_.draw_static(shot);
     primitives_.draw_static_depth(shot);
@@ -200,6 +216,7 @@ void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen
   put(view, shot.region, luminance);
   triangles_.draw_objects(shot, snapshot);
   primitives_.draw_objects(shot, snapshot, object_id != nullptr);
+  glEnable(GL_DEPTH_TEST);
   read(view, shot.region, luminance, object_id);
 }
 

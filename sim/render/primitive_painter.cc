@@ -145,6 +145,7 @@ void PrimitivePainter::draw_luminance(const Shot& shot, std::size_t index) {
     set_matrix(program.conic, view.conic);
     glUniform2f(program.conic_origin, static_cast<float>(view.conic_origin.x()),
                 static_cast<float>(view.conic_origin.y()));
+    glUniform1i(program.pieces, view.outline_pieces);
   }
   glUniform1f(program.lod_bias, static_cast<float>(shot.lod_bias));
   textures_.bind(surface.texture);

@@ -60,18 +60,19 @@ float conic_distance(vec2 at, out vec2 n) {
 float conic_coverage(vec2 at) {
   vec2 n;
   float s = conic_distance(at, n);
-  // Straight pieces a quarter of a pixel long follow also a small, strongly bent outline.
-  const int kPieces = 4;
+  // In each of u_pieces x u_pieces parts of the pixel the outline is taken as straight.
   const float kFar = 1.0;  // [px], more than half a pixel's diagonal
-  int pieces = abs(s) > kFar ? 0 : kPieces * kPieces;
-  float sum = 0.0;
-  for (int i = 0; i < pieces; ++i) {
-    vec2 offset = (vec2(i % kPieces, i / kPieces) + 0.5) / float(kPieces) - 0.5;
-    float s_piece = conic_distance(at + offset, n);
-    sum += half_plane_coverage(s_piece, n, 1.0 / float(kPieces));
+  int parts = abs(s) > kFar ? 0 : u_pieces * u_pieces;
+  float width = 1.0 / float(u_pieces), first = 0.5 * width - 0.5, sum = 0.0;
+  vec2 offset = vec2(first);
+  for (int i = 0; i < parts; ++i) {
+    float s_part = conic_distance(at + offset, n);
+    sum += half_plane_coverage(s_part, n, width);
+    offset.x += width;
+    if (offset.x > 0.5) offset = vec2(first, offset.y + width);
   }
-  if (pieces == 0) return s > 0.0 ? 1.0 : 0.0;
-  return sum / float(kPieces * kPieces);
+  if (parts == 0) return s > 0.0 ? 1.0 : 0.0;
+  return sum / float(parts);
 }
 )";
 
@@ -267,6 +268,7 @@ const glsl::Uniforms kUniforms = {
     {"float", "margin"},       // [m]
     {"mat3", "conic"},         // quadratic form in (x - origin.x, y - origin.y, 1), positive inside
     {"vec2", "conic_origin"},  // [px]
+    {"int", "pieces"},         // along a pixel's side, in which the outline is taken as straight
     {"vec3", "texture_scale"},
     {"vec3", "texture_offset"},
     {"float", "lod_bias"},

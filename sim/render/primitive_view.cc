@@ -82,6 +82,28 @@ Matrix3d outline_form(const Primitive& primitive, const Vector3d& eye) {
          moment * moment.transpose();
 }
 
+// Where the outline is bent most, its radius of curvature [px]; 0 if it is no ellipse.
+double sharpest_bend_px(const Matrix3d& conic) {
+  const Eigen::Matrix2d form = -conic.topLeftCorner<2, 2>();
+  const double determinant = form.determinant();
+  if (!(determinant > 0 && form.trace() > 0)) return 0;
+  // At the centre the quadratic form is conic.determinant() / determinant, and with eigenvalues
+  // flat < steep of `form` the semi-axes squared are that over these.
+  const double at_center = conic.determinant() / determinant;
+  const double half_trace = 0.5 * form.trace();
+  const double steep = half_trace + std::sqrt(std::max(0.0, half_trace * half_trace - determinant));
+  const double flat = determinant / steep;
+  return at_center > 0 ? std::sqrt(at_center * flat) / steep : 0;
+}
+
+// Over a length w the tangent of a circle of radius R misses an area of w^3 / (24 R).
+int pieces_along_pixel(double radius_px) {
+  constexpr int kMost = 4;
+  constexpr double kArea = 0.003;  // [px^2]
+  const double pieces = std::ceil(std::sqrt(1 / (24 * kArea * std::max(radius_px, 0.1))));
+  return std::min(kMost, static_cast<int>(pieces));
+}
+
 bool camera_inside(const Primitive& primitive, const Vector3d& eye) {
   const Vector3d& size = primitive.size;
   switch (primitive.type) {
@@ -131,6 +153,7 @@ PrimitiveView view_primitive(const Primitive& primitive, const Eigen::Isometry3d
   const Matrix3d ray_G = view.R_GC * ray_of_pixel;
   view.conic = ray_G.transpose() * outline_form(primitive, view.eye_G) * ray_G;
   view.conic /= view.conic.cwiseAbs().maxCoeff();
+  view.outline_pieces = pieces_along_pixel(sharpest_bend_px(view.conic));
   return view;
 }
 

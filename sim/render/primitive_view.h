@@ -20,6 +20,8 @@ struct PrimitiveView {
   // conic_origin.
   Eigen::Matrix3d conic;
   Eigen::Vector2d conic_origin;
+  // Straight pieces along the side of a pixel that follow this outline to within 0.003 px of area.
+  int outline_pieces;
 };
 
 PrimitiveView view_primitive(const Primitive& primitive, const Eigen::Isometry3d& X_WG,
