@@ -35,13 +35,20 @@ struct Curve {
   }
 };
 
-// Newton's method: where S - level would be 0 if it ran straight on from t_us.
-[[gnu::always_inline]] inline double newton_step(const Curve& c, double level, double first_us,
+// Halley's method: where S - level would be 0 if S ran on as its value, slope and bend at t_us say;
+// Newton's where the bend is too large for that.
+[[gnu::always_inline]] inline double halley_step(const Curve& c, double level, double first_us,
                                                  double t_us) {
   const double left = transient_left(c.decay * t_us);
   const double error = c.at(t_us, left) - level;
   const double slope = c.rise - c.p * c.decay * left;
-  const double next_us = slope != 0 ? t_us - error / slope : 0.0;
+  const double bend = c.p * c.decay * c.decay * left;
+  const double slope_squared = slope * slope;
+  const double damped = 2 * slope_squared - error * bend;
+  const bool cubic = damped > slope_squared;
+  const double above = cubic ? 2 * error * slope : error;
+  const double below = cubic ? damped : slope;
+  const double next_us = below != 0 ? t_us - above / below : 0.0;
   return smaller(larger(next_us, first_us), c.dt);
 }
 
@@ -78,15 +85,13 @@ template <bool kBent>
     const double level = reference + (up ? on : off);
     const bool crosses = ((up ? s1 - level : level - s1) >= 0) & (!still_held);
 
-    // From the chord on. Three steps do nearly always.
+    // From the chord on. Two steps do nearly always.
     const double chord_us = crosses ? first + (level - s_first) * (dt - first) / (s1 - s_first) : 0;
     double before = chord_us, t = chord_us;
     if constexpr (kBent) {
-      const double t1 = newton_step(curve, level, first, chord_us);
-      const double t2 = newton_step(curve, level, first, t1);
-      const double t3 = newton_step(curve, level, first, t2);
-      before = newton_step(curve, level, first, t3);
-      t = newton_step(curve, level, first, before);
+      const double t1 = halley_step(curve, level, first, chord_us);
+      before = halley_step(curve, level, first, t1);
+      t = halley_step(curve, level, first, before);
     }
 
     const double armed_us = t + refractory_us;

@@ -3,7 +3,7 @@
 // From its last sample on, a pixel's signal runs as the input of a low-pass that rises evenly makes
 // its output run: S(t) = s0 + rise t - p (1 - exp(-decay t)), with p such that S(dt) = s1; with
 // decay 0 it is a straight line. Where such a curve only rises or only falls it crosses a level at
-// most once, and Newton's method finds the place to within 0.01 us.
+// most once, and Halley's method finds the place to within 0.01 us.
 #pragma once
 
 #include <cstddef>
