@@ -95,25 +95,15 @@ void EventRig::draw_key(Eye& eye, const Eigen::Isometry3d& X_WC) {
   ++keys_;
 }
 
-CameraMotion EventRig::motion_of(const Eye& eye, const Snapshot& snapshot) {
-  const BodyState& body = snapshot.vehicle;
-  const Eigen::Vector3d p_BC_W = body.q_W * eye.X_BC.translation();
-  return {body.pose() * eye.X_BC, body.v_W + body.w_W.cross(p_BC_W), body.w_W};
-}
-
 // A region of what the camera sees.
 void EventRig::show(Eye& eye, const Snapshot& snapshot, const Rect& region,
                     std::vector<float>& luminance) {
   const auto start = WallClock::now();
   const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
-  const auto shown = [&] { return eye.key.show(X_WC, region, luminance.data()); };
-  if (!shown()) {
-    draw_key(eye, eye.key.pose_ahead(motion_of(eye, snapshot)));
-    if (!shown()) {
-      draw_key(eye, X_WC);
-      if (!shown()) {
-        throw std::logic_error("A picture must serve the pose from which it was drawn.");
-      }
+  if (!eye.key.show(X_WC, region, luminance.data())) {
+    draw_key(eye, X_WC);
+    if (!eye.key.show(X_WC, region, luminance.data())) {
+      throw std::logic_error("A picture must serve the pose from which it was drawn.");
     }
   }
   if (setup_.keep_causes) clear_causes(region);

@@ -67,7 +67,6 @@ class EventRig {
  private:
   struct Eye;
 
-  static CameraMotion motion_of(const Eye& eye, const Snapshot& snapshot);
   void draw_key(Eye& eye, const Eigen::Isometry3d& X_WC);
   void show(Eye& eye, const Snapshot& snapshot, const Rect& region, std::vector<float>& luminance);
   void show_whole(Eye& eye, const Snapshot& snapshot);

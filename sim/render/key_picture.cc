@@ -28,11 +28,6 @@ constexpr float kBorderPx = 0.01f;
 // them [px of the view].
 constexpr double kMaxBendPx = 0.1;
 
-// How far ahead of the camera a picture is drawn, and with which share of what it may be away.
-constexpr double kLongestLeadS = 0.1, kShortestLeadS = 1e-3, kShorter = 0.8;
-constexpr double kLeadShare = 0.85;
-constexpr double kLeadBorderPx = 2;  // left at the border of the key
-
 int cells_of(int pixels) { return (pixels + kKeyCellPx - 1) / kKeyCellPx; }
 
 // The cells that hold a region's pixels.
@@ -63,14 +58,6 @@ Eigen::Matrix3d directions(const Intrinsics& view, const Eigen::Matrix3d& R_KC) 
 }
 
 }  // namespace
-
-Eigen::Isometry3d CameraMotion::after(double t_s) const {
-  Eigen::Isometry3d X = X_WC;
-  const double rate = w_W.norm();
-  if (rate > 0) X.linear() = Eigen::AngleAxisd(rate * t_s, w_W / rate) * X_WC.linear();
-  X.translation() += t_s * v_W;
-  return X;
-}
 
 KeyPicture::KeyPicture(const Intrinsics& view, const KeySpec& spec)
     : view_(view),
@@ -217,20 +204,20 @@ void KeyPicture::set_tile(int x0, int y0) {
       std::max(misplacement_px_per_m_, 2 * wide_.f * std::sqrt(1 + ray.squaredNorm()) * error);
 }
 
-// Whether the camera is still so near that what it drew will do, with a share of what it may move.
-bool KeyPicture::near_enough(const Eigen::Isometry3d& X_KC, double share) const {
-  const double moved_m = X_KC.translation().norm();
-  if (every_picture_) return X_KC.isApprox(Eigen::Isometry3d::Identity(), kSamePose);
+// Whether the camera is still so near that what it drew will do.
+bool KeyPicture::near_enough() const {
+  const double moved_m = X_KC_.translation().norm();
+  if (every_picture_) return X_KC_.isApprox(Eigen::Isometry3d::Identity(), kSamePose);
   const double zoom = moved_m * nearest_inverse_m_;
-  return zoom <= share * max_zoom_ &&
-         moved_m * misplacement_px_per_m_ <= share * max_misplacement_px_ * (1 - zoom) &&
-         bend_px(X_KC.linear()) <= kMaxBendPx;
+  return zoom <= max_zoom_ &&
+         moved_m * misplacement_px_per_m_ <= max_misplacement_px_ * (1 - zoom) &&
+         bend_px() <= kMaxBendPx;
 }
 
 // How far the middle of a cell is from where straight lines between its nodes put it, because the
 // camera has turned: most in one of the view's corners.
-double KeyPicture::bend_px(const Eigen::Matrix3d& R_KC) const {
-  const Eigen::Matrix3d direction = directions(view_, R_KC);
+double KeyPicture::bend_px() const {
+  const Eigen::Matrix3d direction = directions(view_, X_KC_.linear());
   const auto place = [&](double x, double y) -> Eigen::Vector2d {
     const Eigen::Vector3d ray = direction * Eigen::Vector3d(x, y, 1);
     return view_.f * ray.head<2>() / ray.z();
@@ -247,40 +234,11 @@ double KeyPicture::bend_px(const Eigen::Matrix3d& R_KC) const {
   return bend;
 }
 
-// Whether the view's corners, moved as the nearest thing in sight moves at most, lie in the key.
-bool KeyPicture::holds_view(const Eigen::Isometry3d& X_KC) const {
-  const Eigen::Matrix3d direction = directions(view_, X_KC.linear());
-  const double slack_px = kLeadBorderPx + wide_.f * X_KC.translation().norm() * nearest_inverse_m_;
-  for (const double x : {0.0, 1.0 * view_.width}) {
-    for (const double y : {0.0, 1.0 * view_.height}) {
-      const Eigen::Vector3d ray = direction * Eigen::Vector3d(x, y, 1);
-      if (ray.z() <= 0) return false;
-      const double u = wide_.f * ray.x() / ray.z() + wide_.cx();
-      const double v = wide_.f * ray.y() / ray.z() + wide_.cy();
-      if (!(u > slack_px && u < wide_.width - slack_px && v > slack_px &&
-            v < wide_.height - slack_px)) {
-        return false;
-      }
-    }
-  }
-  return true;
-}
-
-Eigen::Isometry3d KeyPicture::pose_ahead(const CameraMotion& now) const {
-  if (every_picture_ || !is_set_) return now.X_WC;
-  for (double lead_s = kLongestLeadS; lead_s > kShortestLeadS; lead_s *= kShorter) {
-    const Eigen::Isometry3d ahead = now.after(lead_s);
-    const Eigen::Isometry3d X_KC = ahead.inverse() * now.X_WC;
-    if (near_enough(X_KC, kLeadShare) && holds_view(X_KC)) return ahead;
-  }
-  return now.X_WC;
-}
-
 // Whether the key serves is asked of the whole view: a region shows what a whole picture would.
 bool KeyPicture::show(const Eigen::Isometry3d& X_WC, const Rect& region, float* luminance) {
   if (!is_set_) return false;
   X_KC_ = X_KW_ * X_WC;
-  if (!near_enough(X_KC_, 1)) return false;
+  if (!near_enough()) return false;
   place_nodes();
   if (!covers_view()) return false;
   const Rect cells = cells_about(region);

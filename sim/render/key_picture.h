@@ -49,15 +49,6 @@ struct KeySpec {
   }
 };
 
-// Where a camera is, and how it moves: along v_W [m/s], and turning about itself by w_W [rad/s].
-struct CameraMotion {
-  Eigen::Isometry3d X_WC;
-  Eigen::Vector3d v_W, w_W;
-
-  // Its pose if it goes on so for t_s.
-  Eigen::Isometry3d after(double t_s) const;
-};
-
 class KeyPicture {
  public:
   KeyPicture(const Intrinsics& view, const KeySpec& spec);
@@ -77,11 +68,6 @@ class KeyPicture {
   // alone and not on the region. Equal on every processor, bit for bit.
   bool show(const Eigen::Isometry3d& X_WC, const Rect& region, float* luminance);
 
-  // From where to draw the next picture so that it serves for long: ahead of the camera on its way,
-  // as far as it will probably still show the view from where the camera is now. What is near is
-  // taken to be as in the last picture; if show() fails nevertheless, draw from X_WC itself.
-  Eigen::Isometry3d pose_ahead(const CameraMotion& now) const;
-
   // A lower bound on the distance from the camera [m] of everything static that the last show()
   // saw in `region` and kKeyCellPx around it, inside the view or not; infinite for the sky.
   double nearest_m(const Rect& region) const;
@@ -92,9 +78,8 @@ class KeyPicture {
   void put_means(int j, int above, int at, int below);
   void set_depth(const std::vector<float>& inverse_depth);
   void set_tile(int x0, int y0);
-  bool near_enough(const Eigen::Isometry3d& X_KC, double share) const;
-  bool holds_view(const Eigen::Isometry3d& X_KC) const;
-  double bend_px(const Eigen::Matrix3d& R_KC) const;
+  bool near_enough() const;
+  double bend_px() const;
   void place_nodes();
   bool covers_view() const;
   void place_pixels(int row, const Rect& cells);
