@@ -37,7 +37,7 @@ struct Curve {
 
 // Halley's method: where S - level would be 0 if S ran on as its value, slope and bend at t_us say;
 // Newton's where the bend is too large for that.
-[[gnu::always_inline]] inline double halley_step(const Curve& c, double level, double first_us,
+[[gnu::always_inline]] inline double halley_step(const Curve& c, double level, double start_us,
                                                  double t_us) {
   const double left = transient_left(c.decay * t_us);
   const double error = c.at(t_us, left) - level;
@@ -49,7 +49,7 @@ struct Curve {
   const double above = cubic ? 2 * error * slope : error;
   const double below = cubic ? damped : slope;
   const double next_us = below != 0 ? t_us - above / below : 0.0;
-  return smaller(larger(next_us, first_us), c.dt);
+  return smaller(larger(next_us, start_us), c.dt);
 }
 
 // kBent: some of the signals may be no straight lines.
@@ -68,30 +68,30 @@ template <bool kBent>
     const double p = straight ? 0.0 : (s0 + rise * dt - s1) / (straight ? 1.0 : 1 - left);
     const Curve curve = {s0, rise, p, decay, dt};
 
-    // From where the pixel is armed on.
-    const double first = row.held_us[i];
-    const bool was_held = first > 0, still_held = first > dt;
-    const double left_first = kBent ? transient_left(decay * first) : 1.0;
-    const double s_first = was_held ? curve.at(first, left_first) : s0;
-    const double reference = was_held ? s_first : row.reference[i];
-    const bool turns = (rise - p * decay * left_first) * (rise - p * decay * left) < 0;
+    // From the end of its refractory period on.
+    const double start = row.held_us[i];
+    const bool was_held = start > 0, still_held = start > dt;
+    const double left_start = kBent ? transient_left(decay * start) : 1.0;
+    const double s_start = was_held ? curve.at(start, left_start) : s0;
+    const double reference = was_held ? s_start : row.reference[i];
+    const bool turns = (rise - p * decay * left_start) * (rise - p * decay * left) < 0;
     // Where it turns, p exp(-decay t) = rise / decay.
     const double lag = rise / (turns ? decay : 1.0);
     const double turn_us = natural_log(turns ? p / lag : 1.0) / (turns ? decay : 1.0);
     const double extreme = turns ? s0 + rise * turn_us - p + lag : s1;
     const bool within = (extreme > reference + off) & (extreme < reference + on);
 
-    const bool up = s1 > s_first;
+    const bool up = s1 > s_start;
     const double level = reference + (up ? on : off);
     const bool crosses = ((up ? s1 - level : level - s1) >= 0) & (!still_held);
 
     // From the chord on. Two steps do nearly always.
-    const double chord_us = crosses ? first + (level - s_first) * (dt - first) / (s1 - s_first) : 0;
+    const double chord_us = crosses ? start + (level - s_start) * (dt - start) / (s1 - s_start) : 0;
     double before = chord_us, t = chord_us;
     if constexpr (kBent) {
-      const double t1 = halley_step(curve, level, first, chord_us);
-      before = halley_step(curve, level, first, t1);
-      t = halley_step(curve, level, first, before);
+      const double t1 = halley_step(curve, level, start, chord_us);
+      before = halley_step(curve, level, start, t1);
+      t = halley_step(curve, level, start, before);
     }
 
     const double armed_us = t + refractory_us;

@@ -231,44 +231,40 @@ void PixelArray::solve_crossings(double t1_us) {
 // Most pixels make one event or two or none, at crossings that are known; the others are followed
 // piece by piece.
 void PixelArray::run_all(double t1_us, const Picture& picture, Run& run_state) {
-  std::size_t seconds = 0;
+  std::size_t next_second = 0;
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
-    run_state.first_us = static_cast<TimeUs>(candidate.t0_us) + 1;
     const bool noisy = !run_state.noise.empty() && run_state.noise.front().pixel == candidate.index;
-    Crossings::Answer answer = crossings_.answer(i);
-    const std::size_t second = answer == Crossings::kAgain ? seconds++ : 0;
-    if (noisy) answer = Crossings::kUnknown;
-    if (answer == Crossings::kNothing) continue;
-    const Crossings* crossings = &crossings_;
-    std::size_t at = i;
-    if (answer == Crossings::kAgain) {
-      take_crossing(candidate, crossings_, i, t1_us, picture, run_state);
-      crossings = &second_;
-      at = second;
-      answer = second_.answer(second);
+    const Crossings::Answer answer = crossings_.answer(i);
+    const std::size_t second = answer == Crossings::kAgain ? next_second++ : 0;
+    if (!noisy && answer == Crossings::kNothing) continue;
+    run_state.first_us = static_cast<TimeUs>(candidate.t0_us) + 1;
+    bool known = !noisy && take_crossing(candidate, crossings_, i, t1_us, picture, run_state);
+    if (known && answer == Crossings::kAgain) {
+      known = second_.answer(second) != Crossings::kAgain &&
+              take_crossing(candidate, second_, second, t1_us, picture, run_state);
     }
-    if (answer == Crossings::kAgain || answer == Crossings::kUnknown) {
-      run(candidate, t1_us, cause_at(candidate.index, picture), run_state);
-    } else if (answer != Crossings::kNothing) {
-      take_crossing(candidate, *crossings, at, t1_us, picture, run_state);
-    }
+    if (!known) run(candidate, t1_us, cause_at(candidate.index, picture), run_state);
     set_bounds(candidate.index);
   }
 }
 
 // The event of a pixel, if it has one, and what the pixel is after it or after the end of its
-// refractory period.
-void PixelArray::take_crossing(const Candidate& candidate, const Crossings& crossings,
+// refractory period. False: that is unknown.
+bool PixelArray::take_crossing(const Candidate& candidate, const Crossings& crossings,
                                std::size_t i, double t1_us, const Picture& picture, Run& run) {
+  const Crossings::Answer answer = crossings.answer(i);
+  if (answer == Crossings::kUnknown) return false;
+  if (answer == Crossings::kNothing) return true;
   Pixel& pixel = pixels_[candidate.index];
   pixel.reference = crossings.reference_after(i);
   pixel.held_until_us = kArmed;
-  if (crossings.answer(i) == Crossings::kRearmed) return;
+  if (answer == Crossings::kRearmed) return true;
   const double crossing_us = candidate.t0_us + crossings.crossing_us(i);
   fire(candidate.index, crossing_us, t1_us, crossings.on(i), cause_at(candidate.index, picture),
        run);
-  if (crossings.answer(i) != Crossings::kArmed) pixel.held_until_us = crossing_us + refractory_us_;
+  if (answer != Crossings::kArmed) pixel.held_until_us = crossing_us + refractory_us_;
+  return true;
 }
 
 void PixelArray::run(const Candidate& candidate, double t1_us, Cause cause, Run& run) {

@@ -104,7 +104,7 @@ class PixelArray {
   void keep_times(std::size_t y, const Rect& region, double t_us);
   void solve_crossings(double t1_us);
   void run_all(double t1_us, const Picture& picture, Run& run);
-  void take_crossing(const Candidate& candidate, const Crossings& crossings, std::size_t i,
+  bool take_crossing(const Candidate& candidate, const Crossings& crossings, std::size_t i,
                      double t1_us, const Picture& picture, Run& run);
   void run(const Candidate& candidate, double t1_us, Cause cause, Run& run);
   void run_piece(std::size_t index, const SignalPiece& piece, Cause cause, Run& run);
