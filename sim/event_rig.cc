@@ -1,24 +1,18 @@
 #include "sim/event_rig.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
 #include "sim/base/random.h"
+#include "sim/base/wall_clock.h"
 #include "sim/events/event_hash.h"
 
 namespace dodgesim {
 
 namespace {
-
-using WallClock = std::chrono::steady_clock;
-
-double seconds_since(WallClock::time_point start) {
-  return std::chrono::duration<double>(WallClock::now() - start).count();
-}
 
 std::vector<double> object_radii(const World& world) {
   std::vector<double> radii;

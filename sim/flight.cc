@@ -1,7 +1,6 @@
 #include "sim/flight.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -14,15 +13,9 @@ namespace dodgesim {
 
 namespace {
 
-using WallClock = std::chrono::steady_clock;
-
 constexpr TimeUs kTruthEveryUs = 1000;     // how often the pilot that knows the truth looks
 constexpr TimeUs kHistoryUs = 1000000;     // longer than any sensing delay that makes sense
 constexpr TimeUs kShownBeforeUs = 100000;  // of the trajectory before the first launch
-
-double seconds_since(WallClock::time_point start) {
-  return std::chrono::duration<double>(WallClock::now() - start).count();
-}
 
 ImuSpec every_tick(ImuSpec spec) {
   spec.rate_hz = static_cast<int>(1000000 / kTickUs);

@@ -1,13 +1,13 @@
 // Everything that takes part in one throw flown by one pilot. loop.h says in which order it acts.
 #pragma once
 
-#include <chrono>
 #include <deque>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/base/wall_clock.h"
 #include "sim/bridge/onboard_computer.h"
 #include "sim/bridge/truth_pilot.h"
 #include "sim/campaign/collision_cause.h"
@@ -173,7 +173,7 @@ class Flight {
   std::deque<Snapshot> history_;  // for the truth at the instant of a detection
   FlightRecord record_;
   FlightTiming timing_;
-  std::chrono::steady_clock::time_point constructed_ = std::chrono::steady_clock::now();
+  WallClock::time_point constructed_ = WallClock::now();
 };
 
 }  // namespace dodgesim

@@ -22,7 +22,7 @@ struct Cycle {
   std::vector<dodge::StateEstimate> states;
 };
 
-using Recording = std::vector<Cycle>;
+using PilotRecording = std::vector<Cycle>;
 
 class Recorder : public FlightObserver {
  public:
@@ -44,11 +44,11 @@ class Recorder : public FlightObserver {
     next_ = {};
   }
 
-  Recording take() { return std::move(recording_); }
+  PilotRecording take() { return std::move(recording_); }
 
  private:
   Cycle next_;
-  Recording recording_;
+  PilotRecording recording_;
 };
 
 // Windows with about so many events, and how long they are to have that many in flight.
@@ -100,12 +100,12 @@ dodge::Config one_camera(TimeUs window_us) {
 
 // Plays the recordings to the flight core.
 struct Player {
-  std::vector<Recording> recordings;
+  std::vector<PilotRecording> recordings;
 
   // Calls `use` with the flight core and the events in its window after each of its updates.
   template <class Use>
   void play(TimeUs window_us, bool capture, const Use& use) const {
-    for (const Recording& recording : recordings) {
+    for (const PilotRecording& recording : recordings) {
       dodge::Dodger dodger(one_camera(window_us));
       dodger.set_capture(capture);
       std::vector<TimeUs> stamps;  // of the events that the window may hold
@@ -186,13 +186,13 @@ struct Player {
   }
 };
 
-std::vector<Recording> record_flights(const BenchOptions& options) {
+std::vector<PilotRecording> record_flights(const BenchOptions& options) {
   struct Source {
     const char* file;
     int throws;
   };
   constexpr Source kSources[] = {{"demo", 3}, {"goal_flight", 1}};
-  std::vector<Recording> recordings;
+  std::vector<PilotRecording> recordings;
   for (const Source& source : kSources) {
     const Scenario scenario =
         load_scenario(options.scenarios_dir + "/" + source.file + ".yaml", options.models_dir);

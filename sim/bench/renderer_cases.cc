@@ -1,6 +1,6 @@
-#include <chrono>
 #include <memory>
 
+#include "sim/base/wall_clock.h"
 #include "sim/bench/bench_case.h"
 #include "sim/render/key_picture.h"
 #include "sim/render/luminance_renderer.h"
@@ -64,12 +64,11 @@ class View {
   // Each picture from another direction.
   template <class Task>
   double run(const Task& task) {
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = WallClock::now();
     for (int i = 0; i < kPictures; ++i) {
       task(camera(kSwingRad * (2.0 * i / (kPictures - 1) - 1)));
     }
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-    return 1e3 * passed.count() / kPictures;
+    return 1e3 * seconds_since(start) / kPictures;
   }
 
   Eigen::Isometry3d camera(double yaw_rad) const {

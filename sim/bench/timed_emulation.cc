@@ -1,18 +1,7 @@
 #include "sim/bench/timed_emulation.h"
-
-#include <chrono>
+#include "sim/base/wall_clock.h"
 
 namespace dodgesim {
-
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
 
 TimedEmulation::TimedEmulation(EventCamera& camera, double log_epsilon)
     : camera_(camera),
@@ -23,7 +12,7 @@ TimedEmulation::TimedEmulation(EventCamera& camera, double log_epsilon)
 void TimedEmulation::update(TimeUs t_us, const std::vector<float>& luminance,
                             std::vector<Event>& out) {
   const std::size_t before = out.size();
-  auto start = Clock::now();
+  auto start = WallClock::now();
   camera_.update(t_us, luminance.data(), out);
   emulation_s_ += seconds_since(start);
   events_ += static_cast<std::int64_t>(out.size() - before);
@@ -31,7 +20,7 @@ void TimedEmulation::update(TimeUs t_us, const std::vector<float>& luminance,
 
   float* const shifted = shifted_.ptr<float>();
   for (std::size_t i = 0; i < luminance.size(); ++i) shifted[i] = luminance[i] + log_epsilon_;
-  start = Clock::now();
+  start = WallClock::now();
   cv::log(shifted_, log_);
   log_s_ += seconds_since(start);
 }

@@ -27,12 +27,12 @@ constexpr char kMagic[8] = {'d', 'o', 'd', 'g', 'e', 'j', '0', '5'};
 constexpr std::uint32_t kLargestRecord = 1u << 30;
 
 // In front of the identity and of every record.
-struct Header {
+struct RecordHeader {
   std::uint32_t size = 0;
   std::uint32_t mark = 0;  // checksum of the size: whether the next record can be found
   std::uint64_t checksum = 0;
 };
-static_assert(sizeof(Header) == 16);
+static_assert(sizeof(RecordHeader) == 16);
 
 std::uint64_t checksum(const char* bytes, std::size_t size) { return XXH64(bytes, size, 0); }
 
@@ -42,7 +42,7 @@ std::uint32_t mark_of(std::uint32_t size) {
 
 std::string framed(const std::string& bytes) {
   if (bytes.size() > kLargestRecord) throw SimulationError("A throw's results exceed a gigabyte.");
-  Header header;
+  RecordHeader header;
   header.size = static_cast<std::uint32_t>(bytes.size());
   header.mark = mark_of(header.size);
   header.checksum = checksum(bytes.data(), bytes.size());
@@ -52,9 +52,10 @@ std::string framed(const std::string& bytes) {
 }
 
 // Reads a journal from its start.
-class Reader {
+class RecordReader {
  public:
-  explicit Reader(const std::filesystem::path& path) : path_(path), file_(path, std::ios::binary) {
+  explicit RecordReader(const std::filesystem::path& path)
+      : path_(path), file_(path, std::ios::binary) {
     if (!file_) fail("could not be opened");
     file_.seekg(0, std::ios::end);
     size_ = static_cast<std::uint64_t>(file_.tellg());
@@ -64,7 +65,7 @@ class Reader {
   // begins, as after damage to a header, everything up to the next intact one counts as one that is
   // not. False when none follows.
   bool next(std::string& bytes, bool& intact) {
-    Header header;
+    RecordHeader header;
     if (size_ - at_ >= sizeof header) read(&header, sizeof header);
     if (size_ - at_ < sizeof header || !fits(header, size_ - at_)) {
       intact = false;
@@ -96,7 +97,7 @@ class Reader {
 
  private:
   // Whether this is the header of a frame that ends within `room` bytes from its beginning.
-  static bool fits(const Header& header, std::uint64_t room) {
+  static bool fits(const RecordHeader& header, std::uint64_t room) {
     return header.mark == mark_of(header.size) && header.size <= kLargestRecord &&
            header.size <= room - sizeof header;
   }
@@ -104,8 +105,8 @@ class Reader {
   bool skip_to_intact() {
     std::string rest(size_ - at_, '\0');
     read(rest.data(), rest.size());
-    for (std::size_t i = 1; i + sizeof(Header) <= rest.size(); ++i) {
-      Header header;
+    for (std::size_t i = 1; i + sizeof(RecordHeader) <= rest.size(); ++i) {
+      RecordHeader header;
       std::memcpy(&header, rest.data() + i, sizeof header);
       if (!fits(header, rest.size() - i) ||
           checksum(rest.data() + i + sizeof header, header.size) != header.checksum) {
@@ -139,7 +140,7 @@ std::uint64_t result_digest(const ThrowResult& result) {
 }
 
 JournalIndex read_journal(const std::filesystem::path& path) {
-  Reader reader(path);
+  RecordReader reader(path);
   reader.expect_magic();
   JournalIndex index;
   std::string bytes;

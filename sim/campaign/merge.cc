@@ -1,8 +1,8 @@
 // merge_campaigns(): the results of several directories as those of one campaign.
-#include <chrono>
 #include <map>
 
 #include "sim/base/error.h"
+#include "sim/base/wall_clock.h"
 #include "sim/campaign/campaign.h"
 #include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/journal.h"
@@ -109,7 +109,7 @@ int expect_complete(const std::vector<fs::path>& directories) {
 
 CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
                                 const CampaignOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = WallClock::now();
   const std::string started = utc_now();
   const Sources sources = collect(directories);
   const Scenario scenario = parse_scenario(sources.identity.scenario, kScenarioFile, "");
@@ -140,7 +140,7 @@ CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
   summary.wanted = throw_count(scenario);
   write_result_files(options.out, scenario, read_journal(options.out / kJournalFile),
                      sources.identity.truth, summary);
-  summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  summary.wall_s = seconds_since(begin);
   CampaignOptions flown = options;
   flown.models = sources.identity.models;
   write_file(options.out / "manifest.json", manifest_json(scenario, flown, summary, started));

@@ -61,8 +61,8 @@ std::uint8_t cause_of(const ThrowResult& result) {
 
 using Values = std::vector<std::string>;
 
-struct Axes {
-  explicit Axes(const std::vector<ThrowResult>& results)
+struct ReportAxes {
+  explicit ReportAxes(const std::vector<ThrowResult>& results)
       : grid(grid_axes(results)), speed("speed_mps", results), object("object", results) {
     for (const Axis& axis : grid) {
       if (!axis.middles().empty() && heat.size() < 2) heat.push_back(axis);
@@ -123,7 +123,7 @@ class Columns {
   Json json_ = Json::object();
 };
 
-Json columns_of(const std::vector<ThrowResult>& results, const Axes& axes) {
+Json columns_of(const std::vector<ThrowResult>& results, const ReportAxes& axes) {
   using R = ThrowResult;
   Columns columns(results);
   columns.add("number", [](const R& r) { return static_cast<std::uint32_t>(r.index); });
@@ -179,7 +179,7 @@ Json pilot_rate(const StatisticsTable::Row* row, std::size_t pilot) {
   return rate_of(row->statistics.pilots[pilot].tally.shown(pilot == 2));
 }
 
-Json section_of(const Part& part, const Axes& axes) {
+Json section_of(const Part& part, const ReportAxes& axes) {
   const StatisticsTable by_heat = group_by(part, axes.heat);
   const StatisticsTable by_speed = group_by(part, {axes.speed});
   const StatisticsTable by_cell = group_by(part, axes.grid);
@@ -214,7 +214,7 @@ Json section_of(const Part& part, const Axes& axes) {
 Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
   const Scenario& scenario = campaign.scenario;
   const std::vector<ThrowResult>& results = campaign.results;
-  const Axes axes(results);
+  const ReportAxes axes(results);
   double simulated_s = 0, computing_s = 0;
   Json errors = Json::object();
   for (const ThrowResult& result : results) {

@@ -89,7 +89,7 @@ void RunningCampaign::prepare() {
 }
 
 void RunningCampaign::begin() {
-  begin_ = std::chrono::steady_clock::now();
+  begin_ = WallClock::now();
   started_ = utc_now();
 }
 
@@ -123,8 +123,7 @@ CampaignSummary RunningCampaign::finish() {
     index.throws.erase(index.throws.lower_bound(*end), index.throws.end());
   }
   write_result_files(options_.out, scenario_, index, options_.truth, summary_);
-  summary_.wall_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  summary_.wall_s = seconds_since(begin_);
   write_file(options_.out / "manifest.json",
              manifest_json(scenario_, options_, summary_, started_));
   return std::move(summary_);

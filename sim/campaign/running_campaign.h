@@ -1,11 +1,11 @@
 // A campaign while its throws are flown: which is the next, and what has come back.
 #pragma once
 
-#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/base/wall_clock.h"
 #include "sim/campaign/campaign.h"
 #include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/early_stop.h"
@@ -39,7 +39,7 @@ class RunningCampaign {
 
   const Scenario& scenario_;
   const CampaignOptions& options_;
-  std::chrono::steady_clock::time_point begin_;
+  WallClock::time_point begin_;
   std::string started_;
   DirectoryLock lock_;
   CampaignIdentity identity_;

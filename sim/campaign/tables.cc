@@ -41,13 +41,13 @@ void append(const Part& part, const std::vector<Axis>& by, StatisticsTable& tabl
   }
 }
 
-struct Axes {
+struct TableAxes {
   Axis size, distance, speed;
   std::vector<Axis> grid;
 };
 
 // Every cell that the tables of a part show.
-StatisticsTable all_cells(const Part& part, const Axes& axes) {
+StatisticsTable all_cells(const Part& part, const TableAxes& axes) {
   StatisticsTable table;
   table.keys = kKeys;
   for (const Axis& axis : axes.grid) {
@@ -65,7 +65,7 @@ StatisticsTable all_cells(const Part& part, const Axes& axes) {
 
 class MarkdownWriter {
  public:
-  MarkdownWriter(const Part& part, const Axes& axes, const StatisticsTable& table)
+  MarkdownWriter(const Part& part, const TableAxes& axes, const StatisticsTable& table)
       : part_(part), axes_(axes), table_(table), pilots_(shown_pilots(table)) {}
 
   void by_size_and_distance() {
@@ -172,7 +172,7 @@ class MarkdownWriter {
   }
 
   const Part& part_;
-  const Axes& axes_;
+  const TableAxes& axes_;
   const StatisticsTable& table_;
   std::vector<std::size_t> pilots_;  // those with a column
   std::string text_;
@@ -242,7 +242,7 @@ std::string asides(const Part& part) {
   return text + landings_of(part) + errors_of(part);
 }
 
-std::string markdown_of(const Part& part, const Axes& axes, const StatisticsTable& table) {
+std::string markdown_of(const Part& part, const TableAxes& axes, const StatisticsTable& table) {
   std::string head;
   if (!part.values.empty()) head += "# " + label(part.values) + "\n\n";
   MarkdownWriter writer(part, axes, table);
@@ -271,8 +271,8 @@ Tables make_tables(const LoadedCampaign& campaign) {
                     ". Cells: dodged / would have hit (rate, 95 % Wilson interval); for " +
                     "the pilot none: would have hit / throws.\n\n";
   if (campaign.stop) tables.markdown += campaign.stop->text() + "\n\n";
-  const Axes axes = {Axis("size_m", results), Axis("distance_m", results),
-                     Axis("speed_mps", results), grid_axes(results)};
+  const TableAxes axes = {Axis("size_m", results), Axis("distance_m", results),
+                          Axis("speed_mps", results), grid_axes(results)};
   StatisticsTable all;
   for (const Part& part : parts_of(campaign)) {
     const StatisticsTable table = all_cells(part, axes);

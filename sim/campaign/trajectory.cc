@@ -73,7 +73,7 @@ class Motion {
   bool started_ = false;
 };
 
-class Writer {
+class TrajectoryWriter {
  public:
   std::string take() { return std::move(bytes_); }
 
@@ -96,9 +96,9 @@ class Writer {
   std::string bytes_;
 };
 
-class Reader {
+class TrajectoryReader {
  public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  explicit TrajectoryReader(std::string_view bytes) : bytes_(bytes) {}
   bool at_end() const { return bytes_.empty(); }
 
   std::uint64_t count() {
@@ -147,7 +147,7 @@ struct State {
   std::vector<Motion> objects;
 };
 
-void write_sample(Writer& writer, State& state, const Trajectory::Sample& sample) {
+void write_sample(TrajectoryWriter& writer, State& state, const Trajectory::Sample& sample) {
   const Steps command = steps(sample.command_W, kSpeedMps);
   std::uint64_t head = sample.evading ? kEvading : 0;
   if (command == state.command) head |= kSameCommand;
@@ -166,7 +166,7 @@ void write_sample(Writer& writer, State& state, const Trajectory::Sample& sample
   }
 }
 
-Trajectory::Sample read_sample(Reader& reader, State& state) {
+Trajectory::Sample read_sample(TrajectoryReader& reader, State& state) {
   Trajectory::Sample sample;
   const std::uint64_t head = reader.count();
   sample.evading = (head & kEvading) != 0;
@@ -186,7 +186,7 @@ Trajectory::Sample read_sample(Reader& reader, State& state) {
 }  // namespace
 
 std::string to_bytes(const Trajectory& trajectory) {
-  Writer writer;
+  TrajectoryWriter writer;
   writer.count(static_cast<std::uint64_t>(trajectory.start_us / kTickUs));
   writer.count(static_cast<std::uint64_t>(trajectory.period_us / kTickUs));
   writer.count(static_cast<std::uint64_t>((trajectory.end_us - trajectory.start_us) / kTickUs));
@@ -212,7 +212,7 @@ std::string to_bytes(const Trajectory& trajectory) {
 }
 
 Trajectory trajectory_from_bytes(std::string_view bytes) {
-  Reader reader(bytes);
+  TrajectoryReader reader(bytes);
   Trajectory trajectory;
   trajectory.start_us = reader.time_us();
   trajectory.period_us = reader.time_us();

@@ -12,7 +12,7 @@ namespace {
 
 // Two p-values that are equal but for rounding count as a tie.
 constexpr double kTie = 1 + 1e-7;
-constexpr double kNegligible = 1e-18;  // of a sum: below its rounding
+constexpr double kNegligibleTerm = 1e-18;  // of a sum: below its rounding
 
 // P(the first group has `least` successes or more | all successes of both).
 double fisher_tail(std::int64_t least, std::int64_t n1, std::int64_t n2, std::int64_t successes) {
@@ -24,7 +24,7 @@ double fisher_tail(std::int64_t least, std::int64_t n1, std::int64_t n2, std::in
   double sum = 0;
   std::int64_t k = above_mean ? least : least - 1;
   double term = hypergeometric_pmf(k, n1, n2, successes);
-  while (term > kNegligible * sum) {
+  while (term > kNegligibleTerm * sum) {
     sum += term;
     if (!above_mean) --k;
     const double rise = static_cast<double>(n1 - k) * static_cast<double>(successes - k) /

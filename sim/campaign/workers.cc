@@ -30,7 +30,7 @@ namespace {
 
 enum class Kind : std::uint32_t { kResult, kScenarioError };
 
-struct Header {
+struct MessageHeader {
   Kind kind = Kind::kResult;
   std::uint32_t size = 0;
   double resident_mb = 0;  // of the worker
@@ -95,7 +95,7 @@ std::string memory_reason(const WorkerLimits& limits) {
 }
 
 // One throw, as header and body of the answer.
-std::string fly_one(const WorkerTasks& tasks, const Task& task, Header& header) {
+std::string fly_one(const WorkerTasks& tasks, const Task& task, MessageHeader& header) {
   try {
     return to_bytes(tasks.fly(task));
   } catch (const ScenarioError& error) {
@@ -125,7 +125,7 @@ void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
 [[noreturn]] void serve(int fd, const WorkerTasks& tasks) {
   Task task;
   while (read_all(fd, &task, sizeof(task))) {
-    Header header;
+    MessageHeader header;
     const std::string body = fly_one(tasks, task, header);
     header.size = static_cast<std::uint32_t>(body.size());
     header.resident_mb = resident_mb();
@@ -269,7 +269,7 @@ class Pool {
 
   void take_result(std::size_t i) {
     Worker& worker = workers_[i];
-    Header header;
+    MessageHeader header;
     std::string body;
     bool alive = read_all(worker.fd, &header, sizeof(header));
     if (alive) {

@@ -9,8 +9,8 @@ namespace dodgesim {
 
 namespace {
 
-constexpr int kWidth = 128, kHeight = 96;
-constexpr double kSpeedPxps = 500;
+constexpr int kDriftWidth = 128, kDriftHeight = 96;
+constexpr double kDriftPxps = 500;
 constexpr double kFilmPx = 32;  // of motion
 constexpr double kFiner = 8;    // the reference
 // In units of the default displacement limit.
@@ -23,11 +23,11 @@ constexpr double kLeastMatched = 0.9;
 double default_displacement_px() { return SamplingSpec().max_displacement_px; }
 
 std::vector<Event> film(const EventCameraSpec& spec, double displacement_px, std::uint64_t seed) {
-  EventCamera camera(spec, kWidth, kHeight, seed, 0, "check", true);
-  const DriftingTexture texture(kWidth, kHeight, kSpeedPxps, seed);
+  EventCamera camera(spec, kDriftWidth, kDriftHeight, seed, 0, "check", true);
+  const DriftingTexture texture(kDriftWidth, kDriftHeight, kDriftPxps, seed);
   // The last instants are the same for all rates.
-  const TimeUs step_us = std::llround(1e6 * displacement_px / kSpeedPxps);
-  const TimeUs end_us = std::llround(1e6 * kFilmPx / kSpeedPxps);
+  const TimeUs step_us = std::llround(1e6 * displacement_px / kDriftPxps);
+  const TimeUs end_us = std::llround(1e6 * kFilmPx / kDriftPxps);
   auto times = regular_times(step_us, end_us);
   times.push_back(end_us + spec.latency_us + 1);
   return record(

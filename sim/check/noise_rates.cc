@@ -9,8 +9,8 @@ namespace dodgesim {
 
 namespace {
 
-constexpr int kWidth = 320, kHeight = 240;
-constexpr double kPixels = kWidth * kHeight;
+constexpr int kStillWidth = 320, kStillHeight = 240;
+constexpr double kPixels = kStillWidth * kStillHeight;
 constexpr double kBrightLux = 1000;  // where the shot noise's bright share holds
 constexpr double kDarkLux = 0;
 constexpr double kSigmas = 3;
@@ -54,7 +54,7 @@ NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, dou
   const auto end_us = std::max<TimeUs>(1, static_cast<TimeUs>(1e6 * bounded_s));
   found.duration_s = seconds(end_us);
   found.per_pixel.resize(static_cast<std::size_t>(kPixels));
-  EventCamera camera(spec, kWidth, kHeight, seed, 0, "check", true);
+  EventCamera camera(spec, kStillWidth, kStillHeight, seed, 0, "check", true);
   const double luminance = lux / spec.illuminance_lux;
   const FilmedEvents filmed = record(camera, even_scene([=](TimeUs) { return luminance; }),
                                      regular_times(kPictureEveryUs, end_us + spec.latency_us));
@@ -65,7 +65,7 @@ NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, dou
       continue;
     }
     ++(event.polarity > 0 ? found.on : found.off);
-    ++found.per_pixel[std::size_t{event.y} * kWidth + event.x];
+    ++found.per_pixel[std::size_t{event.y} * kStillWidth + event.x];
   }
   return found;
 }

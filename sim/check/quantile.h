@@ -7,6 +7,9 @@
 
 namespace dodgesim {
 
+// Standard deviation of the median of many normal values, by that of their mean: sqrt(pi / 2).
+inline constexpr double kMedianSigma = 1.2533;
+
 // The value that the given share (0 to 1) of all others is not above; of an even number of values,
 // 0.5 gives the lower middle. NaN for none.
 inline double quantile(std::vector<double> values, double share) {

@@ -10,16 +10,15 @@ namespace dodgesim {
 
 namespace {
 
-constexpr int kWidth = 40, kHeight = 30;
+constexpr int kRampWidth = 40, kRampHeight = 30;
 constexpr double kFromLux = 1e4, kToLux = 1e8;  // so bright that the pixels are fast
-constexpr int kPictures = 200;
+constexpr int kRampPictures = 200;
 constexpr double kThresholdShare = 0.25;  // what the light takes for a threshold, of the period
 constexpr double kShortestTakesUs = 50;   // at least
 constexpr double kSettlesShare = 0.5;     // of the film
 constexpr double kIntervalLimit = 0.02;
 constexpr double kRoundedUs = 1;  // both stamps of an interval are rounded
-constexpr double kSigmas = 4;
-constexpr double kMedianSigma = 1.2533;  // of the median of normal values, to that of their mean
+constexpr double kRampSigmas = 4;
 
 double log_light(const EventCameraSpec& spec, double lux) {
   return std::log(spec.log_epsilon + lux / spec.illuminance_lux);
@@ -35,8 +34,8 @@ Scene growing_light(const EventCameraSpec& spec, TimeUs film_us) {
 }
 
 std::vector<Event> film_of(const EventCameraSpec& spec, std::uint64_t seed, TimeUs film_us) {
-  EventCamera camera(spec, kWidth, kHeight, seed, 0, "check", true);
-  const TimeUs every_us = std::max<TimeUs>(1, film_us / kPictures);
+  EventCamera camera(spec, kRampWidth, kRampHeight, seed, 0, "check", true);
+  const TimeUs every_us = std::max<TimeUs>(1, film_us / kRampPictures);
   // Long enough for the last events to come out.
   const TimeUs late_us = spec.latency_us + spec.stamp_resolution_us;
   return record(camera, growing_light(spec, film_us), regular_times(every_us, film_us + late_us))
@@ -45,9 +44,9 @@ std::vector<Event> film_of(const EventCameraSpec& spec, std::uint64_t seed, Time
 
 // Stamps of each pixel in their order.
 std::vector<std::vector<TimeUs>> by_pixel(const std::vector<Event>& events) {
-  std::vector<std::vector<TimeUs>> stamps(static_cast<std::size_t>(kWidth) * kHeight);
+  std::vector<std::vector<TimeUs>> stamps(static_cast<std::size_t>(kRampWidth) * kRampHeight);
   for (const Event& event : events) {
-    stamps[std::size_t{event.y} * kWidth + event.x].push_back(event.t_us);
+    stamps[std::size_t{event.y} * kRampWidth + event.x].push_back(event.t_us);
   }
   return stamps;
 }
@@ -109,7 +108,7 @@ Check judge(const RampEvents& measured, const EventCameraSpec& expected) {
     check.off("refractory", "the thresholds are too high for two events of a pixel");
   } else {
     const double median_us = period_us + measured.threshold_takes_us;
-    const double chance_us = kSigmas * kMedianSigma * measured.threshold_takes_us *
+    const double chance_us = kRampSigmas * kMedianSigma * measured.threshold_takes_us *
                              expected.mismatch_sigma / expected.contrast_threshold_on /
                              std::sqrt(static_cast<double>(medians.size()));
     check.within("refractory.interval", quantile(medians, 0.5), median_us,
@@ -135,9 +134,9 @@ Check judge(const RampEvents& measured, const EventCameraSpec& expected) {
                     [&](TimeUs stamp_us) { return stamp_us % expected.stamp_resolution_us != 0; });
   check.within("clock.off", static_cast<double>(off), 0, 0, "stamps", 0);
   // The pixels' events are alike; those of one are not.
-  const double independent = n / (kWidth * kHeight);
+  const double independent = n / (kRampWidth * kRampHeight);
   check.within("clock.rounded_by", sum_us / n, 0.5 * (resolution_us - 1),
-               kSigmas * resolution_us / std::sqrt(12 * std::max(1.0, independent)), "us", 1);
+               kRampSigmas * resolution_us / std::sqrt(12 * std::max(1.0, independent)), "us", 1);
   return check;
 }
 

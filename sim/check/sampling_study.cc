@@ -14,7 +14,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr double kFiner = 8;
+constexpr double kReferenceFiner = 8;
 constexpr double kLeastEvents = 300;  // of a throw, to be judged by itself
 // How exact the events of an object must be, and those of the room, which the defaults sample more
 // coarsely for the sake of speed.
@@ -25,13 +25,13 @@ constexpr const char* kVehicle = "qav_rxl";
 constexpr const char* kBall = "ball";
 
 // The events of one throw, and what they took.
-struct Film {
+struct StudyFilm {
   std::vector<Event> object, scene;
   double pictures = 0, regions = 0, keys = 0, wall_s = 0;
 };
 
-Film film(const World& world, const PrescribedThrow& toss, const SamplingVariant& variant,
-          const SamplingOptions& options) {
+StudyFilm film(const World& world, const PrescribedThrow& toss, const SamplingVariant& variant,
+               const SamplingOptions& options) {
   EventRigSetup setup;
   setup.intrinsics = intrinsics(CameraSpec{});
   setup.keys = variant.keys;
@@ -44,7 +44,7 @@ Film film(const World& world, const PrescribedThrow& toss, const SamplingVariant
   EventRig rig(world, setup);
   rig.start();
   rig.require(options.film_us);
-  Film film;
+  StudyFilm film;
   for (TimeUs t_us = 0; t_us < options.film_us; t_us += kTickUs) {
     rig.advance(toss.at(t_us), toss.at(t_us + kTickUs), [&](int, const Packet& packet) {
       for (std::size_t i = 0; i < packet.events.size(); ++i) {
@@ -141,11 +141,11 @@ std::vector<SamplingVariant> sampling_variants() {
 SamplingVariant sampling_reference() {
   SamplingVariant reference{"reference", {}, {}};
   SamplingSpec& sampling = reference.sampling;
-  sampling.max_displacement_px /= kFiner;
+  sampling.max_displacement_px /= kReferenceFiner;
   sampling.fast_displacement_px = sampling.max_displacement_px;
   sampling.min_interval_us =
-      static_cast<std::int64_t>(static_cast<double>(sampling.min_interval_us) / kFiner);
-  sampling.min_rate_hz *= kFiner;
+      static_cast<std::int64_t>(static_cast<double>(sampling.min_interval_us) / kReferenceFiner);
+  sampling.min_rate_hz *= kReferenceFiner;
   reference.keys.max_misplacement_px = 0;
   reference.keys.supersampling = 4;
   reference.keys.margin_px = 16;  // the least: no picture is used twice
@@ -165,9 +165,9 @@ std::vector<SamplingResult> study_sampling(const SamplingOptions& options,
     World world({options.models_dir, kRoom, kVehicle, {{kBall, toss.size_m}}});
     world.reset(toss.vehicle.p_W, toss.yaw_rad, toss.vehicle.v_W);
     world.launch(0, toss.ball);
-    const Film reference = film(world, toss, sampling_reference(), options);
+    const StudyFilm reference = film(world, toss, sampling_reference(), options);
     for (std::size_t i = 0; i < variants.size(); ++i) {
-      const Film found = film(world, toss, variants[i], options);
+      const StudyFilm found = film(world, toss, variants[i], options);
       object[i].add(found.object, reference.object);
       scene[i].add(found.scene, reference.scene);
       SamplingResult& result = results[i];

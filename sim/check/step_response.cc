@@ -12,18 +12,17 @@ namespace dodgesim {
 
 namespace {
 
-constexpr int kWidth = 80, kHeight = 60;
+constexpr int kStepWidth = 80, kStepHeight = 60;
 constexpr double kStep = 2;  // of the luminance
 constexpr double kLevelsLux[] = {1, 10, 100, 1000, 10000};
-constexpr TimeUs kBeforeUs = 1000;
-constexpr double kFilmS = 0.5;  // after the step
-constexpr int kPictures = 400;  // ever farther apart
+constexpr TimeUs kBeforeStepUs = 1000;
+constexpr double kFilmS = 0.5;      // after the step
+constexpr int kStepPictures = 400;  // ever farther apart
 
-constexpr double kRelativeLimit = 0.02;
+constexpr double kStepLimit = 0.02;
 constexpr double kAbsoluteLimitUs = 1.5;  // stamps are rounded to 1 us, and a step takes 1 us
 constexpr double kSpreadLimit = 0.05;     // of some thousand pixels
-constexpr double kSigmas = 3;
-constexpr double kMedianSigma = 1.2533;  // of the median of normal values, to that of their mean
+constexpr double kStepSigmas = 3;
 constexpr double kLowest = 0.16, kHighest = 0.84;  // quantiles: a standard deviation about the mean
 
 constexpr int kThresholdQuantiles = 400, kJitterQuantiles = 60;
@@ -73,23 +72,23 @@ bool applies(const EventCameraSpec& spec, double lux) {
 }
 
 StepAnswer measure_level(const EventCameraSpec& spec, double lux, std::uint64_t seed) {
-  EventCamera camera(spec, kWidth, kHeight, seed, 0, "check", true);
+  EventCamera camera(spec, kStepWidth, kStepHeight, seed, 0, "check", true);
   const double luminance = lux / spec.illuminance_lux;
   const Scene step =
-      even_scene([=](TimeUs t_us) { return t_us > kBeforeUs ? kStep * luminance : luminance; });
-  std::vector<TimeUs> times = {0, kBeforeUs};
+      even_scene([=](TimeUs t_us) { return t_us > kBeforeStepUs ? kStep * luminance : luminance; });
+  std::vector<TimeUs> times = {0, kBeforeStepUs};
   const double longest_us = 1e6 * kFilmS;
-  for (int i = 0; i <= kPictures; ++i) {
-    const double later_us = std::pow(longest_us, static_cast<double>(i) / kPictures);
-    times.push_back(std::max(times.back() + 1, kBeforeUs + static_cast<TimeUs>(later_us)));
+  for (int i = 0; i <= kStepPictures; ++i) {
+    const double later_us = std::pow(longest_us, static_cast<double>(i) / kStepPictures);
+    times.push_back(std::max(times.back() + 1, kBeforeStepUs + static_cast<TimeUs>(later_us)));
   }
   StepAnswer answer{lux, {}};
-  std::vector<bool> seen(static_cast<std::size_t>(kWidth) * kHeight);
+  std::vector<bool> seen(static_cast<std::size_t>(kStepWidth) * kStepHeight);
   for (const Event& event : record(camera, step, times).events) {
-    const auto pixel = std::size_t{event.y} * kWidth + event.x;
+    const auto pixel = std::size_t{event.y} * kStepWidth + event.x;
     if (event.polarity < 0 || seen[pixel]) continue;
     seen[pixel] = true;
-    answer.latencies_us.push_back(static_cast<double>(event.t_us - kBeforeUs));
+    answer.latencies_us.push_back(static_cast<double>(event.t_us - kBeforeStepUs));
   }
   return answer;
 }
@@ -146,12 +145,12 @@ Check judge(const std::vector<StepAnswer>& answers, const EventCameraSpec& expec
     const auto latency_us = static_cast<double>(expected.latency_us);
     const double median_us = quantile(answer.latencies_us, 0.5);
     const double expected_median_us = quantile(expected_us, 0.5);
-    const double chance_us = kSigmas * kMedianSigma * spread(expected_us) /
+    const double chance_us = kStepSigmas * kMedianSigma * spread(expected_us) /
                              std::sqrt(static_cast<double>(answer.latencies_us.size()));
-    check.within(name + ".median", median_us, expected_median_us,
-                 kRelativeLimit * std::max(0.0, expected_median_us - latency_us) +
-                     kAbsoluteLimitUs + chance_us,
-                 "us", 1);
+    check.within(
+        name + ".median", median_us, expected_median_us,
+        kStepLimit * std::max(0.0, expected_median_us - latency_us) + kAbsoluteLimitUs + chance_us,
+        "us", 1);
     check.within(name + ".spread", spread(answer.latencies_us), spread(expected_us),
                  kSpreadLimit * spread(expected_us) + kAbsoluteLimitUs, "us", 1);
     measured.x.push_back(answer.lux);

@@ -11,7 +11,7 @@ namespace dodgesim {
 namespace {
 
 constexpr std::size_t kLeastPixels = 300;  // of a region, to say anything about it
-constexpr int kBins = 50;
+constexpr int kStatisticsBins = 50;
 
 enum Shown : unsigned char { kNothing, kFixed, kDynamic, kOther };
 
@@ -69,8 +69,8 @@ Plot plot(const std::string& title, const std::string& label,
   return {title,
           {label, -0.6, 0.6, false},
           {"share of the region's pixels", 0, 0, false},
-          {histogram("static", 5, values(regions.fixed, member), -0.6, 0.6, kBins),
-           histogram("dynamic", 3, values(regions.dynamic, member), -0.6, 0.6, kBins)}};
+          {histogram("static", 5, values(regions.fixed, member), -0.6, 0.6, kStatisticsBins),
+           histogram("dynamic", 3, values(regions.dynamic, member), -0.6, 0.6, kStatisticsBins)}};
 }
 
 }  // namespace

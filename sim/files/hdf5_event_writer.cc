@@ -13,7 +13,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr hsize_t kChunk = 1 << 15;  // values that are compressed together
+constexpr hsize_t kChunkValues = 1 << 15;  // values that are compressed together
 constexpr unsigned kGzipLevel = 1;
 
 // Errors are ours to report, and files left open after one (see ~Hdf5Writer()) must not be closed
@@ -117,7 +117,7 @@ class Hdf5Writer : public EventWriter {
     const hsize_t unlimited = H5S_UNLIMITED;
     const hid_t space = checked(H5Screate_simple(1, &none, &unlimited));
     const hid_t properties = dataset_properties();
-    check(H5Pset_chunk(properties, 1, &kChunk));
+    check(H5Pset_chunk(properties, 1, &kChunkValues));
     check(H5Pset_shuffle(properties));
     check(H5Pset_deflate(properties, kGzipLevel));
     const hid_t dataset =
@@ -141,7 +141,7 @@ class Hdf5Writer : public EventWriter {
   template <class T>
   void put(Column<T>& column, T value) {
     column.waiting.push_back(value);
-    if (column.waiting.size() == kChunk) write(column);
+    if (column.waiting.size() == kChunkValues) write(column);
   }
 
   template <class T>

@@ -11,7 +11,7 @@ static_assert(std::endian::native == std::endian::little);
 
 namespace {
 
-constexpr std::string_view kMagic = "\x89MCAP0\r\n";
+constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
 constexpr std::size_t kChunkBytes = 1 << 20;
 
 enum Opcode : std::uint8_t {
@@ -78,7 +78,7 @@ McapWriter::McapWriter(const std::filesystem::path& path) : file_(path) {
   std::string header;
   append_text(header, "");  // no profile
   append_text(header, "dodgesim");
-  put(kMagic);
+  put(kMcapMagic);
   put(record(kHeader, header));
 }
 
@@ -227,7 +227,7 @@ void McapWriter::finish() {
   append(footer, crc32(footer, crc32(summary)));
   put(summary);
   put(footer);
-  put(kMagic);
+  put(kMcapMagic);
   file_.commit();
 }
 

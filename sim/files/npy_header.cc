@@ -9,7 +9,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr std::string_view kMagic = "\x93NUMPY";
+constexpr std::string_view kNpyMagic = "\x93NUMPY";
 constexpr std::size_t kAlignment = 64;  // of the array in the file, as NumPy does it
 
 // The few forms of Python's literals that NumPy writes.
@@ -152,12 +152,12 @@ std::string npy_front(const std::string& descr, const std::vector<std::uint64_t>
                       std::size_t min_bytes) {
   std::string header =
       "{'descr': " + descr + ", 'fortran_order': False, 'shape': " + shape_text(shape) + ", }";
-  const std::size_t start = kMagic.size() + 4;  // version and length
+  const std::size_t start = kNpyMagic.size() + 4;  // version and length
   const std::size_t bytes = std::max(start + header.size() + 1, min_bytes);
   const std::size_t length = (bytes + kAlignment - 1) / kAlignment * kAlignment - start;
   if (length > 0xffff) throw std::invalid_argument("The header is too long for version 1.0.");
   header.append(length - 1 - header.size(), ' ');
-  std::string front(kMagic);
+  std::string front(kNpyMagic);
   front += {'\x01', '\x00', static_cast<char>(length & 0xff), static_cast<char>(length >> 8)};
   return front + header + "\n";
 }

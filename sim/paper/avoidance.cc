@@ -16,7 +16,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr const char* kProtocol = R"(How the protocol is read:
+constexpr const char* kAvoidanceProtocol = R"(How the protocol is read:
 
 - *Dodged / would have hit*: only throws count that hit a vehicle which stays as it is, as in the
   paper's indoor experiments. The paper's outdoor "more than 90 % of the time" counts all throws,
@@ -173,7 +173,7 @@ PaperTables avoidance_tables(Sets sets, const std::vector<Group>& groups,
   for (const Set& set : sets) add(set.name, {&set, 1});
   if (sets.size() > 1) add(all_sets, sets);
   return {success.to_markdown() + "\nWhat perception lost:\n\n" + losses.to_markdown() + "\n" +
-              causes_of_each(sets) + kProtocol,
+              causes_of_each(sets) + kAvoidanceProtocol,
           success.to_csv()};
 }
 

@@ -8,7 +8,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr const char* kProtocol = R"(How to read it:
+constexpr const char* kDriftProtocol = R"(How to read it:
 
 - The estimated height runs away from the true one at the drift's rate, from 2 s on (1 s where balls
   are thrown); the vehicle, which holds its estimated height, goes the other way. Whoever has no
@@ -83,13 +83,13 @@ void add_thrown_at(const LoadedCampaign& campaign, TextTable& table) {
   }
 }
 
-PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
+PaperTables analyse_drift(const std::vector<LoadedCampaign>& campaigns) {
   TextTable table;
   table.head = {"flights", "drift [m/s]",       "monitor", "landed",
                 "crashed", "landing began [s]", "dodged"};
   for (std::size_t i = 0; i + 1 < campaigns.size(); ++i) add_hover(campaigns[i], table);
   add_thrown_at(campaigns.back(), table);
-  return {table.to_markdown() + "\n" + kProtocol, table.to_csv()};
+  return {table.to_markdown() + "\n" + kDriftProtocol, table.to_csv()};
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ PaperExperiment drift_experiment() {
            {"drift_up", "drift_up.yaml", {}},
            {"drift_down", "drift_down.yaml", {}},
            {"drift_thrown_at", "drift_thrown_at.yaml", {}}},
-          analyse};
+          analyse_drift};
 }
 
 }  // namespace dodgesim

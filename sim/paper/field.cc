@@ -29,7 +29,7 @@ const std::vector<PaperVariant>& variants() {
   return all;
 }
 
-constexpr const char* kProtocol = R"(How to read it:
+constexpr const char* kFieldProtocol = R"(How to read it:
 
 - The oracle is told of the true object within the range, and avoids it by the variant. All variants
   meet the same throws. Dodged / would have hit (95 %, Wilson).
@@ -69,7 +69,7 @@ TextTable decay_table(const LoadedCampaign& campaign) {
   return table;
 }
 
-PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
+PaperTables analyse_field(const std::vector<LoadedCampaign>& campaigns) {
   PaperTables tables;
   std::vector<RateGrid> grids;
   for (std::size_t range = 0; range < parts_of(campaigns.front()).size(); ++range) {
@@ -82,7 +82,7 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
     }
     tables.markdown += table.to_markdown() + "\n";
   }
-  tables.markdown += decay_table(campaigns.back()).to_markdown() + "\n" + kProtocol;
+  tables.markdown += decay_table(campaigns.back()).to_markdown() + "\n" + kFieldProtocol;
   tables.csv = rates_csv(grids);
   return tables;
 }
@@ -92,7 +92,7 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
 PaperExperiment field_experiment() {
   std::vector<PaperFlight> flights = flights_of("field_", "claims_field.yaml", variants());
   flights.push_back({"decay", "claims_decay.yaml", {}});
-  return {"field", "What each part of the repulsive field is worth", flights, analyse};
+  return {"field", "What each part of the repulsive field is worth", flights, analyse_field};
 }
 
 }  // namespace dodgesim

@@ -8,7 +8,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr const char* kProtocol = R"(How the claim is read:
+constexpr const char* kLatencyProtocol = R"(How the claim is read:
 
 - *Latency of perception*: 3.5 ms are the paper's, 60 ms those that it gives for its authors' earlier
   pilot, which segments streams of events with shallow neural networks. More than
@@ -118,7 +118,7 @@ TextTable lost_table(const std::vector<LatencyCurves>& all, const LoadedCampaign
   return table;
 }
 
-PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
+PaperTables analyse_latency(const std::vector<LoadedCampaign>& campaigns) {
   const LoadedCampaign &oracle = campaigns[0], &faithful = campaigns[1], &own = campaigns[2];
   const std::vector<LatencyCurves> all = {
       curves_of("oracle, 1.5 m", "oracle_1_5m", within("1.5", oracle), oracle),
@@ -134,7 +134,7 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
     grids.push_back(curves.grid);
   }
   tables.csv = rates_csv(grids);
-  tables.markdown += kProtocol;
+  tables.markdown += kLatencyProtocol;
   return tables;
 }
 
@@ -147,7 +147,7 @@ PaperExperiment latency_experiment() {
           {{"latency_oracle", "claims_latency_oracle.yaml", {}},
            {"latency_falanga2020", sweep, {paper_setting("dodger.position.max_range_m", "3")}},
            {"latency_dodgesim", sweep, {paper_setting("pilot", "dodgesim")}}},
-          analyse};
+          analyse_latency};
 }
 
 }  // namespace dodgesim

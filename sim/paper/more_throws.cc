@@ -8,7 +8,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr const char* kProtocol = R"(How to read it:
+constexpr const char* kMoreThrowsProtocol = R"(How to read it:
 
 - All at the hovering vehicle of outdoor.md, at 4, 5, 6 and 8 m/s; the first row is a row of outdoor.md.
   From 4 to 5 m slow balls are lobs that come from above the view. Two thirds of the throws of *from
@@ -40,7 +40,7 @@ void add_row(const std::string& name, const Sum& sum, TextTable& table) {
        ratio_text(sum.losses), short_rate_text(sum.unharmed)});
 }
 
-PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
+PaperTables analyse_more_throws(const std::vector<LoadedCampaign>& campaigns) {
   TextTable table;
   table.head = {"falanga2020, hover", "thrown", "would have hit",         "dodged, of these",
                 "by the oracle",      "ratio",  "unharmed, of all thrown"};
@@ -53,7 +53,7 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
   add_row("from 4 to 5 m", far, table);
   add_row("from 3 to 5 m", all, table);
   add_row("aimed less well", scattered, table);
-  return {table.to_markdown() + "\n" + kProtocol, table.to_csv()};
+  return {table.to_markdown() + "\n" + kMoreThrowsProtocol, table.to_csv()};
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ PaperExperiment more_throws_experiment() {
           {{"outdoor_hover_falanga2020", "outdoor_hover.yaml", {}},
            {"outdoor_far", "outdoor_far.yaml", {}},
            {"outdoor_scattered", "outdoor_scattered.yaml", {}}},
-          analyse};
+          analyse_more_throws};
 }
 
 }  // namespace dodgesim

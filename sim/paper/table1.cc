@@ -17,12 +17,12 @@ struct Published {
   double mean, median, sd, deviation;
 };
 
-struct Bin {
+struct DepthBin {
   double from_m, to_m;  // along the optical axis, the second excluded
   Published mono, stereo;
 };
 
-constexpr std::array<Bin, 3> kBins = {{
+constexpr std::array<DepthBin, 3> kDepthBins = {{
     {0.2, 0.5, {0.08, 0.05, 0.18, 0.09}, {0.07, 0.05, 0.07, 0.06}},
     {0.5, 1.0, {0.10, 0.05, 0.22, 0.10}, {0.10, 0.05, 0.18, 0.10}},
     {1.0, 1.5, {0.10, 0.05, 0.20, 0.10}, {0.13, 0.07, 0.21, 0.12}},
@@ -30,7 +30,7 @@ constexpr std::array<Bin, 3> kBins = {{
 
 constexpr double kMedianBar = 2;  // times the paper's
 
-constexpr const char* kProtocol = R"(How the protocol is read:
+constexpr const char* kTable1Protocol = R"(How the protocol is read:
 
 - *Throws through the field of view*: balls that pass a hovering vehicle at 0.4 to 0.7 m at 3 to
   10 m/s, from the left to the right. It perceives but never evades (`k_r0: 0`). Monocular: balls of
@@ -68,9 +68,9 @@ struct Selection {
   bool unstretched = false;  // moved to where its size puts a sphere, not a disc
 };
 
-struct Sample {
-  std::array<std::vector<PositionError>, kBins.size()> errors;
-  std::array<double, kBins.size()> depth_error_sums_m{};  // estimated less true
+struct ErrorSample {
+  std::array<std::vector<PositionError>, kDepthBins.size()> errors;
+  std::array<double, kDepthBins.size()> depth_error_sums_m{};  // estimated less true
   int throws = 0, of_object = 0, elsewhere = 0;
 
   double depth_bias_m(std::size_t bin) const {
@@ -80,14 +80,16 @@ struct Sample {
 
 std::size_t bin_of(double depth_m) {
   std::size_t bin = 0;
-  while (bin < kBins.size() && !(depth_m >= kBins[bin].from_m && depth_m < kBins[bin].to_m)) ++bin;
+  while (bin < kDepthBins.size() &&
+         !(depth_m >= kDepthBins[bin].from_m && depth_m < kDepthBins[bin].to_m))
+    ++bin;
   return bin;
 }
 
 void add(const DetectionRow& row, const Sight& sight, const Selection& selection, int number,
-         Sample& sample) {
+         ErrorSample& sample) {
   const std::size_t bin = bin_of(*row.true_depth_m);
-  if (bin == kBins.size()) return;
+  if (bin == kDepthBins.size()) return;
   Eigen::Vector3d detected_C = sight.X_WC.inverse() * position_of(row);
   double error_m = *row.position_error_m;
   if (selection.unstretched) {
@@ -98,7 +100,7 @@ void add(const DetectionRow& row, const Sight& sight, const Selection& selection
   sample.depth_error_sums_m[bin] += detected_C.z() - sight.depth_m();
 }
 
-void add(const LoadedCampaign& campaign, const Selection& selection, Sample& sample) {
+void add(const LoadedCampaign& campaign, const Selection& selection, ErrorSample& sample) {
   const CameraRig rig = camera_rig(campaign.scenario);
   for (const ThrowResult& result : campaign.results) {
     if (!result.flown.ok()) continue;
@@ -120,11 +122,11 @@ void add(const LoadedCampaign& campaign, const Selection& selection, Sample& sam
 struct Setup {
   std::string name;
   bool mono = false;
-  Sample sample;
-  std::array<std::optional<ErrorStatistics>, kBins.size()> statistics;
+  ErrorSample sample;
+  std::array<std::optional<ErrorStatistics>, kDepthBins.size()> statistics;
 
   const Published& published(std::size_t bin) const {
-    return mono ? kBins[bin].mono : kBins[bin].stereo;
+    return mono ? kDepthBins[bin].mono : kDepthBins[bin].stereo;
   }
 };
 
@@ -132,13 +134,13 @@ Setup setup(const std::string& name, bool mono, const Selection& selection,
             const std::vector<const LoadedCampaign*>& campaigns) {
   Setup setup{name, mono, {}, {}};
   for (const LoadedCampaign* campaign : campaigns) add(*campaign, selection, setup.sample);
-  for (std::size_t bin = 0; bin < kBins.size(); ++bin) {
+  for (std::size_t bin = 0; bin < kDepthBins.size(); ++bin) {
     setup.statistics[bin] = error_statistics(setup.sample.errors[bin], "table1/" + name);
   }
   return setup;
 }
 
-std::string bin_text(const Bin& bin) {
+std::string bin_text(const DepthBin& bin) {
   return fixed_text(bin.from_m, 1) + " to " + fixed_text(bin.to_m, 1);
 }
 
@@ -150,12 +152,12 @@ std::string setup_markdown(const Setup& setup) {
                 "SD",           "paper",
                 "M.A.D.",       "paper",
                 "largest",      "depth"};
-  for (std::size_t bin = 0; bin < kBins.size(); ++bin) {
+  for (std::size_t bin = 0; bin < kDepthBins.size(); ++bin) {
     const auto& ours = setup.statistics[bin];
     if (!ours) continue;
     const Published& paper = setup.published(bin);
     table.rows.push_back(
-        {bin_text(kBins[bin]),
+        {bin_text(kDepthBins[bin]),
          std::to_string(ours->detections) + " (" + std::to_string(ours->throws) + ")",
          with_interval(ours->mean, ours->mean_interval, 3), fixed_text(paper.mean, 2),
          with_interval(ours->median, ours->median_interval, 3), fixed_text(paper.median, 2),
@@ -163,7 +165,7 @@ std::string setup_markdown(const Setup& setup) {
          fixed_text(paper.deviation, 2), fixed_text(ours->largest_deviation, 2),
          fixed_text(setup.sample.depth_bias_m(bin), 3)});
   }
-  const Sample& sample = setup.sample;
+  const ErrorSample& sample = setup.sample;
   return "### " + setup.name + "\n\n" + table.to_markdown() + "\n" +
          std::to_string(sample.of_object) + " detections of the ball in " +
          std::to_string(sample.throws) +
@@ -171,13 +173,13 @@ std::string setup_markdown(const Setup& setup) {
 }
 
 void add_to_csv(const Setup& setup, TextTable& csv) {
-  for (std::size_t bin = 0; bin < kBins.size(); ++bin) {
+  for (std::size_t bin = 0; bin < kDepthBins.size(); ++bin) {
     const auto& ours = setup.statistics[bin];
     if (!ours) continue;
     const Published& paper = setup.published(bin);
-    std::vector<std::string> row = {setup.name, fixed_text(kBins[bin].from_m, 1),
-                                    fixed_text(kBins[bin].to_m, 1), std::to_string(ours->throws),
-                                    std::to_string(ours->detections)};
+    std::vector<std::string> row = {setup.name, fixed_text(kDepthBins[bin].from_m, 1),
+                                    fixed_text(kDepthBins[bin].to_m, 1),
+                                    std::to_string(ours->throws), std::to_string(ours->detections)};
     for (const double value :
          {ours->mean, ours->mean_interval.lo, ours->mean_interval.hi, paper.mean, ours->median,
           ours->median_interval.lo, ours->median_interval.hi, paper.median, ours->sd, paper.sd,
@@ -191,12 +193,12 @@ void add_to_csv(const Setup& setup, TextTable& csv) {
 
 std::string median_verdict(const Setup& setup) {
   int within = 0;
-  for (std::size_t bin = 0; bin < kBins.size(); ++bin) {
+  for (std::size_t bin = 0; bin < kDepthBins.size(); ++bin) {
     const auto& ours = setup.statistics[bin];
     if (ours && ours->median <= kMedianBar * setup.published(bin).median) ++within;
   }
   return "- " + setup.name + ": median at most twice the paper's in " + std::to_string(within) +
-         " of " + std::to_string(kBins.size()) + " bins.\n";
+         " of " + std::to_string(kDepthBins.size()) + " bins.\n";
 }
 
 // Stereo's mean less the monocular one: the paper's is better near and worse far.
@@ -204,7 +206,7 @@ std::string trend_markdown(const std::vector<std::pair<const Setup*, const Setup
   TextTable table;
   table.head = {"mean error, stereo less monocular"};
   std::vector<std::string> paper = {"the paper"};
-  for (const Bin& bin : kBins) {
+  for (const DepthBin& bin : kDepthBins) {
     table.head.push_back(bin_text(bin));
     paper.push_back(fixed_text(bin.stereo.mean - bin.mono.mean, 2));
   }
@@ -212,7 +214,7 @@ std::string trend_markdown(const std::vector<std::pair<const Setup*, const Setup
   for (const auto& [stereo, mono] : pairs) {
     auto& row = table.rows.emplace_back();
     row.push_back(stereo->name + "; " + mono->name);
-    for (std::size_t bin = 0; bin < kBins.size(); ++bin) {
+    for (std::size_t bin = 0; bin < kDepthBins.size(); ++bin) {
       const auto &a = stereo->statistics[bin], &b = mono->statistics[bin];
       row.push_back(a && b ? fixed_text(a->mean - b->mean, 3) : "");
     }
@@ -220,7 +222,7 @@ std::string trend_markdown(const std::vector<std::pair<const Setup*, const Setup
   return table.to_markdown() + "\n";
 }
 
-PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
+PaperTables analyse_table1(const std::vector<LoadedCampaign>& campaigns) {
   const std::vector<const LoadedCampaign*> mono = {&campaigns[0], &campaigns[1], &campaigns[2]};
   const std::vector<const LoadedCampaign*> centres = {&campaigns[3]};
   const std::vector<const LoadedCampaign*> correlation = {&campaigns[4]};
@@ -263,7 +265,7 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
                                      {&setups[8], &setups[0]},
                                      {&setups[4], &setups[2]},
                                      {&setups[8], &setups[2]}}) +
-                     kProtocol;
+                     kTable1Protocol;
   tables.csv = csv.to_csv();
   return tables;
 }
@@ -279,7 +281,7 @@ PaperExperiment table1_experiment() {
            {"passing_centres", "passing_centres.yaml", {}},
            stereo_passing(),
            {"passing_rigs", "passing_rigs.yaml", {}}},
-          analyse};
+          analyse_table1};
 }
 
 }  // namespace dodgesim

@@ -25,7 +25,7 @@ constexpr const char* kRangeNames[kRanges] = {"<= 0.5 m", "<= 1 m", "<= 1.5 m"};
 constexpr double kPublished[kSizes][kRanges] = {
     {0.92, 0.90, 0.88}, {0.87, 0.92, 0.97}, {0.81, 0.88, 0.93}};
 
-constexpr std::array<RangeBin, kRanges> kBins = {{{0, 0.5}, {0.5, 1}, {1, 1.5}}};
+constexpr std::array<RangeBin, kRanges> kDistanceBins = {{{0, 0.5}, {0.5, 1}, {1, 1.5}}};
 constexpr std::array<RangeBin, kRanges> kNested = {{{0, 0.5}, {0, 1}, {0, 1.5}}};
 
 // A detection speaks of the mean time of its events, some 3 ms before the end of its window.
@@ -39,12 +39,12 @@ struct Reading {
 
 // The first is the one that is compared with the paper.
 constexpr std::array<Reading, 3> kReadings = {{
-    {"bins of distance, centre in view", kBins, Visibility::kCentre},
+    {"bins of distance, centre in view", kDistanceBins, Visibility::kCentre},
     {"nested distances, centre in view", kNested, Visibility::kCentre},
-    {"bins of distance, wholly in view", kBins, Visibility::kWhole},
+    {"bins of distance, wholly in view", kDistanceBins, Visibility::kWhole},
 }};
 
-constexpr const char* kProtocol = R"(How the protocol is read:
+constexpr const char* kTable2Protocol = R"(How the protocol is read:
 
 - *Throws through the field of view*: 100 balls of each category pass a hovering vehicle at 0.4 to
   0.7 m, at 3 to 10 m/s, from the left to the right. It perceives but never evades (`k_r0: 0`).
@@ -201,7 +201,7 @@ std::string reasons_markdown(const std::vector<PassageCase>& cases,
   for (const PassageCase& passage : cases) {
     const auto reason = [&](TimeUs from_us, TimeUs to_us) {
       const Miss miss =
-          investigator.reason(passage.result->index, kBins[passage.range], from_us, to_us);
+          investigator.reason(passage.result->index, kDistanceBins[passage.range], from_us, to_us);
       return std::tuple(passage.size, passage.range, miss);
     };
     if (!passage.exposure.detected()) {
@@ -238,7 +238,7 @@ std::string misses_markdown(const std::vector<PassageCase>& cases) {
   return table.rows.empty() ? "" : "Missed passages:\n\n" + table.to_markdown() + "\n";
 }
 
-PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
+PaperTables analyse_table2(const std::vector<LoadedCampaign>& campaigns) {
   const LoadedCampaign& campaign = campaigns.front();
   if (cell_count(campaign.scenario) != static_cast<int>(kSizes)) {
     throw ScenarioError("Table 2 needs a grid of three cells, one for each category of sizes.");
@@ -261,7 +261,7 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
   MissInvestigator investigator(campaign);
   tables.markdown += "### Misses of the first and of the fourth table\n\n" +
                      reasons_markdown(cases, investigator) + misses_markdown(cases);
-  tables.markdown += kProtocol;
+  tables.markdown += kTable2Protocol;
   tables.csv = csv.to_csv();
   return tables;
 }
@@ -269,7 +269,7 @@ PaperTables analyse(const std::vector<LoadedCampaign>& campaigns) {
 }  // namespace
 
 PaperExperiment table2_experiment() {
-  return {"table2", "Table 2: success rate of the detector", {stereo_passing()}, analyse};
+  return {"table2", "Table 2: success rate of the detector", {stereo_passing()}, analyse_table2};
 }
 
 }  // namespace dodgesim

@@ -11,9 +11,9 @@ namespace dodgesim {
 
 namespace {
 
-constexpr double kToleranceM = 1e-7;  // between upper and lower bound of the distance
+constexpr double kDistanceToleranceM = 1e-7;  // between upper and lower bound of the distance
 constexpr double kTouchingM = 1e-9;
-constexpr int kMaxIterations = 100;
+constexpr int kMaxGjkIterations = 100;
 
 // Corners of the Minkowski difference a - b, with the point of a that each came from.
 struct Simplex {
@@ -231,12 +231,12 @@ ConvexGap convex_gap(const Convex& a, const Convex& b, const Eigen::Isometry3d& 
   Eigen::Vector3d v = a.centre() - X_AB * b.centre();
   if (v.norm() < kTouchingM) v = Eigen::Vector3d::UnitX();
   double core_distance = 0;
-  for (int i = 0; i < kMaxIterations; ++i) {
+  for (int i = 0; i < kMaxGjkIterations; ++i) {
     const Eigen::Vector3d p = a.support(-v);
     const Eigen::Vector3d w = p - X_AB * b.support(R_BA * v);
     core_distance = v.norm();
     // v.w/|v| bounds the distance from below, |v| from above (from the first simplex on).
-    if (simplex.size > 0 && core_distance - v.dot(w) / core_distance < kToleranceM) break;
+    if (simplex.size > 0 && core_distance - v.dot(w) / core_distance < kDistanceToleranceM) break;
     const auto at = static_cast<std::size_t>(simplex.size++);
     simplex.w[at] = w;
     simplex.a[at] = p;

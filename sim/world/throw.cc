@@ -10,9 +10,9 @@ namespace dodgesim {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
-constexpr double kStepS = 1e-3;       // the Runge-Kutta error of a flight stays below 1 um
-constexpr double kToleranceM = 1e-5;  // at the aim point
-constexpr int kMaxIterations = 50;
+constexpr double kStepS = 1e-3;          // the Runge-Kutta error of a flight stays below 1 um
+constexpr double kAimToleranceM = 1e-5;  // at the aim point
+constexpr int kMaxAimIterations = 50;
 
 // Unit vector over the ground from the vehicle towards the launch point.
 Eigen::Vector3d launch_direction(const Throw& toss, double heading_rad) {
@@ -80,10 +80,10 @@ BodyState solve_throw(const Throw& toss, const ObjectPhysics& object,
   };
   // Shooting: Newton's method with a differenced Jacobian, from the parabola without drag.
   launch.v_W = (aim_W - launch.p_W) / time_s + Eigen::Vector3d(0, 0, 0.5 * kGravityMps2 * time_s);
-  for (int i = 0; i < kMaxIterations; ++i) {
+  for (int i = 0; i < kMaxAimIterations; ++i) {
     const Eigen::Vector3d error = miss(launch.v_W);
     if (!error.allFinite()) break;
-    if (error.norm() < kToleranceM) return launch;
+    if (error.norm() < kAimToleranceM) return launch;
     const double h = 1e-4 * launch.v_W.norm();
     Eigen::Matrix3d J;
     for (int k = 0; k < 3; ++k) {

@@ -227,20 +227,20 @@ TEST_F(EmulateTest, ReportsEventsThatTheReadoutLoses) {
 }
 
 // The number behind `label` in a summary; 0 if it is not there.
-long count_of(const std::string& summary, const std::string& label) {
+long count_after(const std::string& summary, const std::string& label) {
   const std::size_t at = summary.find(label);
   return at == std::string::npos ? 0 : std::stol(summary.substr(at + label.size()));
 }
 
 TEST_F(EmulateTest, EveryEventIsWrittenLostOrNotYetOut) {
-  const long all = count_of(ideal().output, "events: ");
+  const long all = count_after(ideal().output, "events: ");
   for (const char* readout_max_hz : {"1e4", "1e5", "3e5"}) {
     const std::string camera =
         put(root_ / "camera.yaml",
             std::string("preset: ideal\nreadout_max_hz: ") + readout_max_hz + "\n");
     const std::string summary = emulate("--camera " + camera + " --out " + out_).output;
-    EXPECT_EQ(count_of(summary, "events: ") + count_of(summary, "lost: ") +
-                  count_of(summary, "not yet out at the end: "),
+    EXPECT_EQ(count_after(summary, "events: ") + count_after(summary, "lost: ") +
+                  count_after(summary, "not yet out at the end: "),
               all)
         << summary;
   }

@@ -14,20 +14,15 @@
 #include <thread>
 
 #include "tests/cli/program.h"
+#include "tests/sim/files/temporary_directory.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using dodgesim::testing::contents;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using testing::HasSubstr;
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 // Short flights without a throw or eyes, some 20 ms each.
 class FaultsTest : public testing::Test {

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr const char* kHover = "mission: {start_m: [-1, 0, 2], heading_deg: 30}\n";
 constexpr const char* kGoalFlight =

@@ -8,7 +8,7 @@ namespace dodgesim {
 namespace {
 
 using Eigen::Vector3d;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 FlightRecord fly_none(const Scenario& scenario, FlightPlan plan) {
   plan.pilot = "none";

@@ -66,7 +66,7 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexce
 namespace dodge {
 namespace {
 
-constexpr TimeUs kCycleUs = 5000;
+using synthetic::kCycleUs;
 
 struct Variant {
   const char* name;

@@ -9,9 +9,7 @@
 namespace dodge {
 namespace {
 
-using synthetic::Flight, synthetic::still, synthetic::turning;
-
-constexpr TimeUs kCycleUs = 5000;
+using synthetic::Flight, synthetic::kCycleUs, synthetic::still, synthetic::turning;
 
 Config stereo() {
   Config config;

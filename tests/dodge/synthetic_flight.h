@@ -10,6 +10,8 @@
 
 namespace dodge::synthetic {
 
+inline constexpr TimeUs kCycleUs = 5000;  // of the pilot
+
 class Flight {
  public:
   Flight(Motion motion, const std::vector<Disk>& disks, const Sensor& sensor, std::uint64_t seed)

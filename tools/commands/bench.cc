@@ -12,7 +12,7 @@ namespace dodgesim {
 
 namespace {
 
-struct Arguments {
+struct BenchArguments {
   std::vector<std::string> cases;
   std::string json;  // empty: none
   bool list = false;
@@ -28,7 +28,7 @@ void list_cases(const std::vector<BenchCase>& cases) {
   }
 }
 
-void run(const Arguments& arguments, const std::string& command_line) {
+void run(const BenchArguments& arguments, const std::string& command_line) {
   const std::vector<BenchCase> cases = select(all_bench_cases(), arguments.cases);
   if (arguments.list) return list_cases(cases);
   std::optional<OutputFile> json;  // opened first: not to be able to write it is known at once
@@ -45,7 +45,7 @@ void run(const Arguments& arguments, const std::string& command_line) {
 }  // namespace
 
 void add_bench_command(CLI::App& program, const std::string& command_line, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<BenchArguments>();
   arguments->options.scenarios_dir = DODGESIM_SCENARIOS_DIR;
   CLI::App* command = program.add_subcommand(
       "bench", "Measure how fast emulator, renderer and closed loop are on this machine");

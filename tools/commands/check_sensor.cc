@@ -32,7 +32,7 @@ Examples:
 // Of scenarios/demo.yaml, for the time statistics: a ball of 30 cm at 6 m/s.
 constexpr int kThrow = 1;
 
-struct Arguments {
+struct CheckSensorArguments {
   std::string camera = "sees1";
   std::string out;  // empty: no report
   std::uint64_t seed = 1;
@@ -41,7 +41,7 @@ struct Arguments {
 };
 
 // The study of the sampling instead of the checks.
-int study(const Arguments& arguments) {
+int study(const CheckSensorArguments& arguments) {
   const SamplingOptions options{arguments.models_dir, arguments.sampling, arguments.seed,
                                 named_event_camera(arguments.camera)};
   Progress progress(arguments.sampling, ::isatty(STDERR_FILENO) == 1, "throws");
@@ -64,7 +64,7 @@ std::filesystem::path prepared(const std::string& out) {
   return std::filesystem::path(out) / "report.html";
 }
 
-int check_sensor(const Arguments& arguments, const std::string& command_line) {
+int check_sensor(const CheckSensorArguments& arguments, const std::string& command_line) {
   const EventCameraSpec camera = named_event_camera(arguments.camera);
   std::optional<OutputFile> report;
   if (!arguments.out.empty()) report.emplace(prepared(arguments.out));
@@ -94,7 +94,7 @@ int check_sensor(const Arguments& arguments, const std::string& command_line) {
 }  // namespace
 
 void add_check_sensor_command(CLI::App& program, const std::string& command_line, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CheckSensorArguments>();
   CLI::App* command = program.add_subcommand(
       "check-sensor", "Test whether the event camera does what its parameters say");
   command

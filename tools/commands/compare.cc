@@ -12,7 +12,7 @@ namespace dodgesim {
 
 namespace {
 
-struct Arguments {
+struct CompareArguments {
   std::filesystem::path first, second;
 };
 
@@ -53,7 +53,7 @@ std::string names(const std::map<int, std::vector<ThrowOutcome>>& parts) {
   return text;
 }
 
-int compare_campaigns(const Arguments& arguments) {
+int compare_campaigns(const CompareArguments& arguments) {
   const auto first = parts_of(arguments.first);
   const auto second = parts_of(arguments.second);
   if (is_quiet(first) != is_quiet(second)) {
@@ -81,7 +81,7 @@ int compare_campaigns(const Arguments& arguments) {
 }  // namespace
 
 void add_compare_command(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CompareArguments>();
   CLI::App* command =
       program.add_subcommand("compare", "Compare the success rates of two campaigns");
   command->add_option("first", arguments->first, "What run --out wrote")

@@ -20,7 +20,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr const char* kFooter =
+constexpr const char* kEmulateFooter =
     R"(CAMERA:
   ideal      an event at every change of L = ln(0.001 + I) by 0.2, ON or OFF, and nothing else:
              no mismatch, bandwidth, refractory period, noise, latency or limit of the readout
@@ -50,7 +50,7 @@ Examples:
   dodgesim emulate video.npy --timestamps t.npy --camera ideal --out events.h5
   dodgesim explain sensors.events                   the keys of a camera's file)";
 
-struct Arguments {
+struct EmulateArguments {
   std::string frames;
   std::string times;
   std::string camera;
@@ -117,7 +117,7 @@ void refuse_same_file(const std::string& out, const std::string& input) {
   throw ScenarioError("--out " + out + " would overwrite the input " + input + ".");
 }
 
-void emulate(const Arguments& arguments) {
+void emulate(const EmulateArguments& arguments) {
   const EventCameraSpec spec = named_event_camera(arguments.camera);
   Video video(arguments.frames, arguments.times);
   refuse_same_file(arguments.out, arguments.frames);
@@ -135,7 +135,7 @@ void emulate(const Arguments& arguments) {
 }  // namespace
 
 void add_emulate_command(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<EmulateArguments>();
   CLI::App* command = program.add_subcommand("emulate", "Turn a video into the events of a camera");
   command
       ->add_option("frames", arguments->frames,
@@ -156,7 +156,7 @@ void add_emulate_command(CLI::App& program, int& exit_code) {
   command->add_option("--seed", arguments->seed, "Of mismatch and noise")
       ->check(whole_number_between(0, UINT64_MAX))
       ->capture_default_str();
-  command->footer(kFooter);
+  command->footer(kEmulateFooter);
   command->callback([arguments, &exit_code] {
     emulate(*arguments);
     exit_code = kOk;

@@ -9,7 +9,7 @@ namespace dodgesim {
 
 namespace {
 
-struct Arguments {
+struct ExplainArguments {
   std::string key;
   bool markdown = false;
 };
@@ -17,7 +17,7 @@ struct Arguments {
 }  // namespace
 
 void add_explain_command(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ExplainArguments>();
   CLI::App* command =
       program.add_subcommand("explain", "Say what a key of a scenario means, or list all keys");
   CLI::Option* key = command->add_option(

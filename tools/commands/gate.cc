@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct GateArguments {
   std::string scenario;
   std::string models_dir;
   std::vector<std::string> set;
@@ -38,7 +38,7 @@ struct Arguments {
   CampaignOptions options;
 };
 
-GateRules rules_of(const Arguments& arguments) {
+GateRules rules_of(const GateArguments& arguments) {
   GateRules rules = rules_or_default(arguments.baseline);
   rules.margin = arguments.margin.value_or(rules.margin);
   rules.confidence = arguments.confidence.value_or(rules.confidence);
@@ -104,7 +104,7 @@ void list_changes(const std::string& heading, const std::vector<ChangedThrow>& c
   text << "\n";
 }
 
-std::string verdict_text(const Arguments& arguments, const Scenario& scenario,
+std::string verdict_text(const GateArguments& arguments, const Scenario& scenario,
                          const Baseline& baseline, const GateVerdict& verdict) {
   std::ostringstream text;
   const auto changes = scenario_changes(baseline.scenario, to_yaml(scenario));
@@ -127,7 +127,7 @@ std::string verdict_text(const Arguments& arguments, const Scenario& scenario,
   return text.str();
 }
 
-int update(const Arguments& arguments, const GateRules& rules, const CampaignSummary& summary) {
+int update(const GateArguments& arguments, const GateRules& rules, const CampaignSummary& summary) {
   std::cout << summary.table;
   if (summary.errors > 0) {
     std::cerr << count_of_throws(summary.errors) << " could not be flown: no baseline is made.\n";
@@ -139,7 +139,7 @@ int update(const Arguments& arguments, const GateRules& rules, const CampaignSum
   return kOk;
 }
 
-void expect_gateable(const Scenario& scenario, const Arguments& arguments) {
+void expect_gateable(const Scenario& scenario, const GateArguments& arguments) {
   std::error_code error;
   if (fs::equivalent(arguments.baseline, arguments.options.out, error)) {
     throw ScenarioError("--baseline and --out are the same directory, " +
@@ -171,7 +171,7 @@ void expect_writable(const fs::path& where) {
 }
 
 // Nothing if there is none yet, or a broken one that is to be replaced.
-std::optional<Baseline> find_baseline(const Arguments& arguments) {
+std::optional<Baseline> find_baseline(const GateArguments& arguments) {
   const fs::path& where = arguments.baseline;
   if (where.empty()) throw ScenarioError("--baseline is empty; it must name a directory.");
   if (fs::exists(where) && !fs::is_directory(where)) {
@@ -197,7 +197,7 @@ std::optional<Baseline> find_baseline(const Arguments& arguments) {
   }
 }
 
-int gate(const Arguments& arguments) {
+int gate(const GateArguments& arguments) {
   const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir,
                                           parse_settings("--set", arguments.set));
   expect_gateable(scenario, arguments);
@@ -219,7 +219,7 @@ int gate(const Arguments& arguments) {
   return verdict.passed() ? kOk : kBelowBar;
 }
 
-void add_options(CLI::App& command, Arguments& arguments) {
+void add_options(CLI::App& command, GateArguments& arguments) {
   command.add_option("scenario", arguments.scenario, "The scenario's YAML file")
       ->required()
       ->type_name("SCENARIO.yaml");
@@ -252,7 +252,7 @@ void add_options(CLI::App& command, Arguments& arguments) {
 }  // namespace
 
 void add_gate_command(CLI::App& program, const std::string& command_line, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<GateArguments>();
   arguments->options.command_line = command_line;
   CLI::App* command = program.add_subcommand(
       "gate", "Fly the throws of a baseline again, and fail if they went worse");

@@ -10,13 +10,13 @@ namespace dodgesim {
 
 namespace {
 
-struct Arguments {
+struct MergeArguments {
   std::vector<std::filesystem::path> directories;
   bool check = false;
   CampaignOptions options;
 };
 
-int merge(const Arguments& arguments) {
+int merge(const MergeArguments& arguments) {
   try {
     if (arguments.check) {
       std::printf("All %s are there.\n",
@@ -37,7 +37,7 @@ int merge(const Arguments& arguments) {
 }  // namespace
 
 void add_merge_command(CLI::App& program, const std::string& command_line, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<MergeArguments>();
   arguments->options.command_line = command_line;
   CLI::App* command = program.add_subcommand(
       "merge", "Put the parts of a campaign together that run --shard has flown");

@@ -14,7 +14,7 @@ namespace dodgesim {
 
 namespace {
 
-struct Arguments {
+struct PaperArguments {
   std::vector<std::string> experiments;
   std::string models_dir;
   CampaignOptions options;
@@ -23,7 +23,7 @@ struct Arguments {
 };
 
 // The experiments as the command line wants them.
-std::vector<PaperExperiment> chosen_experiments(const Arguments& arguments) {
+std::vector<PaperExperiment> chosen_experiments(const PaperArguments& arguments) {
   std::vector<Setting> settings = parse_settings("--set", arguments.set);
   append_settings(arguments.repeat, settings);
   std::vector<PaperExperiment> experiments = experiments_named(arguments.experiments);
@@ -36,7 +36,7 @@ std::vector<PaperExperiment> chosen_experiments(const Arguments& arguments) {
 }
 
 // What decides the tables, without where they go and how fast.
-std::string table_command(const Arguments& arguments) {
+std::string table_command(const PaperArguments& arguments) {
   std::string line = "dodgesim paper";
   for (const std::string& name : arguments.experiments) line += " " + name;
   for (const std::string& set : arguments.set) line += " --set " + shell_quoted(set);
@@ -51,7 +51,7 @@ struct Flown {
   int errors = 0;             // throws that could not be flown
 };
 
-Flown fly(const Arguments& arguments, const std::vector<PaperFlight>& flights,
+Flown fly(const PaperArguments& arguments, const std::vector<PaperFlight>& flights,
           const std::vector<Scenario>& scenarios) {
   std::vector<PlannedCampaign> plans;
   for (std::size_t i = 0; i < flights.size(); ++i) {
@@ -73,7 +73,7 @@ Flown fly(const Arguments& arguments, const std::vector<PaperFlight>& flights,
   return flown;
 }
 
-int paper(const Arguments& arguments) {
+int paper(const PaperArguments& arguments) {
   const std::vector<PaperExperiment> experiments = chosen_experiments(arguments);
   const std::vector<PaperFlight> flights = flights_of(experiments);
   std::vector<Scenario> scenarios;
@@ -101,7 +101,7 @@ int paper(const Arguments& arguments) {
 }  // namespace
 
 void add_paper_command(CLI::App& program, const std::string& command_line, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<PaperArguments>();
   arguments->options.command_line = command_line;
   CLI::App* command = program.add_subcommand(
       "paper",

@@ -23,7 +23,7 @@ namespace dodgesim {
 
 namespace {
 
-struct Arguments {
+struct ReplayArguments {
   std::string directory;
   std::string models_dir;
   int throw_index = 0;
@@ -115,7 +115,7 @@ std::string recorded_row(const std::filesystem::path& directory, int throw_index
 }
 
 std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
-                                                   const Arguments& arguments) {
+                                                   const ReplayArguments& arguments) {
   constexpr TimeUs kLongestFlightUs = 3600'000'000;  // of all that scenarios can ask for
   const CameraSpec& camera = scenario.sensors.camera;
   return std::make_unique<EventRecorder>(
@@ -126,7 +126,7 @@ std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
 // Everything that looks on, as the arguments ask for.
 class Onlookers {
  public:
-  Onlookers(const Scenario& scenario, const Arguments& arguments)
+  Onlookers(const Scenario& scenario, const ReplayArguments& arguments)
       : arguments_(arguments), poster_(intrinsics(scenario.sensors.camera)) {
     const Intrinsics camera = intrinsics(scenario.sensors.camera);
     if (!arguments.video.empty()) {
@@ -179,7 +179,7 @@ class Onlookers {
   }
 
  private:
-  const Arguments& arguments_;
+  const ReplayArguments& arguments_;
   Observers observers_;
   std::unique_ptr<Film> film_;
   std::unique_ptr<StageFilm> stages_;
@@ -189,7 +189,7 @@ class Onlookers {
   std::unique_ptr<EventRecorder> events_;
 };
 
-int replay(const Arguments& arguments) {
+int replay(const ReplayArguments& arguments) {
   const std::string& directory = arguments.directory;
   const Scenario campaign =
       load_scenario(directory + "/scenario.resolved.yaml", arguments.models_dir);
@@ -220,7 +220,7 @@ int replay(const Arguments& arguments) {
 }  // namespace
 
 void add_replay_command(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReplayArguments>();
   CLI::App* command = program.add_subcommand("replay", "Fly one throw of a campaign again");
   command->add_option("directory", arguments->directory, "What `dodgesim run --out DIR` wrote")
       ->required()

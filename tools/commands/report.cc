@@ -11,12 +11,12 @@ namespace dodgesim {
 
 namespace {
 
-struct Arguments {
+struct ReportArguments {
   std::string directory;
   std::string out;
 };
 
-int report(const Arguments& arguments) {
+int report(const ReportArguments& arguments) {
   const LoadedCampaign campaign = load_campaign(arguments.directory);
   const std::string out =
       arguments.out.empty() ? arguments.directory + "/" + kReportFile : arguments.out;
@@ -28,7 +28,7 @@ int report(const Arguments& arguments) {
 }  // namespace
 
 void add_report_command(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ReportArguments>();
   CLI::App* command = program.add_subcommand(
       "report", "Make the page that shows a campaign, with every throw in 3-D");
   command->add_option("directory", arguments->directory, "What `dodgesim run --out DIR` wrote")

@@ -17,7 +17,7 @@ namespace dodgesim {
 
 namespace {
 
-struct Arguments {
+struct RunArguments {
   std::string scenario;
   std::string models_dir;
   CampaignOptions options;
@@ -53,7 +53,7 @@ void report_errors(const CampaignSummary& summary) {
 }
 
 // What the command line changes about the file, in the order in which it counts.
-std::vector<Setting> settings_of(const Arguments& arguments) {
+std::vector<Setting> settings_of(const RunArguments& arguments) {
   std::vector<Setting> settings = parse_settings("--set", arguments.set);
   std::set<std::string> swept;
   for (Setting& setting : parse_settings("--over", arguments.over)) {
@@ -69,7 +69,7 @@ std::vector<Setting> settings_of(const Arguments& arguments) {
   return settings;
 }
 
-int run(const Arguments& arguments) {
+int run(const RunArguments& arguments) {
   const Scenario scenario =
       load_scenario(arguments.scenario, arguments.models_dir, settings_of(arguments));
 
@@ -101,7 +101,7 @@ int run(const Arguments& arguments) {
 // What run and sweep share.
 CLI::App* add_campaign_command(CLI::App& program, const std::string& name, const std::string& what,
                                const std::string& command_line,
-                               const std::shared_ptr<Arguments>& arguments) {
+                               const std::shared_ptr<RunArguments>& arguments) {
   CampaignOptions& options = arguments->options;
   options.command_line = command_line;
   CLI::App* command = program.add_subcommand(name, what);
@@ -129,7 +129,7 @@ CLI::App* add_campaign_command(CLI::App& program, const std::string& name, const
 }  // namespace
 
 void add_run_command(CLI::App& program, const std::string& command_line, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = add_campaign_command(
       program, "run", "Fly all throws of a scenario and write tables of success", command_line,
       arguments);
@@ -150,7 +150,7 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
 }
 
 void add_sweep_command(CLI::App& program, const std::string& command_line, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = add_campaign_command(
       program, "sweep", "Fly the same throws again with each of several values of a key",
       command_line, arguments);

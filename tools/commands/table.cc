@@ -12,7 +12,7 @@ namespace dodgesim {
 
 namespace {
 
-struct Arguments {
+struct TableArguments {
   std::string directory;
   std::string format = "md";
   std::vector<std::string> by;
@@ -26,7 +26,7 @@ std::string formatted(const StatisticsTable& table, const std::string& format) {
   return to_markdown(table);
 }
 
-int table(const Arguments& arguments) {
+int table(const TableArguments& arguments) {
   const LoadedCampaign campaign = load_campaign(arguments.directory);
   const std::vector<Part> parts = parts_of(campaign);
   std::vector<Axis> axes = arguments.by.empty() ? grid_axes(campaign.results) : std::vector<Axis>();
@@ -52,7 +52,7 @@ int table(const Arguments& arguments) {
 }  // namespace
 
 void add_table_command(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<TableArguments>();
   CLI::App* command =
       program.add_subcommand("table", "Statistics of a campaign's throws, in groups");
   command->add_option("directory", arguments->directory, "What `dodgesim run --out DIR` wrote")

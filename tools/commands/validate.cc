@@ -10,14 +10,14 @@ namespace dodgesim {
 
 namespace {
 
-struct Arguments {
+struct ValidateArguments {
   std::string scenario;
   std::string models_dir;
   bool resolved = false;
   std::vector<std::string> set;
 };
 
-void validate(const Arguments& arguments) {
+void validate(const ValidateArguments& arguments) {
   const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir,
                                           parse_settings("--set", arguments.set));
   try_models({scenario});
@@ -39,7 +39,7 @@ void validate(const Arguments& arguments) {
 }  // namespace
 
 void add_validate_command(CLI::App& program, int& exit_code) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ValidateArguments>();
   CLI::App* command = program.add_subcommand(
       "validate", "Check a scenario: every problem in one sentence with file, line and key");
   command->add_option("scenario", arguments->scenario, "The scenario's YAML file")

@@ -15,8 +15,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kSecondsPerUs = 1e-6;
-
 struct Measurement {
   TimeUs t_us;
   Vector3d z;
@@ -36,7 +34,7 @@ std::vector<Measurement> random_track(Generator& random, int count) {
   const Vector3d p = random.uniform_vector(-3, 3), v = random.uniform_vector(-8, 8);
   for (int i = 0; i < count; ++i) {
     const Matrix3d R = random_covariance(random);
-    const double t = static_cast<double>(t_us - 1000000) * kSecondsPerUs;
+    const double t = seconds(t_us - 1000000);
     const Vector3d noise = R.llt().matrixL() * random.normal_vector();
     track.push_back({t_us, p + v * t + noise, R});
     t_us += 1000 + static_cast<TimeUs>(random.bits() % 9000);
@@ -65,7 +63,7 @@ TEST(Kalman, AgreesWithBatchLeastSquaresWithoutProcessNoise) {
     information.bottomRightCorner<3, 3>() =
         Matrix3d::Identity() / std::pow(config.initial_speed_sigma_mps, 2);
     for (const Measurement& m : track) {
-      const double back = static_cast<double>(m.t_us - track.back().t_us) * kSecondsPerUs;
+      const double back = seconds(m.t_us - track.back().t_us);
       Eigen::Matrix<double, 3, 6> H;
       H << Matrix3d::Identity(), back * Matrix3d::Identity();
       information += H.transpose() * m.R.inverse() * H;
@@ -89,8 +87,7 @@ TEST(Kalman, AgreesWithJointGaussianConditioningWithProcessNoise) {
     const std::vector<Measurement> track = random_track(random, 2 + k);
     const auto n = static_cast<Eigen::Index>(track.size());
     const auto time = [&](Eigen::Index i) {
-      return static_cast<double>(track[static_cast<std::size_t>(i)].t_us - track.front().t_us) *
-             kSecondsPerUs;
+      return seconds(track[static_cast<std::size_t>(i)].t_us - track.front().t_us);
     };
     // The first position is diffuse; a wide prior stands in for it.
     constexpr double kWide = 1e4;
@@ -130,8 +127,7 @@ TEST(Kalman, ConvergesToAConstantVelocity) {
   Kalman filter(config, 0, p + 0.02 * random.normal_vector(), R);
   for (TimeUs t_us = 2000; t_us <= 400000; t_us += 2000) {
     filter.predict(t_us);
-    filter.update(p + v * static_cast<double>(t_us) * kSecondsPerUs + 0.02 * random.normal_vector(),
-                  R);
+    filter.update(p + v * seconds(t_us) + 0.02 * random.normal_vector(), R);
   }
   // 201 measurements over 0.4 s: sigma_v = 0.02 sqrt(12 / 201) / 0.4 = 0.012 m/s.
   EXPECT_NEAR(std::sqrt(filter.covariance()(3, 3)), 0.012, 0.001);
@@ -156,7 +152,7 @@ TEST(Kalman, StatesItsErrorsHonestly) {
       // White acceleration, in steps much finer than the filter's.
       const int steps = 5 + static_cast<int>(random.bits() % 20);
       constexpr TimeUs kStepUs = 400;
-      constexpr double dt = kStepUs * kSecondsPerUs;
+      constexpr double dt = seconds(kStepUs);
       for (int s = 0; s < steps; ++s) {
         const Vector3d dv = config.acceleration_noise * std::sqrt(dt) * random.normal_vector();
         p += dt * (v + 0.5 * dv);

@@ -5,8 +5,8 @@
 namespace dodge {
 namespace {
 
-constexpr int kWidth = 40;
-constexpr int kHeight = 30;
+constexpr int kColumns = 40;
+constexpr int kRows = 30;
 
 Event at(int x, int y, TimeUs t_us) {
   return {.t_us = t_us, .x = static_cast<std::uint16_t>(x), .y = static_cast<std::uint16_t>(y)};
@@ -23,7 +23,7 @@ TimeImageConfig plain() {
 
 class TimeImageTest : public ::testing::Test {
  protected:
-  static CameraModel camera() { return {.width = kWidth, .height = kHeight, .cx = 20, .cy = 15}; }
+  static CameraModel camera() { return {.width = kColumns, .height = kRows, .cx = 20, .cy = 15}; }
 
   // The window is (0, 10000].
   void process(TimeImage& image, const std::vector<Event>& events, double rate_rps = 0) {
@@ -39,7 +39,7 @@ class TimeImageTest : public ::testing::Test {
 };
 
 TEST_F(TimeImageTest, CountsAveragesAndNormalisesAsIn2To4) {
-  TimeImage image(plain(), kWidth, kHeight);
+  TimeImage image(plain(), kColumns, kRows);
   process(image, {at(5, 6, 1000), at(5, 6, 3000), at(7, 8, 6000), at(9, 9, 10000)});
   // T = 0.2, 0.6, 1.0 of the window; their mean over the three active pixels is 0.6.
   EXPECT_EQ(image.count()(6, 5), 2);
@@ -53,7 +53,7 @@ TEST_F(TimeImageTest, CountsAveragesAndNormalisesAsIn2To4) {
 }
 
 TEST_F(TimeImageTest, ForgetsTheWindowBefore) {
-  TimeImage image(plain(), kWidth, kHeight);
+  TimeImage image(plain(), kColumns, kRows);
   process(image, {at(5, 6, 1000), at(5, 6, 9000), at(7, 8, 6000)});
   process(image, {at(1, 1, 2000), at(2, 2, 8000)});
   EXPECT_EQ(cv::countNonZero(image.count()), 2);
@@ -67,7 +67,7 @@ TEST_F(TimeImageTest, ForgetsTheWindowBefore) {
 TEST_F(TimeImageTest, ThresholdGrowsWithTheAngularRate) {
   TimeImageConfig config = plain();
   config.threshold_a_s = 0.1;
-  TimeImage image(config, kWidth, kHeight);
+  TimeImage image(config, kColumns, kRows);
   const std::vector<Event> events = {at(5, 6, 1000), at(7, 8, 7000)};  // rho -0.3, 0.3
   process(image, events, 1.9);
   EXPECT_EQ(cv::countNonZero(image.threshold_mask()), 1);
@@ -78,7 +78,7 @@ TEST_F(TimeImageTest, ThresholdGrowsWithTheAngularRate) {
 TEST_F(TimeImageTest, AveragingKeepsTheSumAndTreatsEmptyPixelsAsNeutral) {
   TimeImageConfig config = plain();
   config.blur_px = 5;
-  TimeImage image(config, kWidth, kHeight);
+  TimeImage image(config, kColumns, kRows);
   process(image, {at(10, 10, 1000), at(25, 20, 9000)});
   EXPECT_NEAR(cv::sum(image.averaged()(cv::Rect(20, 15, 11, 11)))[0], 0.4, 1e-5);
   EXPECT_NEAR(image.averaged()(20, 25), 0.4 * 36.0 / 256.0, 1e-5);  // binomial 1 4 6 4 1
@@ -87,7 +87,7 @@ TEST_F(TimeImageTest, AveragingKeepsTheSumAndTreatsEmptyPixelsAsNeutral) {
 }
 
 TEST_F(TimeImageTest, KeepsTheAveragedImageOfTheWindowBefore) {
-  TimeImage image(plain(), kWidth, kHeight);
+  TimeImage image(plain(), kColumns, kRows);
   process(image, {at(5, 6, 1000), at(7, 8, 7000)});
   const cv::Mat1f first = image.averaged().clone();
   process(image, {at(15, 6, 1000), at(17, 8, 7000)});
@@ -97,7 +97,7 @@ TEST_F(TimeImageTest, KeepsTheAveragedImageOfTheWindowBefore) {
 TEST_F(TimeImageTest, OpeningRemovesALineAndKeepsABlock) {
   TimeImageConfig config = plain();
   config.open_px = 3;
-  TimeImage image(config, kWidth, kHeight);
+  TimeImage image(config, kColumns, kRows);
   std::vector<Event> events;
   events.reserve(100);
   for (int i = 0; i < 20; ++i) events.push_back(at(i, 29, 1000));
@@ -119,12 +119,12 @@ TEST_F(TimeImageTest, EvenKernelsLeaveTheMaskInPlace) {
   }
   TimeImageConfig config = plain();
   config.open_px = 2;
-  TimeImage opened(config, kWidth, kHeight);
+  TimeImage opened(config, kColumns, kRows);
   process(opened, events);
   EXPECT_EQ(cv::countNonZero(opened.obstacle_mask() != opened.threshold_mask()), 0);
   config.open_px = 0;
   config.close_px = 4;
-  TimeImage closed(config, kWidth, kHeight);
+  TimeImage closed(config, kColumns, kRows);
   process(closed, events);
   EXPECT_EQ(cv::countNonZero(closed.obstacle_mask() != closed.threshold_mask()), 0);
 }
@@ -132,9 +132,9 @@ TEST_F(TimeImageTest, EvenKernelsLeaveTheMaskInPlace) {
 TEST_F(TimeImageTest, ClosingAndDilationFillAndGrow) {
   TimeImageConfig config = plain();
   config.close_px = 3;
-  TimeImage closed(config, kWidth, kHeight);
+  TimeImage closed(config, kColumns, kRows);
   config.dilate_px = 3;
-  TimeImage dilated(config, kWidth, kHeight);
+  TimeImage dilated(config, kColumns, kRows);
   const std::vector<Event> events = {at(5, 5, 1000), at(20, 10, 9000), at(22, 10, 9000)};
   process(closed, events);
   EXPECT_EQ(cv::countNonZero(closed.obstacle_mask()), 3);  // the gap is filled
@@ -143,8 +143,8 @@ TEST_F(TimeImageTest, ClosingAndDilationFillAndGrow) {
 }
 
 TEST_F(TimeImageTest, DropsEventsOutsideOfTheImageBeforeAndAfterTheWarp) {
-  TimeImage image(plain(), kWidth, kHeight);
-  process(image, {at(kWidth, 3, 1000), at(3, kHeight, 2000), at(65535, 65535, 3000)});
+  TimeImage image(plain(), kColumns, kRows);
+  process(image, {at(kColumns, 3, 1000), at(3, kRows, 2000), at(65535, 65535, 3000)});
   EXPECT_EQ(cv::countNonZero(image.count()), 0);
 
   EgoMotion fast({}, camera());

@@ -16,7 +16,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kLifetimeS = 0.8;
-constexpr double kSecondsPerUs = 1e-6;
 
 // A ball of the given size seen from the origin.
 Detection seen(TimeUs t_us, const Vector3d& centre, double size_m = 0.2, int camera = 0) {
@@ -44,7 +43,7 @@ TEST(Tracker, FollowsTwoBallsThatCross) {
   const std::array<Vector3d, 2> p = {Vector3d(3, 0.6, 0), Vector3d(3, -0.6, 0.5)};
   const std::array<Vector3d, 2> v = {Vector3d(-6, -1.5, 0.3), Vector3d(-5, 1.5, -0.5)};
   for (TimeUs t_us = 0; t_us <= 400000; t_us += 4000) {
-    const double t = static_cast<double>(t_us) * kSecondsPerUs;
+    const double t = seconds(t_us);
     std::array<Detection, 2> detections;
     // The order in which they are found changes.
     const std::size_t first = random.bits() % 2;
@@ -74,7 +73,7 @@ TEST(Tracker, FollowsTwoBallsThatCross) {
 TEST(Tracker, MovesTheEllipsoidWithThePredictionBetweenDetections) {
   Tracker tracker({}, {}, kLifetimeS);
   for (TimeUs t_us = 0; t_us <= 100000; t_us += 5000) {
-    const double t = static_cast<double>(t_us) * kSecondsPerUs;
+    const double t = seconds(t_us);
     update(tracker, t_us, {seen(t_us, Vector3d(3 - 5 * t, 0.1, 0.2), 0.3)});
   }
   const TrackedObstacle before = tracker.obstacles().at(0);

@@ -13,8 +13,6 @@ constexpr TimeUs kPeriodUs = 5000;  // 200 Hz
 
 using OfTime = std::function<double(double t_s)>;
 
-double seconds(TimeUs t_us) { return 1e-6 * static_cast<double>(t_us); }
-
 // When a vehicle lands that is truly 2 m above the ground, or never; the readings' error is drawn
 // from `range_error` and the estimate's from `estimate_error`, both functions of time.
 std::optional<TimeUs> lands_at(HeightMonitor& monitor, TimeUs end_us, const OfTime& estimate_error,

@@ -7,14 +7,12 @@
 namespace dodge {
 namespace {
 
-constexpr TimeUs kPeriodUs = 5000;
-
-double seconds(TimeUs t_us) { return 1e-6 * static_cast<double>(t_us); }
+constexpr TimeUs kReadingEveryUs = 5000;
 
 // Readings at a constant true height while the estimate drifts.
 Landing after_drift(double rate_mps, double height_m, TimeUs end_us = 3000000) {
   Landing landing({});
-  for (TimeUs t = 0; t <= end_us; t += kPeriodUs) {
+  for (TimeUs t = 0; t <= end_us; t += kReadingEveryUs) {
     landing.add(t, 5 + rate_mps * seconds(t), height_m);
   }
   return landing;
@@ -52,7 +50,7 @@ TEST(Landing, AStepOfTheGroundIsNoDrift) {
   Landing landing = after_drift(0.2, 3);
   const double before_mps = landing.drift_mps();
   // Over a table and past it.
-  for (TimeUs t = 3000000 + kPeriodUs; t < 4000000; t += kPeriodUs) {
+  for (TimeUs t = 3000000 + kReadingEveryUs; t < 4000000; t += kReadingEveryUs) {
     landing.add(t, 5 + 0.2 * seconds(t), t < 3500000 ? 2.2 : 3.0);
     EXPECT_NEAR(landing.drift_mps(), before_mps, 1e-3);
   }
@@ -68,8 +66,8 @@ TEST(Landing, TheNoiseOfTheSensorHardlyShakesTheCommand) {
   // +-2 cm in turn.
   Landing landing({});
   double largest_mps = 0;
-  for (TimeUs t = 0; t < 5000000; t += kPeriodUs) {
-    const double noise_m = (t / kPeriodUs % 2 == 0 ? 0.02 : -0.02);
+  for (TimeUs t = 0; t < 5000000; t += kReadingEveryUs) {
+    const double noise_m = (t / kReadingEveryUs % 2 == 0 ? 0.02 : -0.02);
     landing.add(t, 5, 3 + noise_m);
     if (t > 1000000) largest_mps = std::max(largest_mps, std::abs(landing.drift_mps()));
   }

@@ -8,8 +8,8 @@
 namespace dodgesim {
 namespace {
 
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 std::vector<int> received(DelayLine<int>& line, TimeUs now_us) {
   std::vector<int> out;

@@ -8,11 +8,11 @@
 namespace dodgesim {
 namespace {
 
-using testing::Each;
-using testing::ElementsAre;
-using testing::Ge;
-using testing::IsEmpty;
-using testing::Le;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::Ge;
+using ::testing::IsEmpty;
+using ::testing::Le;
 
 // Something that reached the pilot: its stamp and the start of the cycle that had it first.
 struct Arrival {

@@ -9,7 +9,7 @@
 namespace dodgesim {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 TEST(Bins, AFewRoundValuesStandForThemselves) {
   const std::vector<Bin> bins = make_bins({0.3, 0.1, 0.1, 0.2}, 0.1);

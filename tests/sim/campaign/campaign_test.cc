@@ -19,7 +19,7 @@ namespace dodgesim {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 TEST_F(CampaignTest, WritesTheTruthOnRequestOnly) {
   scenario_.repeats = 3;

@@ -16,9 +16,9 @@ constexpr double kGravity = 9.81;
 constexpr double kPi = std::numbers::pi;
 
 // About the nominal vehicle: 4 x 9.5 N on 1 kg.
-const Agility kAgility{38, 404, 0.04, 0.001};
+const Agility kVehicle{38, 404, 0.04, 0.001};
 
-const Vector3d kLeft = Vector3d::UnitY(), kUp = Vector3d::UnitZ();
+const Vector3d kLeftward = Vector3d::UnitY(), kUpward = Vector3d::UnitZ();
 
 // What a quantity has gained after t_s that grows with a first-order lag to a second derivative
 // of 1.
@@ -27,7 +27,7 @@ double lagged(double t_s, double lag_s) {
 }
 
 // A ball of 20 cm flies at the middle of a flat box, head-on, and touches it.
-Encounter head_on(double speed_mps = 6) {
+Encounter head_on_box(double speed_mps = 6) {
   Encounter encounter;
   encounter.object.p_W = {0.27, 0, 0};
   encounter.object.v_W = {-speed_mps, 0, 0};
@@ -37,7 +37,7 @@ Encounter head_on(double speed_mps = 6) {
 }
 
 TEST(ManoeuvrePath, StraightUpFollowsTheLagOfTheRotors) {
-  const ManoeuvrePath path(kAgility, {0, 0, 1}, 0.3);
+  const ManoeuvrePath path(kVehicle, {0, 0, 1}, 0.3);
   for (const double t_s : {0.0, 0.001, 0.02, 0.1, 0.3}) {
     const double z_m = (38 - kGravity) * lagged(std::max(0.0, t_s - 0.001), 0.04);
     EXPECT_NEAR(path.at(t_s).translation().z(), z_m, 4e-4 * t_s + 1e-6) << t_s;
@@ -46,14 +46,14 @@ TEST(ManoeuvrePath, StraightUpFollowsTheLagOfTheRotors) {
 }
 
 TEST(ManoeuvrePath, WithoutThrustTheVehicleEndsInFreeFall) {
-  const ManoeuvrePath path(kAgility, {0, 0, 0}, 0.3);
+  const ManoeuvrePath path(kVehicle, {0, 0, 0}, 0.3);
   EXPECT_NEAR(path.at(0.3).translation().z(), -kGravity * lagged(0.299, 0.04), 1e-4);
 }
 
 TEST(ManoeuvrePath, TiltsTowardsTheAzimuthAsFastAsTheTorqueAllowsAndStops) {
   const double azimuth = 0.7, tilt = kPi / 3;
-  const ManoeuvrePath path(kAgility, {azimuth, tilt, 1}, 0.3);
-  const Vector3d early = path.at(0.05).linear() * kUp, late = path.at(0.3).linear() * kUp;
+  const ManoeuvrePath path(kVehicle, {azimuth, tilt, 1}, 0.3);
+  const Vector3d early = path.at(0.05).linear() * kUpward, late = path.at(0.3).linear() * kUpward;
   EXPECT_NEAR(std::acos(early.z()), 404 * lagged(0.049, 0.04), 1e-9);
   EXPECT_NEAR(std::acos(late.z()), tilt, 1e-12);
   EXPECT_NEAR(std::atan2(early.y(), early.x()), azimuth, 1e-12);
@@ -83,12 +83,12 @@ TEST(Agility, ComesFromRotorsAndInertia) {
 }
 
 TEST(Passes, TakesHullAndObjectAsTheyAre) {
-  const Encounter fast = head_on(50);  // it hardly falls
+  const Encounter fast = head_on_box(50);  // it hardly falls
   EXPECT_FALSE(passes(fast, Vector3d::Zero()));
-  EXPECT_FALSE(passes(fast, 0.145 * kUp));
-  EXPECT_TRUE(passes(fast, 0.155 * kUp));
-  EXPECT_FALSE(passes(fast, 0.265 * kLeft));
-  EXPECT_TRUE(passes(fast, 0.275 * kLeft));
+  EXPECT_FALSE(passes(fast, 0.145 * kUpward));
+  EXPECT_TRUE(passes(fast, 0.155 * kUpward));
+  EXPECT_FALSE(passes(fast, 0.265 * kLeftward));
+  EXPECT_TRUE(passes(fast, 0.275 * kLeftward));
   // Past the edge of the box: further than either alone, less than a square of both.
   EXPECT_FALSE(passes(fast, {0, 0.17 + 0.06, 0.05 + 0.06}));
   EXPECT_TRUE(passes(fast, {0, 0.17 + 0.08, 0.05 + 0.08}));
@@ -97,14 +97,14 @@ TEST(Passes, TakesHullAndObjectAsTheyAre) {
 }
 
 TEST(Passes, AnObjectThatTurnsComesWithAnotherSide) {
-  Encounter rod = head_on(6);
+  Encounter rod = head_on_box(6);
   rod.shape = {Convex::box(Isometry3d::Identity(), {0.02, 0.02, 0.3})};
   rod.object.p_W.x() = 0.19;
-  EXPECT_FALSE(passes(rod, 0.3 * kUp));  // upright
+  EXPECT_FALSE(passes(rod, 0.3 * kUpward));  // upright
   rod.object.q_W = Eigen::AngleAxisd(kPi / 2, Vector3d::UnitX());
-  EXPECT_TRUE(passes(rod, 0.3 * kUp));  // level
-  rod.object.w_W.x() = 30;              // upright 0.05 s after the contact, still over the vehicle
-  EXPECT_FALSE(passes(rod, 0.3 * kUp));
+  EXPECT_TRUE(passes(rod, 0.3 * kUpward));  // level
+  rod.object.w_W.x() = 30;  // upright 0.05 s after the contact, still over the vehicle
+  EXPECT_FALSE(passes(rod, 0.3 * kUpward));
 }
 
 constexpr double kSumOfRadii = 0.3;
@@ -123,7 +123,7 @@ bool balls_pass(const ManoeuvrePath& path, double left_s, const Vector3d& offset
                 double sum_of_radii) {
   constexpr double kAroundS = 0.15;
   for (double t_s = -std::min(left_s, kAroundS); t_s < kAroundS; t_s += 5e-4) {
-    const Vector3d object = offset + t_s * v - 0.5 * kGravity * t_s * t_s * kUp;
+    const Vector3d object = offset + t_s * v - 0.5 * kGravity * t_s * t_s * kUpward;
     if ((object - path.at(left_s + t_s).translation()).norm() < sum_of_radii) return false;
   }
   return true;
@@ -136,7 +136,7 @@ double least_time_of_balls(const Vector3d& offset, const Vector3d& v, double sum
   for (const double thrust_share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
     for (int tilt_deg = 0; tilt_deg <= 180; tilt_deg += 15) {
       for (int i = 0; i < (tilt_deg == 0 ? 1 : 20); ++i) {
-        const ManoeuvrePath path(kAgility, {2 * kPi * i / 20, tilt_deg * kPi / 180, thrust_share},
+        const ManoeuvrePath path(kVehicle, {2 * kPi * i / 20, tilt_deg * kPi / 180, thrust_share},
                                  0.5);
         for (double left_s = 0; left_s < least_s; left_s += 2e-3) {
           if (balls_pass(path, left_s, offset, v, sum_of_radii)) least_s = left_s;
@@ -154,7 +154,7 @@ TEST(LeastTimeToEscape, IsNearlyThatOfAFinerSetOfManoeuvres) {
     const Vector3d v = 8 * Vector3d(-1, 0.3 * unit(random), 0.5 * unit(random));
     const Vector3d away = -v.normalized() + 0.6 * Vector3d(0, unit(random), unit(random));
     const Vector3d offset = kSumOfRadii * away.normalized();
-    const double least_s = *least_time_to_escape_s(kAgility, two_balls(offset, v));
+    const double least_s = *least_time_to_escape_s(kVehicle, two_balls(offset, v));
     const double finer_s = least_time_of_balls(offset, v, kSumOfRadii, least_s + 0.01);
     EXPECT_GT(finer_s, least_s - 0.012) << n;
     EXPECT_LT(finer_s, least_s + 0.005) << n;
@@ -163,18 +163,18 @@ TEST(LeastTimeToEscape, IsNearlyThatOfAFinerSetOfManoeuvres) {
 
 TEST(LeastTimeToEscape, DownwardTheRotorsHelpToFall) {
   const Encounter above = two_balls({0.29, 0, 0.08}, {-8, 0, -1});
-  const ManoeuvrePath drop(kAgility, {0, 0, 0}, 0.6);
+  const ManoeuvrePath drop(kVehicle, {0, 0, 0}, 0.6);
   double drop_s = 0;
   while (!balls_pass(drop, drop_s, above.object.p_W, above.object.v_W, kSumOfRadii)) drop_s += 1e-3;
   ASSERT_LT(drop_s, 0.4);
-  EXPECT_LT(*least_time_to_escape_s(kAgility, above, -kUp), drop_s - 0.01);
+  EXPECT_LT(*least_time_to_escape_s(kVehicle, above, -kUpward), drop_s - 0.01);
 }
 
 TEST(LeastTimeToEscape, AFlatVehicleGetsAwayFastestUpward) {
-  const Encounter encounter = head_on(20);
-  const double least_s = *least_time_to_escape_s(kAgility, encounter);
-  EXPECT_EQ(least_time_to_escape_s(kAgility, encounter, kUp), least_s);
-  EXPECT_GT(*least_time_to_escape_s(kAgility, encounter, kLeft), least_s + 0.02);
+  const Encounter encounter = head_on_box(20);
+  const double least_s = *least_time_to_escape_s(kVehicle, encounter);
+  EXPECT_EQ(least_time_to_escape_s(kVehicle, encounter, kUpward), least_s);
+  EXPECT_GT(*least_time_to_escape_s(kVehicle, encounter, kLeftward), least_s + 0.02);
   // The last 15 cm are reached while the ball is over the vehicle, 5 to 22 ms after the contact.
   double rise_s = 0;
   while ((38 - kGravity) * lagged(rise_s, 0.04) < 0.15) rise_s += 1e-4;
@@ -183,30 +183,30 @@ TEST(LeastTimeToEscape, AFlatVehicleGetsAwayFastestUpward) {
 }
 
 TEST(LeastTimeToEscape, AnObjectAsideIsSoonerEscapedToTheOtherSide) {
-  Encounter encounter = head_on();
+  Encounter encounter = head_on_box();
   encounter.object.p_W.y() = 0.1;
-  const double left_s = *least_time_to_escape_s(kAgility, encounter, kLeft);
-  const double right_s = *least_time_to_escape_s(kAgility, encounter, -kLeft);
+  const double left_s = *least_time_to_escape_s(kVehicle, encounter, kLeftward);
+  const double right_s = *least_time_to_escape_s(kVehicle, encounter, -kLeftward);
   EXPECT_GT(left_s, right_s + 0.02);
 }
 
 TEST(LeastTimeToEscape, OnlyTheWayAcrossTheFlightCounts) {
-  const Encounter encounter = head_on();
-  EXPECT_FALSE(least_time_to_escape_s(kAgility, encounter, Vector3d(-5, 0, 0)));
-  EXPECT_EQ(least_time_to_escape_s(kAgility, encounter, Vector3d(-5, 0, 1)),
-            least_time_to_escape_s(kAgility, encounter, kUp));
+  const Encounter encounter = head_on_box();
+  EXPECT_FALSE(least_time_to_escape_s(kVehicle, encounter, Vector3d(-5, 0, 0)));
+  EXPECT_EQ(least_time_to_escape_s(kVehicle, encounter, Vector3d(-5, 0, 1)),
+            least_time_to_escape_s(kVehicle, encounter, kUpward));
 }
 
 TEST(LeastTimeToEscape, StrongerRotorsNeedLess) {
-  Agility strong = kAgility;
+  Agility strong = kVehicle;
   strong.max_thrust_mps2 *= 2;
-  EXPECT_LT(*least_time_to_escape_s(strong, head_on()),
-            *least_time_to_escape_s(kAgility, head_on()) - 0.01);
+  EXPECT_LT(*least_time_to_escape_s(strong, head_on_box()),
+            *least_time_to_escape_s(kVehicle, head_on_box()) - 0.01);
 }
 
 TEST(LeastTimeToEscape, IsEmptyForRotorsThatHardlyLift) {
   const Agility weak{kGravity + 0.01, 1e-3, 10, 0.9};
-  EXPECT_FALSE(least_time_to_escape_s(weak, head_on()));
+  EXPECT_FALSE(least_time_to_escape_s(weak, head_on_box()));
 }
 
 }  // namespace

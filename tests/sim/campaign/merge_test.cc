@@ -7,7 +7,7 @@
 namespace dodgesim {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class MergeTest : public CampaignTest {
  protected:

@@ -14,8 +14,7 @@
 namespace dodgesim {
 namespace {
 
-constexpr Alternative kDifferent = Alternative::kDifferent, kLower = Alternative::kLower,
-                      kHigher = Alternative::kHigher;
+using enum Alternative;
 
 // Tables of published examples, in the order of PairedCounts.
 constexpr PairedCounts kBentur{1, 1, 7, 12};      // airway hyper-responsiveness, 2009

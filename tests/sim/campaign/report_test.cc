@@ -11,8 +11,8 @@
 namespace dodgesim {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string between(const std::string& text, const std::string& start, const std::string& end) {
   const std::size_t from = text.find(start);

@@ -15,8 +15,8 @@ namespace dodgesim {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 class ResumeTest : public CampaignTest {
  protected:

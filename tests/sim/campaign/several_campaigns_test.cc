@@ -12,8 +12,8 @@ namespace dodgesim {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ElementsAre;
-using testing::Pair;
+using ::testing::ElementsAre;
+using ::testing::Pair;
 
 class SeveralCampaignsTest : public CampaignTest {
  protected:

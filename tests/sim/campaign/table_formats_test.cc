@@ -10,7 +10,7 @@
 namespace dodgesim {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 // Two balls and a flight in which nobody threw.
 StatisticsTable table() {

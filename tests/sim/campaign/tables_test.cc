@@ -8,7 +8,7 @@
 namespace dodgesim {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 ThrowResult throw_with(int index, const FlightResult& pilot, const FlightResult& none,
                        const FlightResult& oracle) {

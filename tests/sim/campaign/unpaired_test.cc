@@ -14,8 +14,7 @@
 namespace dodgesim {
 namespace {
 
-constexpr Alternative kDifferent = Alternative::kDifferent, kLower = Alternative::kLower,
-                      kHigher = Alternative::kHigher;
+using enum Alternative;
 
 TEST(Fisher, AgreesWithPublishedPValues) {
   // The lady tasting tea: Fisher 1935, R's fisher.test.

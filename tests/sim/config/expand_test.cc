@@ -5,11 +5,10 @@
 #include <set>
 
 #include "sim/config/resolve_throw.h"
+#include "tests/sim/config/parse.h"
 
 namespace dodgesim {
 namespace {
-
-Scenario parse(const std::string& yaml) { return parse_scenario(yaml, "test.yaml", ""); }
 
 constexpr const char* kCampaign =
     "seed: 5\nrepeats: 3\n"

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "tests/sim/config/parse.h"
+
 namespace dodgesim {
 namespace {
 
@@ -22,8 +24,6 @@ constexpr const char* kRandom =
 Throw resolve_throw(const Scenario& scenario, int index) {
   return resolve_throws(scenario, index).front();
 }
-
-Scenario parse(const std::string& yaml) { return parse_scenario(yaml, "test.yaml", ""); }
 
 TEST(ResolveThrow, IsAPureFunctionOfSeedAndIndex) {
   const Scenario scenario = parse(kRandom);

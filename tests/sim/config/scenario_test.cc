@@ -8,11 +8,10 @@
 
 #include "sim/base/error.h"
 #include "sim/config/closest_name.h"
+#include "tests/sim/config/parse.h"
 
 namespace dodgesim {
 namespace {
-
-Scenario parse(const std::string& yaml) { return parse_scenario(yaml, "test.yaml", ""); }
 
 TEST(Scenario, GivenValuesAreReadAndOthersKeepTheirDefaults) {
   const Scenario scenario = parse(

@@ -15,8 +15,8 @@ namespace dodgesim {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 class ScenarioTree : public testing::Test {
  protected:

@@ -16,6 +16,8 @@
 
 namespace dodgesim {
 
+inline constexpr TimeUs kSecondUs = 1000000;
+
 // The nominal vehicle of the design.
 inline VehicleParameters nominal_vehicle() {
   VehicleParameters vehicle;

@@ -13,8 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr TimeUs kSecondUs = 1000000;
-
 // An evasion of 5 m/s for 0.3 s: the height is kept, and afterwards the position loop closes again
 // where the vehicle is, without pulling it back to where it was.
 TEST(VelocityControllerEscapes, EvadesKeepingHeightAndReengagesWhereItIs) {

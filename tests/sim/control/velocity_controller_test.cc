@@ -13,8 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr TimeUs kSecondUs = 1000000;
-
 FlightSetup ideal_setup() {
   FlightSetup setup;
   setup.state_period_us = kTickUs;

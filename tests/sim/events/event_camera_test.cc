@@ -21,8 +21,8 @@ using testing::film;
 using testing::Frames;
 using testing::reference_events;
 
-constexpr int kWidth = 13;  // no multiple of a vector's length, and not square
-constexpr int kHeight = 9;
+constexpr int kOddWidth = 13;  // no multiple of a vector's length, and not square
+constexpr int kOddHeight = 9;
 
 double ramp(int x, int y, TimeUs t) {
   const double slope = 0.3 * (x - 6) + 0.05 * y;  // both directions
@@ -39,7 +39,7 @@ double random_walk(int x, int y, TimeUs t) {
   // A new value at every instant, independent from call to call: the worst case for bookkeeping.
   const RandomStream stream(7, 0, "walk");
   const auto block = stream.block(static_cast<std::uint64_t>(t) * 1000 +
-                                  static_cast<std::uint64_t>(y * kWidth + x));
+                                  static_cast<std::uint64_t>(y * kOddWidth + x));
   return std::exp(4 * unit_interval(block[0]) - 4);
 }
 
@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Signals, Exactness,
                          [](const auto& info) { return info.param.name; });
 
 void expect_reference(const EventCameraSpec& spec, const Frames& frames) {
-  EventCamera camera(spec, kWidth, kHeight, 3, 0, "top");
+  EventCamera camera(spec, kOddWidth, kOddHeight, 3, 0, "top");
   const auto events = emulate(camera, frames);
   const auto expected =
       reference_events(camera, frames, spec.log_epsilon, static_cast<double>(spec.refractory_us));
@@ -66,7 +66,7 @@ void expect_reference(const EventCameraSpec& spec, const Frames& frames) {
 
 TEST_P(Exactness, EventsAreTheCrossingsOfLogLuminance) {
   expect_reference(ideal_event_camera(),
-                   film(kWidth, kHeight, every(700, 70000), GetParam().luminance));
+                   film(kOddWidth, kOddHeight, every(700, 70000), GetParam().luminance));
 }
 
 TEST_P(Exactness, HoldsWithMismatchAndUnequalThresholds) {
@@ -74,14 +74,14 @@ TEST_P(Exactness, HoldsWithMismatchAndUnequalThresholds) {
   spec.mismatch_sigma = 0.03;
   spec.contrast_threshold_on = 0.15;
   spec.contrast_threshold_off = 0.25;
-  expect_reference(spec, film(kWidth, kHeight, every(700, 70000), GetParam().luminance));
+  expect_reference(spec, film(kOddWidth, kOddHeight, every(700, 70000), GetParam().luminance));
 }
 
 TEST_P(Exactness, HoldsWithRefractoryPeriodsShorterAndLongerThanTheInterval) {
   EventCameraSpec spec = ideal_event_camera();
   for (const int refractory_us : {1, 150, 700, 1900}) {
     spec.refractory_us = refractory_us;
-    expect_reference(spec, film(kWidth, kHeight, every(700, 70000), GetParam().luminance));
+    expect_reference(spec, film(kOddWidth, kOddHeight, every(700, 70000), GetParam().luminance));
   }
 }
 
@@ -129,10 +129,10 @@ TEST(EventCamera, BrighterIsOnDarkerIsOffAtTheRightPlace) {
   const int x = 11;
   const int y = 2;
   for (const double end : {3.0, 0.3}) {
-    const auto frames = film(kWidth, kHeight, {0, 1000}, [&](int px, int py, TimeUs t) {
+    const auto frames = film(kOddWidth, kOddHeight, {0, 1000}, [&](int px, int py, TimeUs t) {
       return px == x && py == y && t > 0 ? end : 1.0;
     });
-    EventCamera camera(ideal_event_camera(), kWidth, kHeight, 1, 0, "top");
+    EventCamera camera(ideal_event_camera(), kOddWidth, kOddHeight, 1, 0, "top");
     const auto events = emulate(camera, frames);
     ASSERT_FALSE(events.empty());
     for (const Event& event : events) {
@@ -150,14 +150,14 @@ TEST(EventCamera, NoPixelIsEverStuck) {
   spec.hot_pixel_hz = 2000;
   for (const int refractory_us : {0, 100, 3000}) {
     spec.refractory_us = refractory_us;
-    EventCamera camera(spec, kWidth, kHeight, 5, 0, "top");
-    const auto frames = film(kWidth, kHeight, every(900, 90000), random_walk);
+    EventCamera camera(spec, kOddWidth, kOddHeight, 5, 0, "top");
+    const auto frames = film(kOddWidth, kOddHeight, every(900, 90000), random_walk);
     std::vector<Event> events;
     camera.reset(0, frames[0].luminance.data());
     for (std::size_t i = 1; i < frames.size(); ++i) {
       camera.update(frames[i].t_us, frames[i].luminance.data(), events);
-      for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+      for (int y = 0; y < kOddHeight; ++y) {
+        for (int x = 0; x < kOddWidth; ++x) {
           const PixelState p = camera.pixel(x, y);
           if (p.held) continue;
           ASSERT_LT(p.signal - p.reference, p.threshold_on);
@@ -173,17 +173,17 @@ TEST(EventCamera, NoPixelIsEverStuck) {
 TEST(EventCamera, SumOfSignedThresholdsIsTheChangeOfTheReference) {
   EventCameraSpec spec = ideal_event_camera();
   spec.mismatch_sigma = 0.03;
-  EventCamera camera(spec, kWidth, kHeight, 5, 0, "top");
-  const auto frames = film(kWidth, kHeight, every(900, 90000), random_walk);
+  EventCamera camera(spec, kOddWidth, kOddHeight, 5, 0, "top");
+  const auto frames = film(kOddWidth, kOddHeight, every(900, 90000), random_walk);
   const auto events = emulate(camera, frames);
   std::map<std::pair<int, int>, double> sum;
   for (const Event& event : events) {
     const PixelState p = camera.pixel(event.x, event.y);
     sum[{event.x, event.y}] += event.polarity > 0 ? p.threshold_on : -p.threshold_off;
   }
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const auto first = frames[0].luminance[static_cast<std::size_t>(y * kWidth + x)];
+  for (int y = 0; y < kOddHeight; ++y) {
+    for (int x = 0; x < kOddWidth; ++x) {
+      const auto first = frames[0].luminance[static_cast<std::size_t>(y * kOddWidth + x)];
       const double start = std::log(spec.log_epsilon + static_cast<double>(first));
       const double change = camera.pixel(x, y).reference - start;
       EXPECT_NEAR((sum[{x, y}]), change, 1e-9);
@@ -196,10 +196,10 @@ TEST(EventCamera, EventsAreOrderedWithinAndAcrossUpdates) {
     EventCameraSpec spec;
     spec.refractory_us = 0;
     spec.shot_noise_on_hz = 50;
-    EventCamera camera(spec, kWidth, kHeight, 5, 0, "top");
+    EventCamera camera(spec, kOddWidth, kOddHeight, 5, 0, "top");
     std::vector<Event> events;
     TimeUs previous = 0;
-    const auto frames = film(kWidth, kHeight, every(step_us, 30 * step_us), random_walk);
+    const auto frames = film(kOddWidth, kOddHeight, every(step_us, 30 * step_us), random_walk);
     camera.reset(0, frames[0].luminance.data());
     for (std::size_t i = 1; i < frames.size(); ++i) {
       const std::size_t known = events.size();
@@ -222,9 +222,9 @@ TEST(EventCamera, SamplingALinearRampTwiceAsOftenGivesTheSameEvents) {
   spec.shot_noise_on_hz = 5;
   spec.hot_pixel_fraction = 0.02;
   const auto run = [&](TimeUs step_us) {
-    EventCamera camera(spec, kWidth, kHeight, 5, 0, "top");
+    EventCamera camera(spec, kOddWidth, kOddHeight, 5, 0, "top");
     return emulate(camera,
-                   film(kWidth, kHeight, every(step_us, 64000), [&](int x, int y, TimeUs t) {
+                   film(kOddWidth, kOddHeight, every(step_us, 64000), [&](int x, int y, TimeUs t) {
                      return std::exp((0.8 * x - 0.5 * y) * seconds(t) * 2) - spec.log_epsilon;
                    }));
   };
@@ -315,22 +315,22 @@ TEST(EventCamera, ThresholdsNeverFallBelowTheirMinimum) {
 }
 
 TEST(EventCamera, RebaseMakesNoEventsAndKeepsThePhaseOfEveryPixel) {
-  EventCamera camera(ideal_event_camera(), kWidth, kHeight, 5, 0, "top");
-  const auto frames = film(kWidth, kHeight, {0, 1000, 2000}, random_walk);
+  EventCamera camera(ideal_event_camera(), kOddWidth, kOddHeight, 5, 0, "top");
+  const auto frames = film(kOddWidth, kOddHeight, {0, 1000, 2000}, random_walk);
   std::vector<Event> events;
   camera.reset(0, frames[0].luminance.data());
   camera.update(1000, frames[1].luminance.data(), events);
   std::vector<double> phase;
-  for (int i = 0; i < kWidth * kHeight; ++i) {
-    const PixelState p = camera.pixel(i % kWidth, i / kWidth);
+  for (int i = 0; i < kOddWidth * kOddHeight; ++i) {
+    const PixelState p = camera.pixel(i % kOddWidth, i / kOddWidth);
     phase.push_back(p.signal - p.reference);
   }
   events.clear();
   camera.rebase(frames[2].luminance.data());
   camera.update(2000, frames[2].luminance.data(), events);
   EXPECT_TRUE(events.empty());
-  for (int i = 0; i < kWidth * kHeight; ++i) {
-    const PixelState p = camera.pixel(i % kWidth, i / kWidth);
+  for (int i = 0; i < kOddWidth * kOddHeight; ++i) {
+    const PixelState p = camera.pixel(i % kOddWidth, i / kOddWidth);
     EXPECT_NEAR(p.signal - p.reference, phase[static_cast<std::size_t>(i)], 1e-12);
   }
 }
@@ -338,11 +338,11 @@ TEST(EventCamera, RebaseMakesNoEventsAndKeepsThePhaseOfEveryPixel) {
 TEST(EventCamera, ResetStartsTheSameThrowAgain) {
   EventCameraSpec spec;
   spec.shot_noise_on_hz = 30;
-  EventCamera camera(spec, kWidth, kHeight, 5, 2, "top");
-  const auto frames = film(kWidth, kHeight, every(900, 90000), sine);
+  EventCamera camera(spec, kOddWidth, kOddHeight, 5, 2, "top");
+  const auto frames = film(kOddWidth, kOddHeight, every(900, 90000), sine);
   const auto first = emulate(camera, frames);
   EXPECT_EQ(emulate(camera, frames), first);
-  EventCamera again(spec, kWidth, kHeight, 5, 2, "top");
+  EventCamera again(spec, kOddWidth, kOddHeight, 5, 2, "top");
   EXPECT_EQ(emulate(again, frames), first);
 }
 

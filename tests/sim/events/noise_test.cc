@@ -16,15 +16,16 @@ using testing::emulate;
 using testing::every;
 using testing::film;
 
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
-constexpr double kPixels = kWidth * kHeight;
+constexpr int kFieldWidth = 64;
+constexpr int kFieldHeight = 48;
+constexpr double kFieldPixels = kFieldWidth * kFieldHeight;
 
 std::vector<Event> dark_events(const EventCameraSpec& spec, const std::vector<TimeUs>& times,
                                std::uint64_t seed = 1, std::uint64_t throw_index = 0,
                                std::string_view name = "top") {
-  EventCamera camera(spec, kWidth, kHeight, seed, throw_index, name);
-  return emulate(camera, film(kWidth, kHeight, times, [](int, int, TimeUs) { return 0.2; }));
+  EventCamera camera(spec, kFieldWidth, kFieldHeight, seed, throw_index, name);
+  return emulate(camera,
+                 film(kFieldWidth, kFieldHeight, times, [](int, int, TimeUs) { return 0.2; }));
 }
 
 EventCameraSpec only_shot_noise() {
@@ -49,8 +50,8 @@ TEST(ShotNoise, HasTheSetRatesOfBothPolarities) {
   double on = 0;
   for (const Event& event : events) on += event.polarity > 0 ? 1 : 0;
   const double off = static_cast<double>(events.size()) - on;
-  const double expected_on = spec.shot_noise_on_hz * kPixels * duration_s;
-  const double expected_off = spec.shot_noise_off_hz * kPixels * duration_s;
+  const double expected_on = spec.shot_noise_on_hz * kFieldPixels * duration_s;
+  const double expected_off = spec.shot_noise_off_hz * kFieldPixels * duration_s;
   EXPECT_NEAR(on, expected_on, 3 * std::sqrt(expected_on));
   EXPECT_NEAR(off, expected_off, 3 * std::sqrt(expected_off));
 }
@@ -130,7 +131,7 @@ TEST(HotPixels, HaveTheSetShareAndRateAndStayWhereTheyAre) {
     return events;
   };
   const auto hot = count(0);
-  const double expected = spec.hot_pixel_fraction * kPixels;
+  const double expected = spec.hot_pixel_fraction * kFieldPixels;
   EXPECT_NEAR(static_cast<double>(hot.size()), expected, 3 * std::sqrt(expected));
   double total = 0;
   for (const auto& [pixel, events] : hot) {
@@ -159,8 +160,9 @@ TEST(HotPixels, AreSilentWithinTheRefractoryPeriod) {
   }
   // A process with dead time d has the rate r/(1 + r d): here half; starting without dead time adds
   // (r d)^2/(2 (1 + r d)^2) events, and counts spread by 1/(1 + r d)^3 of their mean rate.
-  const double expected = kPixels * (350 * 0.5 + 0.125);
-  EXPECT_NEAR(static_cast<double>(events.size()), expected, 3 * std::sqrt(kPixels * 350 * 0.125));
+  const double expected = kFieldPixels * (350 * 0.5 + 0.125);
+  EXPECT_NEAR(static_cast<double>(events.size()), expected,
+              3 * std::sqrt(kFieldPixels * 350 * 0.125));
 }
 
 TEST(ShotNoise, ResetsThePixelItHits) {
@@ -171,9 +173,9 @@ TEST(ShotNoise, ResetsThePixelItHits) {
   spec.shot_noise_off_hz = 0;
   for (const int refractory_us : {0, 100}) {
     spec.refractory_us = refractory_us;
-    EventCamera camera(spec, kWidth, kHeight, 1, 0, "top");
+    EventCamera camera(spec, kFieldWidth, kFieldHeight, 1, 0, "top");
     const auto l = [](TimeUs t) { return std::exp(-0.3 * seconds(t) / 0.1); };
-    const auto events = emulate(camera, film(kWidth, kHeight, every(1000, 100000),
+    const auto events = emulate(camera, film(kFieldWidth, kFieldHeight, every(1000, 100000),
                                              [&](int, int, TimeUs t) { return l(t); }));
     std::map<std::pair<int, int>, TimeUs> last_on;
     for (const Event& event : events) {
@@ -196,11 +198,11 @@ TEST(ShotNoise, FallsLinearlyWithTheLightToItsShareAt1000Lux) {
   spec.illuminance_lux = 500;
   const struct { double luminance, share; } cases[] = {{0, 1}, {1, 0.625}, {2, 0.25}, {50, 0.25}};
   for (const auto& [luminance, share] : cases) {
-    EventCamera camera(spec, kWidth, kHeight, 1, 0, "top");
+    EventCamera camera(spec, kFieldWidth, kFieldHeight, 1, 0, "top");
     const double light = luminance;
-    const auto events = emulate(camera, film(kWidth, kHeight, every(1000000, 20000000),
+    const auto events = emulate(camera, film(kFieldWidth, kFieldHeight, every(1000000, 20000000),
                                              [&](int, int, TimeUs) { return light; }));
-    const double expected = share * 0.435 * kPixels * 20;
+    const double expected = share * 0.435 * kFieldPixels * 20;
     EXPECT_NEAR(static_cast<double>(events.size()), expected, 3 * std::sqrt(expected));
   }
 }
@@ -219,9 +221,10 @@ TEST(Leak, MakesOnEventsAtTheSetMeanRateWhateverTheMismatch) {
     }
     // Pixels start anywhere between two events, and then are regular: each count is that of a
     // uniform phase, within one of its mean.
-    const double expected = 2 * duration_s * kPixels;
-    EXPECT_NEAR(static_cast<double>(events.size()), expected, 3 * std::sqrt(0.25 * kPixels) + 1);
-    EXPECT_EQ(stamps.size(), kPixels);
+    const double expected = 2 * duration_s * kFieldPixels;
+    EXPECT_NEAR(static_cast<double>(events.size()), expected,
+                3 * std::sqrt(0.25 * kFieldPixels) + 1);
+    EXPECT_EQ(stamps.size(), kFieldPixels);
     for (const auto& [pixel, times] : stamps) {
       const TimeUs period_us = times[1] - times[0];
       if (mismatch == 0) {
@@ -235,7 +238,7 @@ TEST(Leak, MakesOnEventsAtTheSetMeanRateWhateverTheMismatch) {
     // No common beat: first events come evenly over the first period.
     double early = 0;
     for (const auto& [pixel, times] : stamps) early += times[0] < 250000;
-    EXPECT_NEAR(early, 0.5 * kPixels, 4 * std::sqrt(0.25 * kPixels));
+    EXPECT_NEAR(early, 0.5 * kFieldPixels, 4 * std::sqrt(0.25 * kFieldPixels));
   }
 }
 
@@ -243,14 +246,14 @@ TEST(Leak, AddsToARisingSignalAndHoldsUpAFallingOne) {
   EventCameraSpec spec = ideal_event_camera();
   spec.leak_hz = 10;  // 2 of log luminance in a second
   const auto count = [&](double slope) {
-    EventCamera camera(spec, kWidth, kHeight, 1, 0, "top");
-    return static_cast<double>(emulate(camera, film(kWidth, kHeight, every(10000, 1000000),
-                                                    [&](int, int, TimeUs t) {
-                                                      return std::exp(slope * seconds(t)) -
-                                                             spec.log_epsilon;
-                                                    }))
-                                   .size()) /
-           kPixels;
+    EventCamera camera(spec, kFieldWidth, kFieldHeight, 1, 0, "top");
+    return static_cast<double>(
+               emulate(camera, film(kFieldWidth, kFieldHeight, every(10000, 1000000),
+                                    [&](int, int, TimeUs t) {
+                                      return std::exp(slope * seconds(t)) - spec.log_epsilon;
+                                    }))
+                   .size()) /
+           kFieldPixels;
   };
   EXPECT_NEAR(count(3), 25, 0.6);
   EXPECT_NEAR(count(-6), 20, 1.1);
@@ -262,20 +265,21 @@ TEST(DeadPixels, HaveTheSetShareAndAreSilentWhateverHappens) {
   spec.dead_pixel_fraction = 0.1;
   spec.hot_pixel_fraction = 0.3;
   const auto silent = [&](std::uint64_t throw_index) {
-    EventCamera camera(spec, kWidth, kHeight, 1, throw_index, "top");
-    std::vector<int> count(kWidth * kHeight);
+    EventCamera camera(spec, kFieldWidth, kFieldHeight, 1, throw_index, "top");
+    std::vector<int> count(kFieldWidth * kFieldHeight);
     for (const Event& event :
-         emulate(camera, film(kWidth, kHeight, every(20000, 400000), [](int x, int y, TimeUs t) {
+         emulate(camera,
+                 film(kFieldWidth, kFieldHeight, every(20000, 400000), [](int x, int y, TimeUs t) {
                    return 1.5 + std::sin(30 * seconds(t) + x + 3 * y);
                  }))) {
-      ++count[static_cast<std::size_t>(event.y * kWidth + event.x)];
+      ++count[static_cast<std::size_t>(event.y * kFieldWidth + event.x)];
     }
     std::vector<bool> is_silent;
     for (const int n : count) is_silent.push_back(n == 0);
     return is_silent;
   };
   const auto first = silent(0);
-  const double expected = 0.1 * kPixels;
+  const double expected = 0.1 * kFieldPixels;
   EXPECT_NEAR(static_cast<double>(std::count(first.begin(), first.end(), true)), expected,
               3 * std::sqrt(0.9 * expected));
   EXPECT_EQ(silent(7), first);  // they belong to the device

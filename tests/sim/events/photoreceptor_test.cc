@@ -16,7 +16,7 @@
 namespace dodgesim {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
+constexpr double kTurnRad = 2 * std::numbers::pi;
 
 EventCameraSpec slow(double photoreceptor_hz, double follower_hz) {
   EventCameraSpec spec = ideal_event_camera();
@@ -52,7 +52,8 @@ TEST(Photoreceptor, CutOffIsProportionalToTheLight) {
     spec.illuminance_lux = lux;
     const Photoreceptor photoreceptor(spec);
     for (const double luminance : {0.0, 0.1, 1.0, 2.0}) {
-      EXPECT_NEAR(photoreceptor.cutoff_rad_s(luminance) / kTwoPi, 100 + 3 * lux * luminance, 1e-6);
+      EXPECT_NEAR(photoreceptor.cutoff_rad_s(luminance) / kTurnRad, 100 + 3 * lux * luminance,
+                  1e-6);
     }
   }
 }
@@ -83,7 +84,7 @@ TEST(Photoreceptor, OfSecondOrderAnswersAStepAndARampAsTheDifferentialEquations)
   for (const double follower_hz : {30.0, 490.0, 550.0, 554.0, 560.0, 5000.0}) {
     const Photoreceptor photoreceptor(slow(3000, follower_hz));
     const double w1 = photoreceptor.cutoff_rad_s(0.3);  // 550 Hz
-    const double w2 = kTwoPi * follower_hz;
+    const double w2 = kTurnRad * follower_hz;
     for (const double dt_s : {20e-6, 300e-6, 3e-3}) {
       for (const bool step : {true, false}) {
         const Charge before = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};

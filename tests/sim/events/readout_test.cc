@@ -12,9 +12,9 @@
 namespace dodgesim {
 namespace {
 
-constexpr int kWidth = 320;
-constexpr int kHeight = 240;
-constexpr std::uint64_t kPixels = kWidth * kHeight;
+constexpr int kSensorWidth = 320;
+constexpr int kSensorHeight = 240;
+constexpr std::uint64_t kSensorPixels = kSensorWidth * kSensorHeight;
 
 bool in_order(const Event& a, const Event& b) {
   return std::tie(a.t_us, a.y, a.x, a.polarity) < std::tie(b.t_us, b.y, b.x, b.polarity);
@@ -30,7 +30,8 @@ struct Request {
 class Bench {
  public:
   explicit Bench(const EventCameraSpec& spec, TimeUs period_us = 1000)
-      : readout(spec, kWidth, kHeight, RandomStream(1, 0, "test")), period_us_(period_us) {}
+      : readout(spec, kSensorWidth, kSensorHeight, RandomStream(1, 0, "test")),
+        period_us_(period_us) {}
 
   std::vector<Event> serve(const std::vector<Request>& requests, TimeUs until_us,
                            TimeUs start_us = 0) {
@@ -42,8 +43,8 @@ class Bench {
       const TimeUs end_us = origin_us + period_us_;
       for (; next != requests.end() && next->t_us <= end_us; ++next) {
         words.push(next->t_us - origin_us,
-                   EventWords::address(next->pixel % kWidth, next->pixel / kWidth), next->on,
-                   kCauseScene);
+                   EventWords::address(next->pixel % kSensorWidth, next->pixel / kSensorWidth),
+                   next->on, kCauseScene);
       }
       const std::size_t known = out.size();
       readout.push(words, origin_us, end_us, out, nullptr);
@@ -69,7 +70,8 @@ EventCameraSpec only_arbiter(double max_hz) {
 }
 
 // Random requests of a rate, of pixels that come again after `pixels` requests.
-std::vector<Request> poisson(double rate_hz, double duration_s, std::uint64_t pixels = kPixels) {
+std::vector<Request> poisson(double rate_hz, double duration_s,
+                             std::uint64_t pixels = kSensorPixels) {
   RandomStream random(2, 0, "requests");
   std::vector<Request> requests;
   double t_s = 0;
@@ -105,15 +107,15 @@ TEST(Readout, JitterHasTheSetMeanAndSpread) {
   spec.jitter_us = 20;
   Bench bench(spec);
   std::vector<Request> requests;
-  for (std::uint64_t i = 0; i < kPixels; ++i) requests.push_back({10000, i});
+  for (std::uint64_t i = 0; i < kSensorPixels; ++i) requests.push_back({10000, i});
   double mean = 0, square = 0, neighbours = 0, last = 0;
   std::map<std::uint64_t, double> late;
   for (const Event& event : bench.serve(requests, 20000)) {
-    late[static_cast<std::uint64_t>(event.y) * kWidth + event.x] =
+    late[static_cast<std::uint64_t>(event.y) * kSensorWidth + event.x] =
         (static_cast<double>(event.t_us) - 10500) / 20;
   }
-  ASSERT_EQ(late.size(), kPixels);
-  const double n = kPixels;
+  ASSERT_EQ(late.size(), kSensorPixels);
+  const double n = kSensorPixels;
   for (const auto& [pixel, sigmas] : late) {
     mean += sigmas / n;
     square += sigmas * sigmas / n;
@@ -144,7 +146,7 @@ TEST(Readout, AFlashLeavesAtTheArbitersRateRowByRow) {
   ASSERT_EQ(events.size(), 500u);
   for (std::size_t k = 0; k < events.size(); ++k) {
     EXPECT_EQ(events[k].t_us, 700 + 10 * static_cast<TimeUs>(k));
-    EXPECT_EQ(events[k].y * kWidth + events[k].x, static_cast<int>(13 * k));
+    EXPECT_EQ(events[k].y * kSensorWidth + events[k].x, static_cast<int>(13 * k));
   }
   EXPECT_EQ(bench.readout.lost(), 0);
 }
@@ -198,7 +200,7 @@ TEST(Readout, UnderOverloadLosesOnlyWhatWaitingPixelsWouldSayAndCountsIt) {
   std::map<int, TimeUs> last;
   for (std::size_t i = 1; i < later.size(); ++i) EXPECT_EQ(later[i].t_us - later[i - 1].t_us, 10);
   for (const Event& event : later) {
-    const auto [at, first] = last.try_emplace(event.y * kWidth + event.x, event.t_us);
+    const auto [at, first] = last.try_emplace(event.y * kSensorWidth + event.x, event.t_us);
     if (!first) {
       EXPECT_GT(event.t_us - at->second, 1000);
       at->second = event.t_us;

@@ -19,18 +19,20 @@ using testing::Frame;
 using testing::Frames;
 using testing::reference_events;
 
-constexpr int kWidth = 21;
-constexpr int kHeight = 11;
-constexpr Rect kWhole{0, 0, kWidth, kHeight};
+constexpr int kFrameWidth = 21;
+constexpr int kFrameHeight = 11;
+constexpr Rect kWhole{0, 0, kFrameWidth, kFrameHeight};
 
-double random_walk(int x, int y, TimeUs t) {
+double fast_walk(int x, int y, TimeUs t) {
   const RandomStream stream(8, 0, "walk");
   const auto block = stream.block(static_cast<std::uint64_t>(t) * 1000 +
-                                  static_cast<std::uint64_t>(y * kWidth + x));
+                                  static_cast<std::uint64_t>(y * kFrameWidth + x));
   return std::exp(3 * unit_interval(block[0]) - 3);
 }
 
-double sine(int x, int y, TimeUs t) { return 1.2 + std::sin(800 * seconds(t) + 0.3 * x + 0.7 * y); }
+double fast_sine(int x, int y, TimeUs t) {
+  return 1.2 + std::sin(800 * seconds(t) + 0.3 * x + 0.7 * y);
+}
 
 int one_of(RandomStream& random, int count) {
   return static_cast<int>(random.uniform(0, count - 1e-9));
@@ -39,14 +41,14 @@ int one_of(RandomStream& random, int count) {
 // Random, partly overlapping regions, up to eight between two pictures.
 Frames film_with_regions(const std::function<double(int, int, TimeUs)>& luminance) {
   RandomStream random(9, 0, "regions");
-  Frames frames = film(kWidth, kHeight, every(130, 52000), luminance);
+  Frames frames = film(kFrameWidth, kFrameHeight, every(130, 52000), luminance);
   for (std::size_t i = 1; i + 1 < frames.size(); ++i) {
     if (i % 16 < 8 ? i % 8 == 0 : random.uniform(0, 1) < 0.3) continue;
     Rect rect;
-    rect.x0 = one_of(random, kWidth);
-    rect.x1 = rect.x0 + 1 + one_of(random, kWidth - rect.x0);
-    rect.y0 = one_of(random, kHeight);
-    rect.y1 = rect.y0 + 1 + one_of(random, kHeight - rect.y0);
+    rect.x0 = one_of(random, kFrameWidth);
+    rect.x1 = rect.x0 + 1 + one_of(random, kFrameWidth - rect.x0);
+    rect.y0 = one_of(random, kFrameHeight);
+    rect.y1 = rect.y0 + 1 + one_of(random, kFrameHeight - rect.y0);
     frames[i].region = rect;
   }
   return frames;
@@ -61,13 +63,13 @@ EventCameraSpec everything() {
 }
 
 TEST(Region, EventsAreTheCrossingsOfEachPixelsOwnCurve) {
-  for (const auto& luminance : {random_walk, sine}) {
+  for (const auto& luminance : {fast_walk, fast_sine}) {
     const Frames frames = film_with_regions(luminance);
     for (const int refractory_us : {0, 1, 100, 130, 900}) {
       EventCameraSpec spec = ideal_event_camera();
       spec.refractory_us = refractory_us;
       spec.mismatch_sigma = 0.03;
-      EventCamera camera(spec, kWidth, kHeight, 3, 0, "top");
+      EventCamera camera(spec, kFrameWidth, kFrameHeight, 3, 0, "top");
       const auto events = emulate(camera, frames);
       const auto expected =
           reference_events(camera, frames, spec.log_epsilon, static_cast<double>(refractory_us));
@@ -82,8 +84,8 @@ TEST(Region, OfTheWholeImageIsAPictureWhoseEventsComeLater) {
   for (const int refractory_us : {0, 100, 900}) {
     EventCameraSpec spec = everything();
     spec.refractory_us = refractory_us;
-    EventCamera camera(spec, kWidth, kHeight, 5, 0, "top");
-    Frames frames = film(kWidth, kHeight, every(130, 52000), random_walk);
+    EventCamera camera(spec, kFrameWidth, kFrameHeight, 5, 0, "top");
+    Frames frames = film(kFrameWidth, kFrameHeight, every(130, 52000), fast_walk);
     const auto pictures = emulate(camera, frames);
     for (std::size_t i = 1; i + 1 < frames.size(); ++i) {
       if (i % 7 != 0) frames[i].region = kWhole;
@@ -98,12 +100,12 @@ TEST(Region, ThatShowsNothingNewChangesNothing) {
   spec.photoreceptor_hz = 0;         // takes its cut-off from the samples
   spec.shot_noise_bright_share = 1;  // or the rate would come from the samples
   spec.jitter_us = 0;                // depends on the microsecond
-  EventCamera camera(spec, kWidth, kHeight, 5, 0, "top");
-  Frames frames = film(kWidth, kHeight, {0, 10000, 20000}, sine);
+  EventCamera camera(spec, kFrameWidth, kFrameHeight, 5, 0, "top");
+  Frames frames = film(kFrameWidth, kFrameHeight, {0, 10000, 20000}, fast_sine);
   const auto plain = emulate(camera, frames);
   // On the straight line of L between the pictures.
-  const Frames between = film(kWidth, kHeight, {0, 4000}, [&](int x, int y, TimeUs) {
-    const auto i = static_cast<std::size_t>(y * kWidth + x);
+  const Frames between = film(kFrameWidth, kFrameHeight, {0, 4000}, [&](int x, int y, TimeUs) {
+    const auto i = static_cast<std::size_t>(y * kFrameWidth + x);
     const double l0 = std::log(spec.log_epsilon + static_cast<double>(frames[0].luminance[i]));
     const double l1 = std::log(spec.log_epsilon + static_cast<double>(frames[1].luminance[i]));
     return std::exp(0.6 * l0 + 0.4 * l1) - spec.log_epsilon;
@@ -121,8 +123,8 @@ TEST(Region, NoPixelIsEverStuck) {
   for (const int refractory_us : {0, 100, 3000}) {
     EventCameraSpec spec = everything();
     spec.refractory_us = refractory_us;
-    EventCamera camera(spec, kWidth, kHeight, 5, 0, "top");
-    const Frames frames = film_with_regions(random_walk);
+    EventCamera camera(spec, kFrameWidth, kFrameHeight, 5, 0, "top");
+    const Frames frames = film_with_regions(fast_walk);
     std::vector<Event> events;
     camera.reset(0, frames[0].luminance.data());
     for (std::size_t i = 1; i < frames.size(); ++i) {
@@ -132,8 +134,8 @@ TEST(Region, NoPixelIsEverStuck) {
         continue;
       }
       camera.update(frame.t_us, frame.luminance.data(), events);
-      for (int pixel = 0; pixel < kWidth * kHeight; ++pixel) {
-        const PixelState p = camera.pixel(pixel % kWidth, pixel / kWidth);
+      for (int pixel = 0; pixel < kFrameWidth * kFrameHeight; ++pixel) {
+        const PixelState p = camera.pixel(pixel % kFrameWidth, pixel / kFrameWidth);
         if (p.held) continue;
         ASSERT_LT(p.signal - p.reference, p.threshold_on);
         ASSERT_GT(p.signal - p.reference, -p.threshold_off);
@@ -146,18 +148,19 @@ TEST(Region, NoPixelIsEverStuck) {
 TEST(Region, SumOfSignedThresholdsIsTheChangeOfTheReference) {
   EventCameraSpec spec = ideal_event_camera();
   spec.mismatch_sigma = 0.03;
-  EventCamera camera(spec, kWidth, kHeight, 5, 0, "top");
-  const Frames frames = film_with_regions(random_walk);
-  std::vector<double> sum(static_cast<std::size_t>(kWidth * kHeight));
+  EventCamera camera(spec, kFrameWidth, kFrameHeight, 5, 0, "top");
+  const Frames frames = film_with_regions(fast_walk);
+  std::vector<double> sum(static_cast<std::size_t>(kFrameWidth * kFrameHeight));
   for (const Event& event : emulate(camera, frames)) {
     const PixelState p = camera.pixel(event.x, event.y);
-    sum[static_cast<std::size_t>(event.y * kWidth + event.x)] +=
+    sum[static_cast<std::size_t>(event.y * kFrameWidth + event.x)] +=
         event.polarity > 0 ? p.threshold_on : -p.threshold_off;
   }
   for (std::size_t i = 0; i < sum.size(); ++i) {
     const double start = std::log(spec.log_epsilon + static_cast<double>(frames[0].luminance[i]));
     const int pixel = static_cast<int>(i);
-    EXPECT_NEAR(sum[i], camera.pixel(pixel % kWidth, pixel / kWidth).reference - start, 1e-9);
+    EXPECT_NEAR(sum[i], camera.pixel(pixel % kFrameWidth, pixel / kFrameWidth).reference - start,
+                1e-9);
   }
 }
 

@@ -10,7 +10,7 @@
 namespace dodgesim {
 namespace {
 
-const Intrinsics kIntrinsics;  // 320 x 240
+const Intrinsics kPinhole;  // 320 x 240
 
 Eigen::Vector3d unit_vector(RandomStream& random) {
   return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
@@ -36,9 +36,9 @@ TEST(SphereBounds, AreTheSmallestBoxAboutTheOutlineOfASphereInFront) {
     ImageBox outline;
     for (int i = 0; i < 4000; ++i) {
       const double angle = 2 * std::numbers::pi * i / 4000;
-      outline.extend(kIntrinsics.project(outline_point(centre, radius, angle)));
+      outline.extend(kPinhole.project(outline_point(centre, radius, angle)));
     }
-    const ImageBox box = sphere_bounds(kIntrinsics, centre, radius);
+    const ImageBox box = sphere_bounds(kPinhole, centre, radius);
     const double tolerance = 1e-4 * outline.sizes().maxCoeff() + 1e-6;
     EXPECT_TRUE((box.min() - outline.min()).cwiseAbs().maxCoeff() < tolerance) << trial;
     EXPECT_TRUE((box.max() - outline.max()).cwiseAbs().maxCoeff() < tolerance) << trial;
@@ -51,30 +51,30 @@ TEST(SphereBounds, HoldEveryVisiblePointOfASphereBesideOrAboutTheCamera) {
   for (int trial = 0; trial < 500; ++trial) {
     const double radius = random.uniform(0.1, 1);
     const Eigen::Vector3d centre = random.uniform(0, 2) * unit_vector(random);
-    const ImageBox box = sphere_bounds(kIntrinsics, centre, radius);
+    const ImageBox box = sphere_bounds(kPinhole, centre, radius);
     for (int i = 0; i < 200; ++i) {
       const Eigen::Vector3d p = centre + radius * unit_vector(random);
       if (p.z() < 1e-6) continue;
       ++visible;
-      EXPECT_TRUE(box.contains(kIntrinsics.project(p))) << trial;
+      EXPECT_TRUE(box.contains(kPinhole.project(p))) << trial;
     }
   }
   EXPECT_GT(visible, 20000);
 }
 
 TEST(SphereBounds, AreEmptyForASphereBehindTheCamera) {
-  EXPECT_TRUE(sphere_bounds(kIntrinsics, {0.3, -0.2, -1}, 0.9).isEmpty());
-  EXPECT_TRUE(pixels_about(ImageBox(), 2, kIntrinsics).empty());
+  EXPECT_TRUE(sphere_bounds(kPinhole, {0.3, -0.2, -1}, 0.9).isEmpty());
+  EXPECT_TRUE(pixels_about(ImageBox(), 2, kPinhole).empty());
 }
 
 TEST(SphereBounds, PixelsAboutABoxAreThoseWhoseAreaComesNear) {
   const ImageBox box(Eigen::Vector2d(10.2, 20.4), Eigen::Vector2d(12.0, 22.7));
-  const Rect near = pixels_about(box, 0, kIntrinsics);
+  const Rect near = pixels_about(box, 0, kPinhole);
   EXPECT_EQ(near.x0, 10);  // covers 9.5 to 10.5
   EXPECT_EQ(near.y0, 20);
   EXPECT_EQ(near.x1, 13);
   EXPECT_EQ(near.y1, 24);  // pixel 23 starts at 22.5
-  const Rect wide = pixels_about(box, 2, kIntrinsics);
+  const Rect wide = pixels_about(box, 2, kPinhole);
   EXPECT_EQ(wide.x0, 8);
   EXPECT_EQ(wide.y1, 26);
 }
@@ -82,17 +82,17 @@ TEST(SphereBounds, PixelsAboutABoxAreThoseWhoseAreaComesNear) {
 TEST(SphereBounds, PixelsAboutABoxAreClippedToTheImage) {
   const double inf = std::numeric_limits<double>::infinity();
   const Rect all =
-      pixels_about({Eigen::Vector2d(-inf, -inf), Eigen::Vector2d(inf, inf)}, 2, kIntrinsics);
+      pixels_about({Eigen::Vector2d(-inf, -inf), Eigen::Vector2d(inf, inf)}, 2, kPinhole);
   EXPECT_EQ(all.x0, 0);
   EXPECT_EQ(all.y0, 0);
   EXPECT_EQ(all.x1, 320);
   EXPECT_EQ(all.y1, 240);
   for (const double x : {-900.0, 900.0}) {
     const ImageBox beside(Eigen::Vector2d(x, 10), Eigen::Vector2d(x + 50, 20));
-    EXPECT_TRUE(pixels_about(beside, 2, kIntrinsics).empty());
+    EXPECT_TRUE(pixels_about(beside, 2, kPinhole).empty());
   }
   const ImageBox entering(Eigen::Vector2d(-30, 10), Eigen::Vector2d(-1.5, 20));
-  EXPECT_EQ(pixels_about(entering, 2, kIntrinsics).x1, 2);
+  EXPECT_EQ(pixels_about(entering, 2, kPinhole).x1, 2);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@
 namespace dodgesim {
 namespace {
 
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 TEST(CsvTable, ReadsCellsByColumn) {
   const CsvTable table("a,b\n1,two\n\"x,\"\"y\"\"\",\n", "t.csv");

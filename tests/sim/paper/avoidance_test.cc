@@ -8,8 +8,8 @@
 namespace dodgesim {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(AvoidanceTables, NameTheShapeAboveItsCauses) {
   const PaperExperiment shapes = shapes_experiment();

@@ -8,7 +8,7 @@
 namespace dodgesim {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 // Two throws, one of 4 and one of 8 m/s, for each value of a sweep; all that `hit` says hit.
 LoadedCampaign swept(const std::vector<std::vector<AxisValue>>& sweep,

@@ -8,7 +8,7 @@
 namespace dodgesim {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 ThrowResult landed(int index, TimeUs landing_us) {
   ThrowResult result = thrown(index, false, false);

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSpeedMps = 2;
-constexpr RangeBin kNear{0, 0.5}, kMiddle{0.5, 1}, kFar{1, 1.5};
+constexpr RangeBin kNearBin{0, 0.5}, kMiddleBin{0.5, 1}, kFarBin{1, 1.5};
 
 // At the height of the middle between the cameras.
 Exposure crossing(double depth_m, double size_m, const RangeBin& bin, Visibility visibility,
@@ -33,11 +33,12 @@ TEST(Exposure, LastsAsLongAsTheCentreCrossesTheView) {
     const double near = std::min(in_view, half_chord(depth_m, 0.5));
     const double middle = std::min(in_view, half_chord(depth_m, 1)) - near;
     const double us_per_m = 2e6 / kSpeedMps;
-    EXPECT_NEAR(static_cast<double>(crossing(depth_m, 0.1, kNear, Visibility::kCentre).visible_us),
-                us_per_m * near, 2000)
+    EXPECT_NEAR(
+        static_cast<double>(crossing(depth_m, 0.1, kNearBin, Visibility::kCentre).visible_us),
+        us_per_m * near, 2000)
         << depth_m;
     EXPECT_NEAR(
-        static_cast<double>(crossing(depth_m, 0.1, kMiddle, Visibility::kCentre).visible_us),
+        static_cast<double>(crossing(depth_m, 0.1, kMiddleBin, Visibility::kCentre).visible_us),
         us_per_m * middle, 3000)
         << depth_m;
   }
@@ -68,26 +69,26 @@ TEST(Exposure, TakesDetectionsOfTheBallInTheBin) {
   const auto of = [&](const DetectionRow& row, const RangeBin& bin) {
     return crossing(0.6, 0.1, bin, Visibility::kCentre, {row}).detections;
   };
-  EXPECT_EQ(of(detection(1000000, ball, ball, 0.6), kMiddle), 1);
-  EXPECT_EQ(of(detection(1000000, ball, ball, 0.6), kFar), 0);
+  EXPECT_EQ(of(detection(1000000, ball, ball, 0.6), kMiddleBin), 1);
+  EXPECT_EQ(of(detection(1000000, ball, ball, 0.6), kFarBin), 0);
   // 20 cm too far is an error of the ball's distance; 20 cm aside is something else.
-  EXPECT_EQ(of(detection(1000000, {0.8, 0, 0}, ball, 0.6), kMiddle), 1);
-  EXPECT_EQ(of(detection(1000000, {0.6, 0.2, 0}, ball, 0.6), kMiddle), 0);
+  EXPECT_EQ(of(detection(1000000, {0.8, 0, 0}, ball, 0.6), kMiddleBin), 1);
+  EXPECT_EQ(of(detection(1000000, {0.6, 0.2, 0}, ball, 0.6), kMiddleBin), 0);
   // 0.4 s earlier the ball was at y = 0.8 m, one metre away.
   const Vector3d before(0.6, 0.8, 0);
-  EXPECT_EQ(of(detection(600000, before, before, 0.6), kMiddle), 0);
-  EXPECT_EQ(of(detection(600000, before, before, 0.6), kFar), 1);
+  EXPECT_EQ(of(detection(600000, before, before, 0.6), kMiddleBin), 0);
+  EXPECT_EQ(of(detection(600000, before, before, 0.6), kFarBin), 1);
 }
 
 TEST(Exposure, IsCutIntoPiecesOfOneWindow) {
   const Vector3d ball(0.6, 0, 0);
-  const Exposure none = crossing(0.6, 0.1, kMiddle, Visibility::kCentre);
+  const Exposure none = crossing(0.6, 0.1, kMiddleBin, Visibility::kCentre);
   EXPECT_EQ(none.pieces, none.visible_us / 10000);
   EXPECT_EQ(none.detected_pieces(), 0);
   EXPECT_EQ(none.missed_us[1] - none.missed_us[0], 10000);
   // Three detections in two pieces.
   const Exposure some =
-      crossing(0.6, 0.1, kMiddle, Visibility::kCentre,
+      crossing(0.6, 0.1, kMiddleBin, Visibility::kCentre,
                {detection(1000000, ball, ball, 0.6), detection(1000001, ball, ball, 0.6),
                 detection(1015000, {0.6, -0.03, 0}, ball, 0.6)});
   EXPECT_EQ(some.detections, 3);

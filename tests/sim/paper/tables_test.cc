@@ -13,7 +13,7 @@ namespace dodgesim {
 namespace {
 
 using Eigen::Vector3d;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 // A ball that hangs still ahead of the upper camera, 12 cm ahead of the vehicle's centre.
 constexpr TimeUs kSomeTimeUs = 1000000;

@@ -148,7 +148,7 @@ void paint(mjModel& model, int texture) {
   }
 }
 
-class AgainstMjrRender : public testing::TestWithParam<const char*> {};
+class AgainstMjrRender : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(AgainstMjrRender, TexturesLieTheSameWay) {
   const Intrinsics camera;
@@ -200,7 +200,7 @@ TEST_P(AgainstMjrRender, TexturesLieTheSameWay) {
 
 INSTANTIATE_TEST_SUITE_P(
     Shapes, AgainstMjrRender,
-    testing::Values(
+    ::testing::Values(
         "", "<geom type='plane' size='1.5 1 .1' pos='2 .1 0' zaxis='-1 .2 .3' material='flat'/>",
         "<geom type='plane' size='1.5 1 .1' pos='2 .1 0' zaxis='-1 .2 .3' "
         "material='flat_uniform'/>",

@@ -43,7 +43,7 @@ bool sphere_row(const Intrinsics& camera, const Vector3d& c, double r, double y,
   return true;
 }
 
-class SphereOutline : public testing::TestWithParam<Vector3d> {};
+class SphereOutline : public ::testing::TestWithParam<Vector3d> {};
 
 TEST_P(SphereOutline, IsTheEllipseOfTheClosedFormInEveryRow) {
   const double radius = 0.1;
@@ -78,10 +78,10 @@ TEST_P(SphereOutline, IsTheEllipseOfTheClosedFormInEveryRow) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Positions, SphereOutline,
-                         testing::Values(Vector3d(0, 0, 1), Vector3d(0.003, -0.002, 3),
-                                         Vector3d(-0.75, -0.55, 1.05), Vector3d(0.7, -0.5, 1),
-                                         Vector3d(-0.7, 0.5, 1), Vector3d(1.4, 1.05, 2),
-                                         Vector3d(0.2, 0.1, 6)));
+                         ::testing::Values(Vector3d(0, 0, 1), Vector3d(0.003, -0.002, 3),
+                                           Vector3d(-0.75, -0.55, 1.05), Vector3d(0.7, -0.5, 1),
+                                           Vector3d(-0.7, 0.5, 1), Vector3d(1.4, 1.05, 2),
+                                           Vector3d(0.2, 0.1, 6)));
 
 // Compares every pixel with brute-force ray casting: mean absolute error of partly covered pixels
 // and the largest error.

@@ -17,7 +17,7 @@ long threads() {
 TEST(RendererName, StartsNoThread) {
   const long before = threads();
   const std::string name = renderer_name();
-  EXPECT_THAT(name, testing::HasSubstr("llvmpipe"));
+  EXPECT_THAT(name, ::testing::HasSubstr("llvmpipe"));
   EXPECT_EQ(threads(), before);
   EXPECT_EQ(name, OsmesaContext(GlProfile::kCore33, 1, 1).renderer());
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
 
-class Pictures : public testing::Test {
+class Pictures : public ::testing::Test {
  protected:
   Pictures()
       : model_(compile_model(

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-ImuSpec noiseless() {
+ImuSpec noiseless_imu() {
   ImuSpec spec;
   spec.gyro_density_radps_sqrthz = 0;
   spec.gyro_walk_radps2_sqrthz = 0;
@@ -27,7 +27,7 @@ ImuSpec noiseless() {
 }
 
 TEST(Imu, MeasuresGravityUpwardsAtRestAndNothingInFreeFall) {
-  Imu imu(noiseless(), 1, 0);
+  Imu imu(noiseless_imu(), 1, 0);
   Snapshot truth;
   EXPECT_TRUE(imu.sample(truth).f_B_mps2.isApprox(Vector3d(0, 0, kGravityMps2)));
   truth.vehicle_a_W = Vector3d(0, 0, -kGravityMps2);
@@ -35,7 +35,7 @@ TEST(Imu, MeasuresGravityUpwardsAtRestAndNothingInFreeFall) {
 }
 
 TEST(Imu, WithoutNoiseItReadsTheTruthInTheBodyFrame) {
-  Imu imu(noiseless(), 1, 0);
+  Imu imu(noiseless_imu(), 1, 0);
   Snapshot truth;
   truth.t_us = 5000;
   // Nose up by 90 deg: x_B along z_W, z_B along -x_W.
@@ -50,7 +50,7 @@ TEST(Imu, WithoutNoiseItReadsTheTruthInTheBodyFrame) {
 
 TEST(Imu, WhiteNoiseHasTheVarianceOfItsDensityAtTheRate) {
   for (int rate_hz : {250, 1000}) {
-    ImuSpec spec = noiseless();
+    ImuSpec spec = noiseless_imu();
     spec.rate_hz = rate_hz;
     spec.gyro_density_radps_sqrthz = 1.75e-4;
     spec.accelerometer_density_mps2_sqrthz = 2e-3;
@@ -75,7 +75,7 @@ TEST(Imu, WhiteNoiseHasTheVarianceOfItsDensityAtTheRate) {
 }
 
 TEST(Imu, BiasWalksAwayFromItsInitialValueAsItsDensitySays) {
-  ImuSpec spec = noiseless();
+  ImuSpec spec = noiseless_imu();
   spec.gyro_walk_radps2_sqrthz = 0.01;
   spec.gyro_initial_bias_radps = 0.02;
   constexpr int kUnits = 2000;
@@ -111,7 +111,7 @@ TEST(Imu, VibrationDominatesInFlight) {
 }
 
 TEST(Imu, SaturatesAtItsRange) {
-  ImuSpec spec = noiseless();
+  ImuSpec spec = noiseless_imu();
   Imu imu(spec, 1, 0);
   Snapshot truth;
   truth.vehicle.w_W = Vector3d(100, -100, 1);
@@ -133,7 +133,7 @@ TEST(Imu, ReadingsRepeatForTheSameThrowAndDifferBetweenThrowsAndUnits) {
 
 // Streams are separate: a change of one kind of noise leaves the others as they were.
 TEST(Imu, TurningOffOneNoiseLeavesTheOthers) {
-  ImuSpec with = noiseless();
+  ImuSpec with = noiseless_imu();
   with.gyro_density_radps_sqrthz = 1e-3;
   with.gyro_vibration_radps = 0.1;
   ImuSpec white_only = with;

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-StateEstimateSpec noiseless() {
+StateEstimateSpec noiseless_estimate() {
   StateEstimateSpec spec;
   spec.position_walk_m_sqrts = 0;
   spec.position_white_m = 0;
@@ -41,7 +41,7 @@ Vector3d attitude_error(const StateReading& reading, const Snapshot& truth) {
 }
 
 TEST(StateEstimator, WithoutErrorsItTellsTheTruth) {
-  StateEstimator estimator(noiseless(), 1, 0);
+  StateEstimator estimator(noiseless_estimate(), 1, 0);
   const Snapshot truth = some_truth();
   const StateReading reading = estimator.sample(truth);
   EXPECT_EQ(reading.t_us, truth.t_us);
@@ -53,7 +53,7 @@ TEST(StateEstimator, WithoutErrorsItTellsTheTruth) {
 }
 
 TEST(StateEstimator, PositionAndYawDriftWithoutBoundAsTheirDensitiesSay) {
-  StateEstimateSpec spec = noiseless();
+  StateEstimateSpec spec = noiseless_estimate();
   spec.position_walk_m_sqrts = 0.02;
   spec.yaw_walk_rad_sqrts = 0.01;
   constexpr int kRuns = 2000;
@@ -79,7 +79,7 @@ TEST(StateEstimator, PositionAndYawDriftWithoutBoundAsTheirDensitiesSay) {
 }
 
 TEST(StateEstimator, TheHeightDriftsFromItsStartOnAndTheVelocityWithIt) {
-  StateEstimateSpec spec = noiseless();
+  StateEstimateSpec spec = noiseless_estimate();
   spec.height_drift_mps = -0.2;
   spec.height_drift_start_s = 2;
   StateEstimator estimator(spec, 1, 0);
@@ -103,7 +103,7 @@ TEST(StateEstimator, TheHeightDriftsFromItsStartOnAndTheVelocityWithIt) {
 }
 
 TEST(StateEstimator, VelocityAndTiltErrorsAreStationaryAndForgetThemselves) {
-  StateEstimateSpec spec = noiseless();
+  StateEstimateSpec spec = noiseless_estimate();
   spec.velocity_bias_mps = 0.05;
   spec.velocity_bias_correlation_s = 0.8;
   spec.tilt_error_rad = 0.01;
@@ -139,7 +139,7 @@ TEST(StateEstimator, VelocityAndTiltErrorsAreStationaryAndForgetThemselves) {
 }
 
 TEST(StateEstimator, WhiteNoiseHasItsSizeAndNoMemory) {
-  StateEstimateSpec spec = noiseless();
+  StateEstimateSpec spec = noiseless_estimate();
   spec.position_white_m = 0.002;
   spec.velocity_white_mps = 0.01;
   spec.attitude_white_rad = 0.001;
@@ -169,7 +169,7 @@ TEST(StateEstimator, WhiteNoiseHasItsSizeAndNoMemory) {
 // The estimated velocity seen from the estimated heading is the true one seen from the true
 // heading.
 TEST(StateEstimator, HeadingErrorTurnsTheVelocityWithIt) {
-  StateEstimateSpec spec = noiseless();
+  StateEstimateSpec spec = noiseless_estimate();
   spec.yaw_walk_rad_sqrts = 0.3;
   StateEstimator estimator(spec, 1, 0);
   Snapshot truth = some_truth();

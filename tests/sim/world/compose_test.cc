@@ -14,8 +14,8 @@
 namespace dodgesim {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 std::string message_of(const WorldSpec& spec) {
   try {

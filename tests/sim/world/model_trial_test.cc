@@ -14,8 +14,8 @@ namespace dodgesim {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 // A copy of the models with an object of the test's own.
 class ModelTrial : public testing::Test {

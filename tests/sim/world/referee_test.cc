@@ -15,15 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Vector3d kStart(0, 0, 5);
-
-BodyState thrown(const Vector3d& p_W, const Vector3d& v_W) {
-  BodyState state;
-  state.p_W = p_W;
-  state.v_W = v_W;
-  return state;
-}
-
 void fly(World& world, Referee& referee, int ticks) {
   for (int i = 0; i < ticks; ++i) {
     world.step(hover(world));

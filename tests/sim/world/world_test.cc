@@ -16,18 +16,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kTicksPerSecond = 4000;
-const Vector3d kStart(0, 0, 5);
 
 void run(World& world, const std::array<double, 4>& thrust_n, int ticks) {
   for (int i = 0; i < ticks; ++i) world.step(thrust_n);
-}
-
-BodyState thrown(const Vector3d& p_W, const Vector3d& v_W, const Vector3d& w_W = Vector3d::Zero()) {
-  BodyState state;
-  state.p_W = p_W;
-  state.v_W = v_W;
-  state.w_W = w_W;
-  return state;
 }
 
 TEST(WorldTest, ReadsTheVehicleFromItsModel) {
