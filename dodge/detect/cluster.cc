@@ -53,7 +53,6 @@ std::size_t longest_outlines(int width, int height) {
   return 2 * static_cast<std::size_t>((width + 1) / 2) * static_cast<std::size_t>(height);
 }
 
-float longer_side(const cv::RotatedRect& r) { return std::max(r.size.width, r.size.height); }
 float shorter_side(const cv::RotatedRect& r) { return std::min(r.size.width, r.size.height); }
 
 }  // namespace

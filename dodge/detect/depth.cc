@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "dodge/detect/disparity.h"
+#include "dodge/detect/min_area_rectangle.h"
 
 namespace dodge {
 
@@ -12,8 +13,6 @@ namespace {
 
 // How much the greater of two positive numbers exceeds the smaller, as a ratio; 0 if equal.
 double excess_ratio(double a, double b) { return std::max(a / b, b / a) - 1; }
-
-double longer_side_px(const cv::RotatedRect& r) { return std::max(r.size.width, r.size.height); }
 
 Eigen::Vector3d back_project(const CameraModel& camera, double u, double v, double depth_m) {
   // Compensated pixels are undistorted: the inverse of K alone (10).
@@ -70,7 +69,7 @@ void DepthEstimator::locate_by_size(const std::vector<Cluster>& clusters,
                                     const StateEstimate& state,
                                     std::vector<Detection>& detections) const {
   for (const Cluster& cluster : clusters) {
-    const double side_px = longer_side_px(cluster.rectangle);
+    const double side_px = longer_side(cluster.rectangle);
     const double depth_m = camera_.mean_focal_px() * config_.known_size_m / side_px;  // (7)
     append(cluster, depth_m, depth_m * config_.side_sigma_px / side_px, state, detections);
   }
@@ -152,8 +151,7 @@ std::optional<double> DepthEstimator::correlated_disparity(const View& top, cons
 
 void DepthEstimator::append(const Cluster& cluster, double depth_m, double depth_sigma_m,
                             const StateEstimate& state, std::vector<Detection>& detections) const {
-  const double size_m =
-      depth_m * longer_side_px(cluster.rectangle) / camera_.mean_focal_px();  // (9)
+  const double size_m = depth_m * longer_side(cluster.rectangle) / camera_.mean_focal_px();  // (9)
   const Eigen::Vector2d middle = centre(cluster);
   const double range_m = back_project(camera_, middle.x(), middle.y(), depth_m).norm();
   if (range_m < config_.min_range_m || range_m > config_.max_range_m) return;

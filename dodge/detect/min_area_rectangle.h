@@ -2,12 +2,15 @@
 // then rotating calipers (Toussaint 1983).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <opencv2/core.hpp>
 #include <span>
 #include <vector>
 
 namespace dodge {
+
+inline float longer_side(const cv::RotatedRect& r) { return std::max(r.size.width, r.size.height); }
 
 class MinAreaRectangle {
  public:

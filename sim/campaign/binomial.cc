@@ -9,8 +9,6 @@ namespace dodgesim {
 
 namespace {
 
-constexpr double kNegligible = 1e-18;  // of a sum: below its rounding
-
 // log(n!) less Stirling's formula, log(sqrt(2 pi n) (n/e)^n).
 double stirling_error(std::int64_t count) {
   constexpr std::int64_t kSeriesFrom = 16;
@@ -44,7 +42,7 @@ double deviance(double x, double mean) {
 double tail_downwards(std::int64_t k, std::int64_t n, double p) {
   double term = binomial_pmf(k, n, p);
   double sum = term;
-  for (std::int64_t i = k; i > 0 && term > kNegligible * sum; --i) {
+  for (std::int64_t i = k; i > 0 && term > kNegligibleTerm * sum; --i) {
     term *= static_cast<double>(i) * (1 - p) / (static_cast<double>(n - i + 1) * p);
     sum += term;
   }
@@ -54,7 +52,7 @@ double tail_downwards(std::int64_t k, std::int64_t n, double p) {
 double tail_upwards(std::int64_t k, std::int64_t n, double p) {
   double term = binomial_pmf(k, n, p);
   double sum = term;
-  for (std::int64_t i = k; i < n && term > kNegligible * sum; ++i) {
+  for (std::int64_t i = k; i < n && term > kNegligibleTerm * sum; ++i) {
     term *= static_cast<double>(n - i) * p / (static_cast<double>(i + 1) * (1 - p));
     sum += term;
   }

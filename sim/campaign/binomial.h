@@ -7,6 +7,9 @@
 
 namespace dodgesim {
 
+// A term of a sum of probabilities that is below this share of it is below its rounding.
+inline constexpr double kNegligibleTerm = 1e-18;
+
 // P(X = k) for X ~ Bin(n, p), natural logarithm. Saddle-point form of Loader 2000 ("Fast and
 // accurate computation of binomial probabilities"), relative error of P about 1e-13 at any n.
 // Requires n >= 0 and 0 <= p <= 1; -infinity where P is 0.

@@ -12,7 +12,6 @@ namespace {
 
 // Two p-values that are equal but for rounding count as a tie.
 constexpr double kTie = 1 + 1e-7;
-constexpr double kNegligibleTerm = 1e-18;  // of a sum: below its rounding
 
 // P(the first group has `least` successes or more | all successes of both).
 double fisher_tail(std::int64_t least, std::int64_t n1, std::int64_t n2, std::int64_t successes) {

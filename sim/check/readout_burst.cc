@@ -51,8 +51,9 @@ BurstFilm film(const EventCameraSpec& spec, int rows, const std::vector<TimeUs>&
     times.push_back(kBeforeBurstUs + step_us);
     times.push_back(kBeforeBurstUs + step_us + 1);
   }
-  for (int i = 1; i <= kBurstPictures; ++i)
+  for (int i = 1; i <= kBurstPictures; ++i) {
     times.push_back(kBeforeBurstUs + 2 + duration_us * i / kBurstPictures);
+  }
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   const auto events = record(camera, scene, times).events;

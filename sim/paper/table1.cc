@@ -81,8 +81,9 @@ struct ErrorSample {
 std::size_t bin_of(double depth_m) {
   std::size_t bin = 0;
   while (bin < kDepthBins.size() &&
-         !(depth_m >= kDepthBins[bin].from_m && depth_m < kDepthBins[bin].to_m))
+         !(depth_m >= kDepthBins[bin].from_m && depth_m < kDepthBins[bin].to_m)) {
     ++bin;
+  }
   return bin;
 }
 
