@@ -73,12 +73,9 @@ NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, dou
 // Events of a pixel that leaks from a random start, and after each event is held first.
 double leaks_expected(const EventCameraSpec& spec, double duration_s) {
   const double period_s = 1 / spec.leak_hz;
-  const double held_s = seconds(spec.refractory_us);
-  double events = 0;
-  for (double before_s = 0; before_s < duration_s; before_s += period_s + held_s) {
-    events += std::min(1.0, (duration_s - before_s) / period_s);
-  }
-  return events;
+  const double cycle_s = period_s + seconds(spec.refractory_us);
+  const double whole_cycles = std::floor(duration_s / cycle_s);
+  return whole_cycles + std::min(1.0, (duration_s - whole_cycles * cycle_s) / period_s);
 }
 
 void judge_leak(const NoiseCount& leak, const EventCameraSpec& spec, Check& check) {

@@ -87,8 +87,8 @@ Counts emulate(Video& video, EventCamera& camera, TimedEmulation& timed, EventWr
 void report(const Video& video, const EventCamera& camera, const Counts& counts,
             const TimedEmulation& timed) {
   const auto frames = static_cast<double>(timed.frames());
-  std::printf("events: %lld (%lld ON, %lld OFF)\n", static_cast<long long>(counts.on + counts.off),
-              static_cast<long long>(counts.on), static_cast<long long>(counts.off));
+  const long long on = counts.on, off = counts.off;
+  std::printf("events: %lld (%lld ON, %lld OFF)\n", on + off, on, off);
   if (camera.lost() > 0) {
     std::printf("lost: %lld events, because readout_max_hz was exceeded\n",
                 static_cast<long long>(camera.lost()));
