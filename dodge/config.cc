@@ -1,6 +1,7 @@
 #include "dodge/config.h"
 
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -19,6 +20,23 @@ void check_odd(const char* name, int size) {
     fail(std::string("The parameter ") + name + " is " + std::to_string(size) +
          " but must be odd, so that the kernel has a centre.");
   }
+}
+
+struct Parameter {
+  const char* name;
+  double value;
+};
+
+[[noreturn]] void refuse_order(const Parameter& smaller, const char* must_be,
+                               const Parameter& larger) {
+  std::ostringstream sentence;
+  sentence << "The parameter " << smaller.name << " is " << smaller.value << " but must " << must_be
+           << " " << larger.name << ", which is " << larger.value << ".";
+  fail(sentence.str());
+}
+
+void check_less(const Parameter& smaller, const Parameter& larger) {
+  if (smaller.value >= larger.value) refuse_order(smaller, "be less than", larger);
 }
 
 void check_camera(const CameraModel& camera) {
@@ -51,20 +69,17 @@ void validate(const Config& config) {
   check_ranges(config);
   check_odd("time_image.blur_px", config.time_image.blur_px);
   check_odd("flow.window_px", config.flow.window_px);
-  if (config.position.min_range_m >= config.position.max_range_m) {
-    fail("The parameter position.min_range_m must be less than position.max_range_m.");
-  }
-  if (config.position.min_size_m >= config.position.max_size_m) {
-    fail("The parameter position.min_size_m must be less than position.max_size_m.");
-  }
-
-  if (config.range_sensor.min_range_m >= config.range_sensor.max_range_m) {
-    fail("The parameter range_sensor.min_range_m must be less than range_sensor.max_range_m.");
-  }
+  check_less({"position.min_range_m", config.position.min_range_m},
+             {"position.max_range_m", config.position.max_range_m});
+  check_less({"position.min_size_m", config.position.min_size_m},
+             {"position.max_size_m", config.position.max_size_m});
+  check_less({"range_sensor.min_range_m", config.range_sensor.min_range_m},
+             {"range_sensor.max_range_m", config.range_sensor.max_range_m});
   validate(config.repulsive);
   validate(config.escape);
   if (config.landing.touchdown_mps > config.landing.descent_mps) {
-    fail("The parameter landing.touchdown_mps must not exceed landing.descent_mps.");
+    refuse_order({"landing.touchdown_mps", config.landing.touchdown_mps}, "not exceed",
+                 {"landing.descent_mps", config.landing.descent_mps});
   }
 
   const std::size_t needed = config.position.depth == "stereo" ? 2 : 1;

@@ -26,7 +26,7 @@ void write_text(cv::Mat3b& image, const std::string& text, int x, int y) {
   cv::putText(image, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, 0.45, {255, 255, 255}, 1, cv::LINE_AA);
 }
 
-std::string format(const char* pattern, double a) {
+std::string with_number(const char* pattern, double a) {
   char text[80];
   std::snprintf(text, sizeof text, pattern, a);
   return text;
@@ -115,11 +115,12 @@ void Film::compose(const Snapshot& snapshot) {
 }
 
 void Film::caption(const Snapshot& snapshot) {
-  write_text(picture_, format("t = %.3f s", seconds(snapshot.t_us)), 10, 20);
+  write_text(picture_, with_number("t = %.3f s", seconds(snapshot.t_us)), 10, 20);
   for (std::size_t i = 0; i < snapshot.objects.size(); ++i) {
     if (!snapshot.launched[i]) continue;
     const double distance_m = (snapshot.objects[i].p_W - snapshot.vehicle.p_W).norm();
-    write_text(picture_, format("object at %.2f m", distance_m), 10, 40 + 20 * static_cast<int>(i));
+    write_text(picture_, with_number("object at %.2f m", distance_m), 10,
+               40 + 20 * static_cast<int>(i));
   }
   write_text(picture_, std::to_string(detections_) + " detections" + (evading_ ? ", evading" : ""),
              10, kSceneHeight - 12);

@@ -17,7 +17,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr int kPosterWidth = 1280, kPosterHeight = 600;
+constexpr int kPosterSceneWidth = 1280, kPosterSceneHeight = 600;
 constexpr TimeUs kDotEveryUs = 10000;
 // As long as nothing is detected, the pilot is looked at again when an object is so much nearer.
 constexpr double kNearer = 0.9;
@@ -66,7 +66,8 @@ void Poster::on_tick(const World& world) {
 }
 
 void Poster::draw_scene(const World& world) {
-  if (!scenes_) scenes_ = std::make_unique<ScenePictures>(world, kPosterWidth, kPosterHeight);
+  if (!scenes_)
+    scenes_ = std::make_unique<ScenePictures>(world, kPosterSceneWidth, kPosterSceneHeight);
   const Snapshot& now = world.snapshot();
   const Eigen::Vector3d forward_W = now.vehicle.q_W * Eigen::Vector3d::UnitX();
   PictureView view;
@@ -74,7 +75,7 @@ void Poster::draw_scene(const World& world) {
   view.distance_m = 3.6;
   view.azimuth_deg = std::atan2(forward_W.y(), forward_W.x()) * 180 / std::numbers::pi + 60;
   view.elevation_deg = -15;
-  scene_.create(kPosterHeight, kPosterWidth);
+  scene_.create(kPosterSceneHeight, kPosterSceneWidth);
   scenes_->draw(now, view, trail_, scene_.data);
   cv::cvtColor(scene_, scene_, cv::COLOR_RGB2BGR);
 }

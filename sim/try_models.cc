@@ -100,10 +100,7 @@ void check_world(const World& world, const Trial& trial) {
                         ".xml gives at most, which is " + to_text(most_n) + " N.");
   }
   if (!trial.seen) return;
-  std::vector<int> bodies;
-  bodies.reserve(static_cast<std::size_t>(world.object_count()));
-  for (int i = 0; i < world.object_count(); ++i) bodies.push_back(world.object_body(i));
-  collect_scene(world.model(), bodies, false);
+  collect_scene(world.model(), world.object_bodies(), false);
 }
 
 // The message behind the place of the longest dotted key that it names and that the scenario gives;

@@ -2,7 +2,6 @@
 // commands, and the course for the eye.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 

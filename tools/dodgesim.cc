@@ -1,6 +1,7 @@
 // The program `dodgesim`: a closed-loop simulator of a quadrotor that dodges thrown objects with
 // event cameras.
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 #include <new>
 #include <string>

@@ -22,8 +22,11 @@ Eigen::Vector3d without_component_along(const Eigen::Vector3d& v, const Eigen::V
 void validate(const RepulsiveConfig& config) {
   check_ranges(config, "repulsive.");
   if (config.field == "khosla" && config.gamma < 1) {
-    throw std::invalid_argument(
-        "gamma must be at least 1 for the khosla field; below, its force is infinite at eta_0.");
+    std::ostringstream sentence;
+    sentence << "The parameter repulsive.gamma is " << config.gamma
+             << " but must be at least 1 for the khosla field; below, its force is infinite at "
+                "eta_0.";
+    throw std::invalid_argument(sentence.str());
   }
 }
 

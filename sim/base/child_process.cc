@@ -14,6 +14,7 @@
 #include <cstring>
 
 #include "sim/base/error.h"
+#include "sim/base/wall_clock.h"
 
 namespace dodgesim {
 
@@ -41,11 +42,10 @@ bool write_all(int fd, std::string_view text) {
 
 // All that the child says until it ends; false if it takes too long.
 bool listen_to(int fd, int wall_ms, std::string& said) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::milliseconds(wall_ms);
+  const auto end = WallClock::now() + std::chrono::milliseconds(wall_ms);
   std::array<char, 4096> buffer;
   while (true) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - WallClock::now());
     pollfd polled = {fd, POLLIN, 0};
     const int ready = left.count() > 0 ? ::poll(&polled, 1, static_cast<int>(left.count())) : 0;
     if (ready < 0 && errno == EINTR) continue;

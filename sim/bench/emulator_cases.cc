@@ -1,5 +1,6 @@
 #include <memory>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "sim/base/wall_clock.h"
 #include "sim/bench/bench_case.h"

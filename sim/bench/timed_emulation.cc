@@ -1,4 +1,5 @@
 #include "sim/bench/timed_emulation.h"
+
 #include "sim/base/wall_clock.h"
 
 namespace dodgesim {

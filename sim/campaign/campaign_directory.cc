@@ -78,7 +78,9 @@ DirectoryLock::~DirectoryLock() { ::close(fd_); }
 void expect_free(const fs::path& out, bool force) {
   if (force || !holds_anything(out)) return;
   if (!fs::exists(out / kJournalFile)) refuse_foreign(out);
-  refuse_finished(out, read_journal(out / kJournalFile));
+  throw ScenarioError(out.string() +
+                      " holds a campaign already; choose another directory, or add --force to "
+                      "overwrite it.");
 }
 
 std::string difference(const CampaignIdentity& a, const CampaignIdentity& b) {

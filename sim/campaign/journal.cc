@@ -6,6 +6,7 @@
 #include <xxhash.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <utility>
@@ -56,7 +57,7 @@ class RecordReader {
  public:
   explicit RecordReader(const std::filesystem::path& path)
       : path_(path), file_(path, std::ios::binary) {
-    if (!file_) fail("could not be opened");
+    if (!file_) fail(std::string("could not be opened: ") + std::strerror(errno));
     file_.seekg(0, std::ios::end);
     size_ = static_cast<std::uint64_t>(file_.tellg());
   }
@@ -145,7 +146,11 @@ JournalIndex read_journal(const std::filesystem::path& path) {
   JournalIndex index;
   std::string bytes;
   bool intact = false;
-  if (!reader.next(bytes, intact) || !intact) reader.fail("has lost its beginning");
+  if (!reader.next(bytes, intact) || !intact) {
+    reader.fail(
+        "has lost its beginning: what it holds cannot be read. To fly everything again, add "
+        "--force to the run");
+  }
   index.identity = identity_from_bytes(bytes);
   index.end = reader.at();
   while (reader.next(bytes, intact)) {
@@ -211,7 +216,7 @@ void Journal::open(int flags) {
 
 void Journal::add(const ThrowResult& result) {
   append(framed(to_bytes(result)));
-  if (std::chrono::steady_clock::now() - synced_ > kSyncEvery) sync();
+  if (WallClock::now() - synced_ > kSyncEvery) sync();
 }
 
 void Journal::expect_only_writer() const {
@@ -239,7 +244,7 @@ void Journal::append(const std::string& bytes) {
 }
 
 void Journal::sync() {
-  synced_ = std::chrono::steady_clock::now();
+  synced_ = WallClock::now();
   if (::fdatasync(fd_) == 0 || errno == EINVAL || errno == ENOTSUP) return;
   fail("could not be written", errno);
 }

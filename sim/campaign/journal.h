@@ -7,13 +7,13 @@
 // one that was damaged or cut off, as by a kill, is left out, and its throw can be flown again.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
 
+#include "sim/base/wall_clock.h"
 #include "sim/campaign/identity.h"
 #include "sim/campaign/result.h"
 
@@ -69,7 +69,7 @@ class Journal {
   std::filesystem::path path_;
   int fd_ = -1;
   std::uint64_t end_ = 0;
-  std::chrono::steady_clock::time_point synced_;
+  WallClock::time_point synced_;
 };
 
 // Of the result without the time that it took: equal for equal flights.

@@ -2,12 +2,11 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace dodgesim {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kShowEvery(200);
 
@@ -17,15 +16,15 @@ Progress::Progress(std::int64_t total, bool visible, std::string unit)
     : total_(total),
       visible_(visible),
       unit_(std::move(unit)),
-      begin_(Clock::now()),
+      begin_(WallClock::now()),
       shown_(begin_ - kShowEvery) {}
 
 void Progress::show(std::int64_t finished) {
   if (!visible_) return;
-  const auto now = Clock::now();
+  const auto now = WallClock::now();
   if (now - shown_ < kShowEvery) return;
   shown_ = now;
-  const double passed_s = std::chrono::duration<double>(now - begin_).count();
+  const double passed_s = seconds_since(begin_);
   const double left_s =
       passed_s / static_cast<double>(finished) * static_cast<double>(total_ - finished);
   // \x1b[K clears what is left of a longer line.

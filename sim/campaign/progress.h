@@ -1,9 +1,10 @@
 // A progress line with the time to go, for a terminal.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
+
+#include "sim/base/wall_clock.h"
 
 namespace dodgesim {
 
@@ -22,8 +23,8 @@ class Progress {
   std::int64_t total_;
   bool visible_;
   std::string unit_;
-  std::chrono::steady_clock::time_point begin_;
-  std::chrono::steady_clock::time_point shown_;
+  WallClock::time_point begin_;
+  WallClock::time_point shown_;
 };
 
 // "1 h 05 min", "3 min 20 s", "12 s".

@@ -1,5 +1,7 @@
 #include "sim/campaign/result_files.h"
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "sim/base/error.h"
@@ -7,6 +9,7 @@
 #include "sim/campaign/report.h"
 #include "sim/campaign/tables.h"
 #include "sim/files/output_file.h"
+#include "sim/files/staged_file.h"
 
 namespace dodgesim {
 
@@ -74,6 +77,16 @@ void remove_result_files(const fs::path& out) {
       throw IoError((out / name).string() + " could not be removed: " + error.message() + ".");
     }
   }
+}
+
+bool belongs_to_campaign(const fs::path& file) {
+  const fs::path whole = StagedFile::target(file);
+  std::error_code ignored;
+  if (!fs::exists(whole.parent_path() / kJournalFile, ignored)) return false;
+  const fs::path name = whole.filename();
+  return name == kJournalFile || name == kScenarioFile ||
+         std::find(std::begin(kResultFiles), std::end(kResultFiles), name) !=
+             std::end(kResultFiles);
 }
 
 void write_result_files(const fs::path& out, const Scenario& scenario, const JournalIndex& index,

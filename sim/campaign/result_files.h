@@ -17,6 +17,9 @@ void remove_result_files(const std::filesystem::path& out);
 void write_result_files(const std::filesystem::path& out, const Scenario& scenario,
                         const JournalIndex& index, bool truth, CampaignSummary& summary);
 
+// Whether a file of that name belongs to a campaign in the same directory.
+bool belongs_to_campaign(const std::filesystem::path& file);
+
 inline constexpr const char* kJournalFile = "results.bin";
 inline constexpr const char* kScenarioFile = "scenario.resolved.yaml";
 

@@ -58,7 +58,9 @@ Shard parse_shard(const std::string& text, const Environment& environment) {
     if (!count) refuse(text, "SLURM_ARRAY_TASK_COUNT is not set; say auto/COUNT");
   }
   if (!count || *count < 1 || *count > kMostShards || (!automatic && !number(first))) {
-    refuse(text, "must be INDEX/COUNT with 0 <= INDEX < COUNT, auto/COUNT or auto");
+    refuse(text,
+           "must be INDEX/COUNT with 0 <= INDEX < COUNT, auto/COUNT or auto, and COUNT at most " +
+               std::to_string(kMostShards));
   }
   const int index = automatic ? index_from(environment, text) : *number(first);
   if (index < 0 || index >= *count) {

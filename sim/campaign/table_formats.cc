@@ -42,7 +42,9 @@ void add_dodged(const StatisticsTable& table, TextTable& text) {
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       const Tally& tally = table.rows[i].statistics.pilots[pilot].tally;
       std::string cell = rate_text(tally.shown(pilot == 2));
-      if (tally.errors > 0) cell += ", " + std::to_string(tally.errors) + " errors";
+      if (tally.errors > 0) {
+        cell += ", " + std::to_string(tally.errors) + (tally.errors == 1 ? " error" : " errors");
+      }
       text.rows[i].push_back(cell);
     }
   }
@@ -156,6 +158,14 @@ class CsvRow {
   }
 };
 
+// Who has a row of its own; the pilot none that flew is not its own reference.
+std::vector<std::size_t> named_pilots(const StatisticsTable& table,
+                                      const StatisticsTable::Row& row) {
+  std::vector<std::size_t> pilots = shown_pilots(table);
+  if (row.statistics.flown().pilot == "none") std::erase(pilots, std::size_t{2});
+  return pilots;
+}
+
 // What only the flown pilot has is empty for the others.
 CsvRow csv_row_of(const StatisticsTable& table, const StatisticsTable::Row& row,
                   const PilotStatistics& of) {
@@ -218,7 +228,7 @@ Json json_of(const Measured& sample) {
 Json json_of(const StatisticsTable& table, const StatisticsTable::Row& row) {
   Json json = Json::object();
   for (std::size_t i = 0; i < table.keys.size(); ++i) json[table.keys[i]] = row.values[i];
-  for (const std::size_t pilot : shown_pilots(table)) {
+  for (const std::size_t pilot : named_pilots(table, row)) {
     const PilotStatistics& of = row.statistics.pilots[pilot];
     json["pilots"].push_back({{"pilot", of.pilot},
                               {"throws", of.tally.throws},
@@ -253,7 +263,7 @@ std::string to_latex(const StatisticsTable& table) {
 std::string to_csv(const StatisticsTable& table) {
   std::string text;
   for (const StatisticsTable::Row& row : table.rows) {
-    for (const std::size_t pilot : shown_pilots(table)) {
+    for (const std::size_t pilot : named_pilots(table, row)) {
       const CsvRow csv = csv_row_of(table, row, row.statistics.pilots[pilot]);
       if (text.empty()) text = csv.head + "\n";
       text += csv.row + "\n";

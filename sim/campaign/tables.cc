@@ -120,7 +120,7 @@ class MarkdownWriter {
   void causes() {
     const std::map<std::string, int>& causes = all().causes;
     if (causes.empty()) return;
-    text_ += "## Why it was hit or crashed\n\n| cause | throws | numbers |\n|---|---|---|\n";
+    text_ += "## Why it was hit or crashed\n\n| cause | throws | throw numbers |\n|---|---|---|\n";
     for (const CollisionCause cause : kCollisionCauses) {
       const std::string name = to_text(cause);
       const auto at = causes.find(name);
@@ -145,7 +145,7 @@ class MarkdownWriter {
     const StatisticsTable::Row* const row = find_row(table_, values);
     const Tally tally = row == nullptr ? Tally{} : row->statistics.pilots[pilot].tally;
     std::string text = rate_text(tally.shown(pilot == 2));
-    if (tally.errors > 0) text += ", " + std::to_string(tally.errors) + " errors";
+    if (tally.errors > 0) text += ", " + count_text(tally.errors, "error");
     return text;
   }
 
@@ -185,7 +185,7 @@ std::string errors_of(const Part& part) {
     const std::pair<const FlightResult*, std::string> flights[] = {
         {&result->flown, part.pilot}, {&result->none, "none"}, {&result->oracle, "oracle"}};
     for (const auto& [flight, who] : flights) {
-      if (!flight->failed()) continue;
+      if (!flight->failed() || (flight == &result->none && part.pilot == "none")) continue;
       ++failed;
       errors += "- throw " + std::to_string(result->index) + ", pilot " + who + ": " +
                 flight->error + "\n";
@@ -217,12 +217,13 @@ std::string landings_of(const Part& part) {
 
 // What a rate over the throws that would have hit does not show.
 std::string asides(const Part& part) {
-  int would_miss = 0, miss_evaded = 0, walked_into = 0;
+  int would_miss = 0, miss_evaded = 0, walked_into = 0, crashed = 0;
   Rate quiet;
   for (const ThrowResult* result : part.results) {
     if (!result->flown.ok()) continue;
     if (!result->thrown()) {
       quiet.add(result->evaded);
+      crashed += result->flown.crashed ? 1 : 0;
     } else if (result->none.ok() && !result->none.hit) {
       ++would_miss;
       miss_evaded += result->evaded ? 1 : 0;
@@ -233,6 +234,9 @@ std::string asides(const Part& part) {
   if (quiet.of > 0) {
     text += "False alarms: " + part.pilot + " evaded in " + rate_text(quiet) +
             " flights in which nobody threw.\n\n";
+    if (crashed > 0) {
+      text += "It crashed in " + count_text(crashed, "flight") + " of these.\n\n";
+    }
   }
   if (would_miss > 0) {
     text += "Of " + count_text(would_miss, "throw") + " that would have missed, " + part.pilot +

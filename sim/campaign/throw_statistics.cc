@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include "sim/config/pilot.h"
 
@@ -23,7 +24,11 @@ std::optional<double> seconds_between(std::optional<TimeUs> from, std::optional<
 
 void add_flight(const ThrowResult& result, ThrowResult::FlightOf by, PilotStatistics& sum) {
   const FlightResult& flight = result.*by;
-  if (!result.thrown() || flight.status == "not flown") return;
+  if (!result.thrown()) {
+    if (flight.ok()) sum.tally.collisions.add(!flight.unharmed());
+    return;
+  }
+  if (flight.status == "not flown") return;
   sum.tally.add(result, by);
   if (flight.ok()) sum.clearance_m.add(flight.clearance_m);
 }

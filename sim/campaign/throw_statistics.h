@@ -45,7 +45,8 @@ struct Tally {
   int would_have_hit = 0;  // of those, hit when nobody dodged
   int dodged = 0;          // of those that would have hit
   int errors = 0;          // flights of this pilot, or of the pilot none, that failed
-  Rate collisions;         // hit or crashed, of all flights of the pilot that did not fail
+  Rate collisions;         // hit or crashed, of all flights of the pilot that did not fail, also
+                           // of those in which nobody threw
   std::optional<SequentialInterval> sequential = {};  // of the success rate, see Rate
 
   void add(const ThrowResult& result, ThrowResult::FlightOf by = &ThrowResult::flown);

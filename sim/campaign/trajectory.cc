@@ -1,8 +1,10 @@
 #include "sim/campaign/trajectory.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "sim/base/error.h"
 

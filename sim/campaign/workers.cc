@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "sim/base/error.h"
+#include "sim/base/wall_clock.h"
 #include "sim/campaign/wire.h"
 
 namespace dodgesim {
@@ -35,8 +36,6 @@ struct MessageHeader {
   std::uint32_t size = 0;
   double resident_mb = 0;  // of the worker
 };
-
-using Clock = std::chrono::steady_clock;
 
 // How often somebody may ask for a stop.
 constexpr int kPollMs = 200;
@@ -173,7 +172,7 @@ class Pool {
     pid_t pid = 0;
     int fd = -1;
     Task task;  // that it flies
-    Clock::time_point begin;
+    WallClock::time_point begin;
     double first_mb = 0, last_mb = 0;
   };
 
@@ -211,7 +210,7 @@ class Pool {
 
   static void assign(Worker& worker, const Task& task) {
     worker.task = task;
-    worker.begin = Clock::now();
+    worker.begin = WallClock::now();
     // A worker that died between two throws is noticed when its socket reports the end.
     write_all(worker.fd, &task, sizeof(task));
   }
@@ -258,7 +257,7 @@ class Pool {
     if (tasks_.limits.wall_s <= 0) return;
     const std::chrono::duration<double> limit(tasks_.limits.wall_s);
     for (std::size_t i = workers_.size(); i-- > 0;) {
-      if (Clock::now() - workers_[i].begin < limit || has_result(workers_[i])) continue;
+      if (WallClock::now() - workers_[i].begin < limit || has_result(workers_[i])) continue;
       std::ostringstream reason;
       reason << "The throw took longer than the " << tasks_.limits.wall_s
              << " s of computing time of the limit.";

@@ -1,5 +1,6 @@
 #include "sim/check/film.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>

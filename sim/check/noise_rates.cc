@@ -72,6 +72,7 @@ NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, dou
 
 // Events of a pixel that leaks from a random start, and after each event is held first.
 double leaks_expected(const EventCameraSpec& spec, double duration_s) {
+  if (spec.leak_hz == 0) return 0;
   const double period_s = 1 / spec.leak_hz;
   const double cycle_s = period_s + seconds(spec.refractory_us);
   const double whole_cycles = std::floor(duration_s / cycle_s);

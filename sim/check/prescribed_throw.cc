@@ -1,7 +1,5 @@
 #include "sim/check/prescribed_throw.h"
 
-#include <numbers>
-
 #include "sim/base/random.h"
 
 namespace dodgesim {

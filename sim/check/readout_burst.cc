@@ -15,7 +15,7 @@ constexpr double kLongestBurstS = 1;  // that a burst should take
 constexpr double kLeastHz = 1;        // with less a film would last for hours
 constexpr int kBurstPictures = 100;   // while the readout works
 constexpr TimeUs kBeforeBurstUs = 1000;
-constexpr double kBurstLimit = 0.01;
+constexpr double kBurstRelativeLimit = 0.01;
 constexpr double kClockUs = 2;       // of a burst's duration, because stamps are rounded
 constexpr double kWaitLimit = 0.02;  // of the losses, as the second step takes 1 us
 
@@ -103,7 +103,7 @@ Check judge(const Burst& burst, const EventCameraSpec& expected) {
   }
   const double expected_us = 1e6 * (burst.pixels - 1) / expected.readout_max_hz;
   check.within("readout.burst", burst.duration_us, expected_us,
-               kBurstLimit * expected_us + kClockUs, "us", 1);
+               kBurstRelativeLimit * expected_us + kClockUs, "us", 1);
   check.within("readout.first", burst.first_us, static_cast<double>(expected.latency_us), kClockUs,
                "us", 1);
   check.within("readout.delivered", burst.delivered, burst.pixels, 0, "events", 0);

@@ -9,8 +9,8 @@ namespace dodgesim {
 
 namespace {
 
-constexpr int kEdgeWidth = 160, kEdgeHeight = 120;
-constexpr double kEdgePxps = 500;
+constexpr int kTextureWidth = 160, kTextureHeight = 120;
+constexpr double kTexturePxps = 500;
 constexpr TimeUs kSampleUs = 1000;  // half a pixel of motion
 constexpr TimeUs kDurationUs = 100000;
 constexpr TimeUs kSettlingUs = 20000;  // events of the first pictures are left out
@@ -24,8 +24,8 @@ constexpr double kMostOfEven = 1.25;  // of a bin
 
 StampPhases measure_stamps(const EventCameraSpec& camera_spec, std::uint64_t seed) {
   const EventCameraSpec spec = without_noise(camera_spec);
-  EventCamera camera(spec, kEdgeWidth, kEdgeHeight, seed, 0, "check", true);
-  const DriftingTexture texture(kEdgeWidth, kEdgeHeight, kEdgePxps, seed);
+  EventCamera camera(spec, kTextureWidth, kTextureHeight, seed, 0, "check", true);
+  const DriftingTexture texture(kTextureWidth, kTextureHeight, kTexturePxps, seed);
   const auto events = record(camera, texture, regular_times(kSampleUs, kDurationUs)).events;
   StampPhases measured;
   for (const Event& event : events) {

@@ -19,7 +19,7 @@ constexpr TimeUs kBeforeStepUs = 1000;
 constexpr double kFilmS = 0.5;      // after the step
 constexpr int kStepPictures = 400;  // ever farther apart
 
-constexpr double kStepLimit = 0.02;
+constexpr double kStepRelativeLimit = 0.02;
 constexpr double kAbsoluteLimitUs = 1.5;  // stamps are rounded to 1 us, and a step takes 1 us
 constexpr double kSpreadLimit = 0.05;     // of some thousand pixels
 constexpr double kStepSigmas = 3;
@@ -147,10 +147,10 @@ Check judge(const std::vector<StepAnswer>& answers, const EventCameraSpec& expec
     const double expected_median_us = quantile(expected_us, 0.5);
     const double chance_us = kStepSigmas * kMedianSigma * spread(expected_us) /
                              std::sqrt(static_cast<double>(answer.latencies_us.size()));
-    check.within(
-        name + ".median", median_us, expected_median_us,
-        kStepLimit * std::max(0.0, expected_median_us - latency_us) + kAbsoluteLimitUs + chance_us,
-        "us", 1);
+    check.within(name + ".median", median_us, expected_median_us,
+                 kStepRelativeLimit * std::max(0.0, expected_median_us - latency_us) +
+                     kAbsoluteLimitUs + chance_us,
+                 "us", 1);
     check.within(name + ".spread", spread(answer.latencies_us), spread(expected_us),
                  kSpreadLimit * spread(expected_us) + kAbsoluteLimitUs, "us", 1);
     measured.x.push_back(answer.lux);

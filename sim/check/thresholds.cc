@@ -11,11 +11,11 @@ namespace dodgesim {
 
 namespace {
 
-constexpr int kThresholdWidth = 160, kThresholdHeight = 120;
-constexpr double kMostLog = 70;         // change of log luminance that a float can hold
-constexpr double kThresholds = 6;       // mean thresholds that the ramp passes
-constexpr double kThresholdRampS = 20;  // of the ramp
-constexpr TimeUs kRampPictureEveryUs = 100000;
+constexpr int kSlowRampWidth = 160, kSlowRampHeight = 120;
+constexpr double kMostLog = 70;    // change of log luminance that a float can hold
+constexpr double kThresholds = 6;  // mean thresholds that the ramp passes
+constexpr double kSlowRampS = 20;  // of the ramp
+constexpr TimeUs kSlowRampPictureEveryUs = 100000;
 constexpr double kStandardErrors = 3;
 constexpr double kRelativeSlack = 2e-3;  // the bandwidth's lag changes a little along the ramp
 
@@ -24,25 +24,25 @@ std::vector<double> ramp_thresholds(const EventCameraSpec& spec, std::uint64_t s
   const double threshold = up ? spec.contrast_threshold_on : spec.contrast_threshold_off;
   const double spread = 4 * spec.mismatch_sigma;
   const double change = std::min(kMostLog, kThresholds * threshold + 2 * spread);
-  const double rate = change / kThresholdRampS;
+  const double rate = change / kSlowRampS;
   const Response response(spec.log_epsilon, spec.linear_below);
   const double dark = response.at(spec.linear_below + 0.01);
   const Scene ramp = even_scene([&](TimeUs t_us) {
     const double risen = rate * seconds(t_us);
     return response.inverse(dark + (up ? risen : change - risen));
   });
-  EventCamera camera(spec, kThresholdWidth, kThresholdHeight, seed, 0, "check", true);
-  const auto end_us = static_cast<TimeUs>(1e6 * kThresholdRampS);
-  const auto events = record(camera, ramp, regular_times(kRampPictureEveryUs, end_us)).events;
+  EventCamera camera(spec, kSlowRampWidth, kSlowRampHeight, seed, 0, "check", true);
+  const auto end_us = static_cast<TimeUs>(1e6 * kSlowRampS);
+  const auto events = record(camera, ramp, regular_times(kSlowRampPictureEveryUs, end_us)).events;
 
   struct Fired {
     TimeUs first_us = 0, last_us = 0;
     int count = 0;
   };
-  std::vector<Fired> fired(static_cast<std::size_t>(kThresholdWidth) * kThresholdHeight);
+  std::vector<Fired> fired(static_cast<std::size_t>(kSlowRampWidth) * kSlowRampHeight);
   for (const Event& event : events) {
     if ((event.polarity > 0) != up) continue;
-    Fired& pixel = fired[std::size_t{event.y} * kThresholdWidth + event.x];
+    Fired& pixel = fired[std::size_t{event.y} * kSlowRampWidth + event.x];
     if (pixel.count++ == 0) pixel.first_us = event.t_us;
     pixel.last_us = event.t_us;
   }
@@ -108,7 +108,7 @@ Moments clipped_normal(double mean, double sd, double lowest) {
 MeasuredThresholds measure_thresholds(const EventCameraSpec& camera, std::uint64_t seed) {
   const EventCameraSpec spec = without_noise(camera);
   return {ramp_thresholds(spec, seed, true), ramp_thresholds(spec, seed, false),
-          kThresholdWidth * kThresholdHeight};
+          kSlowRampWidth * kSlowRampHeight};
 }
 
 Check judge(const MeasuredThresholds& measured, const EventCameraSpec& expected) {

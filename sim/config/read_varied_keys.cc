@@ -1,7 +1,9 @@
 // Reader: the keys of grid and sweep.
 #include <algorithm>
+#include <optional>
 
 #include "sim/config/closest_name.h"
+#include "sim/config/numbers.h"
 #include "sim/config/reader.h"
 
 namespace dodgesim {
@@ -31,7 +33,11 @@ bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const V
     return false;
   }
   for (const YamlNode& item : node.items) {
-    const auto same = [&](const YamlNode& other) { return to_text(other) == to_text(item); };
+    // 0.20 is 0.2.
+    const std::optional<double> number = as_number(to_text(item));
+    const auto same = [&](const YamlNode& other) {
+      return number ? as_number(to_text(other)) == number : to_text(other) == to_text(item);
+    };
     if (std::any_of(axis.values.begin(), axis.values.end(), same)) {
       problem(item, name + "[" + std::to_string(axis.values.size()) + "]",
               "this value is in the list already");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <type_traits>
 
 #include "sim/config/closest_name.h"
 #include "sim/config/numbers.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "sim/config/layers.h"
 #include "sim/config/writer.h"
@@ -68,7 +69,8 @@ class Bases {
 
   fs::path named_file(const YamlNode& extends) {
     if (extends.kind != YamlNode::Kind::kScalar || !extends.tag.empty()) {
-      problems_.fail(extends.at, "extends must be the name of a scenario's file.");
+      problems_.fail(extends.at, "extends is " + to_text(extends) +
+                                     ", but must be the name of a scenario's file.");
     }
     fs::path name = extends.text;
     if (name.is_absolute()) refuse(extends, "must be relative to the folder of this file");

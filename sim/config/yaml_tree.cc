@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "sim/base/error.h"
 #include "sim/config/writer.h"
@@ -204,7 +205,8 @@ void check_encoding(std::string_view text, Problems& problems, const Place& plac
     if (length == 0) {
       const int byte = static_cast<unsigned char>(text[i]);
       problems.fail(place.lines ? at : place.whole(),
-                    "This is not UTF-8 text (byte " + std::to_string(byte) + ").");
+                    (byte < 0x80 ? "This is a control character" : "This is not UTF-8 text") +
+                        std::string(" (byte ") + std::to_string(byte) + ").");
     }
     if (text[i] == '\n') {
       at = {at.line + 1, 1, place.source};
@@ -213,6 +215,20 @@ void check_encoding(std::string_view text, Problems& problems, const Place& plac
     }
     i += length;
   }
+}
+
+// YAML's own messages seldom name it.
+std::string hint_of_tab(std::string_view text) {
+  int line = 1;
+  bool indenting = true;
+  for (const char c : text) {
+    if (c == '\t' && indenting) {
+      return " Line " + std::to_string(line) + " is indented with a tab; YAML takes spaces only.";
+    }
+    line += c == '\n' ? 1 : 0;
+    indenting = c == '\n' || (indenting && c == ' ');
+  }
+  return "";
 }
 
 // The only document of the text.
@@ -241,7 +257,8 @@ YamlNode parse_document(std::string_view text, Problems& problems, const Place& 
   } catch (const Stop& stop) {
     problems.fail(stop.at, stop.sentence);
   } catch (const YAML::Exception& error) {
-    problems.fail(place.at(error.mark), "This is not valid YAML (" + error.msg + ").");
+    problems.fail(place.at(error.mark),
+                  "This is not valid YAML (" + error.msg + ")." + hint_of_tab(text));
   }
 }
 

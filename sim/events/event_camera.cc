@@ -9,10 +9,6 @@ namespace dodgesim {
 
 namespace {
 
-std::string named(std::string_view camera, const char* what) {
-  return std::string(camera) + "/" + what;
-}
-
 int checked_side(int side) {
   if (side < 1 || side > EventCamera::kMaxSide) {
     throw std::invalid_argument("An event camera has 1 to " +
@@ -28,10 +24,10 @@ EventCamera::EventCamera(const EventCameraSpec& spec, int width, int height, std
     : width_(checked_side(width)),
       height_(checked_side(height)),
       keep_causes_(keep_causes),
-      pixels_(spec, width, height, RandomStream(seed, 0, named(name, "device")),
-              RandomStream(seed, throw_index, named(name, "start")), keep_causes),
+      pixels_(spec, width, height, RandomStream(seed, 0, stream_name(name, "device")),
+              RandomStream(seed, throw_index, stream_name(name, "start")), keep_causes),
       noise_(spec, width, height, seed, throw_index, name),
-      readout_(spec, width, height, RandomStream(seed, throw_index, named(name, "jitter"))) {}
+      readout_(spec, width, height, RandomStream(seed, throw_index, stream_name(name, "jitter"))) {}
 
 void EventCamera::reset(TimeUs t_us, const Picture& picture) {
   t_us_ = last_sample_us_ = t_us;

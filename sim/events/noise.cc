@@ -11,10 +11,6 @@ constexpr double kBrightLux = 1000;
 
 double share(double part, double other) { return part + other > 0 ? part / (part + other) : 0.5; }
 
-std::string named(std::string_view camera, const char* what) {
-  return std::string(camera) + "/" + what;
-}
-
 std::vector<std::uint32_t> draw_hot_pixels(const RandomStream& device, std::uint32_t count,
                                            double fraction) {
   std::vector<std::uint32_t> hot;
@@ -26,17 +22,21 @@ std::vector<std::uint32_t> draw_hot_pixels(const RandomStream& device, std::uint
 
 }  // namespace
 
+std::string stream_name(std::string_view camera, const char* what) {
+  return std::string(camera) + "/" + what;
+}
+
 Noise::Noise(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
              std::uint64_t throw_index, std::string_view name)
     : width_(width),
       bright_share_(spec.shot_noise_bright_share),
       bright_luminance_(kBrightLux / spec.illuminance_lux),
-      shot_(RandomStream(seed, throw_index, named(name, "shot")),
+      shot_(RandomStream(seed, throw_index, stream_name(name, "shot")),
             static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height),
             spec.shot_noise_on_hz + spec.shot_noise_off_hz,
             share(spec.shot_noise_on_hz, spec.shot_noise_off_hz)),
-      hot_(RandomStream(seed, throw_index, named(name, "hot")),
-           draw_hot_pixels(RandomStream(seed, 0, named(name, "hot pixels")),
+      hot_(RandomStream(seed, throw_index, stream_name(name, "hot")),
+           draw_hot_pixels(RandomStream(seed, 0, stream_name(name, "hot pixels")),
                            static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height),
                            spec.hot_pixel_fraction),
            spec.hot_pixel_hz, share(spec.shot_noise_on_hz, spec.shot_noise_off_hz)) {}

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,9 @@
 #include "sim/render/camera.h"
 
 namespace dodgesim {
+
+// Of the random stream of one thing in one camera.
+std::string stream_name(std::string_view camera, const char* what);
 
 struct NoiseEvent {
   TimeUs t_us = 0;

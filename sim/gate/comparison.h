@@ -1,7 +1,6 @@
 // Two campaigns side by side: what became of their throws.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

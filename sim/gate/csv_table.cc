@@ -1,5 +1,7 @@
 #include "sim/gate/csv_table.h"
 
+#include <utility>
+
 #include "sim/base/error.h"
 #include "sim/config/numbers.h"
 #include "sim/files/input_file.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "sim/base/error.h"
 #include "sim/files/input_file.h"
@@ -105,14 +106,13 @@ bool same_object(const DrawnObject& a, const DrawnObject& b) {
                                         b.numbers.end(), same_number);
 }
 
-// What the manifest does not say, or does not exist to say, is not known.
-std::optional<std::uint64_t> seed_of(const fs::path& manifest) {
-  if (!fs::exists(manifest)) return std::nullopt;
-  const auto json = nlohmann::json::parse(read_file(manifest), nullptr, false);
-  if (!json.is_object()) return std::nullopt;
-  const auto seed = json.value(nlohmann::json::json_pointer("/campaign/seed"), nlohmann::json());
-  if (!seed.is_number_unsigned()) return std::nullopt;
-  return seed.get<std::uint64_t>();
+// A number of the campaign. What the manifest does not say is not known.
+std::optional<std::uint64_t> find_number(const nlohmann::json& manifest, const char* key) {
+  if (!manifest.is_object()) return std::nullopt;
+  const auto number = manifest.value(nlohmann::json::json_pointer(std::string("/campaign/") + key),
+                                     nlohmann::json());
+  if (!number.is_number_unsigned()) return std::nullopt;
+  return number.get<std::uint64_t>();
 }
 
 }  // namespace
@@ -121,7 +121,11 @@ CampaignTables read_tables(const fs::path& directory) {
   CampaignTables tables{CsvTable(directory / "throws.csv")};
   const fs::path objects = directory / "objects.csv";
   if (fs::exists(objects)) tables.objects.emplace(objects);
-  tables.seed = seed_of(directory / "manifest.json");
+  const fs::path path = directory / "manifest.json";
+  if (!fs::exists(path)) return tables;
+  const auto manifest = nlohmann::json::parse(read_file(path), nullptr, false);
+  tables.seed = find_number(manifest, "seed");
+  tables.planned = find_number(manifest, "throws");
   return tables;
 }
 

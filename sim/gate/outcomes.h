@@ -13,11 +13,13 @@ namespace dodgesim {
 
 struct CampaignTables {
   CsvTable throws;
-  std::optional<CsvTable> objects = std::nullopt;    // needed where a throw has several objects
-  std::optional<std::uint64_t> seed = std::nullopt;  // the campaign's, if it is known
+  std::optional<CsvTable> objects = std::nullopt;       // needed where a throw has several objects
+  std::optional<std::uint64_t> seed = std::nullopt;     // the campaign's, if it is known
+  std::optional<std::uint64_t> planned = std::nullopt;  // throws of its scenario, if it is known
 };
 
-// throws.csv and, if they are there, objects.csv and the seed of manifest.json. Throws IoError.
+// throws.csv and, if they are there, objects.csv, and seed and throws of manifest.json. Throws
+// IoError.
 CampaignTables read_tables(const std::filesystem::path& directory);
 
 // One object of a throw, as drawn before anything flies.

@@ -20,13 +20,6 @@ namespace {
 // Smoothed edges need the pixels around them.
 constexpr int kSmoothingPx = 2;
 
-std::vector<int> object_bodies(const World& world) {
-  std::vector<int> bodies;
-  bodies.reserve(static_cast<std::size_t>(world.object_count()));
-  for (int i = 0; i < world.object_count(); ++i) bodies.push_back(world.object_body(i));
-  return bodies;
-}
-
 Rect clipped(const Rect& region, const Intrinsics& image) {
   return {std::max(region.x0, 0), std::max(region.y0, 0), std::min(region.x1, image.width),
           std::min(region.y1, image.height)};
@@ -246,7 +239,7 @@ LuminanceRenderer::LuminanceRenderer(const mjModel& model, const std::vector<int
 
 LuminanceRenderer::LuminanceRenderer(const World& world, const Intrinsics& intrinsics,
                                      const RenderSpec& spec)
-    : LuminanceRenderer(world.model(), object_bodies(world), intrinsics, spec) {}
+    : LuminanceRenderer(world.model(), world.object_bodies(), intrinsics, spec) {}
 
 LuminanceRenderer::~LuminanceRenderer() = default;
 

@@ -11,13 +11,6 @@ namespace {
 
 constexpr int kMaxGeoms = 2000 + ScenePictures::kMaxDots;
 
-std::vector<int> object_bodies(const World& world) {
-  std::vector<int> bodies;
-  bodies.reserve(static_cast<std::size_t>(world.object_count()));
-  for (int i = 0; i < world.object_count(); ++i) bodies.push_back(world.object_body(i));
-  return bodies;
-}
-
 mjrRect checked_viewport(int width, int height) {
   if (width < 1 || width > ScenePictures::kMaxWidth || height < 1 ||
       height > ScenePictures::kMaxHeight) {
@@ -62,7 +55,7 @@ ScenePictures::ScenePictures(const mjModel& model, int vehicle_body,
 }
 
 ScenePictures::ScenePictures(const World& world, int width, int height)
-    : ScenePictures(world.model(), world.vehicle_body(), object_bodies(world), width, height) {}
+    : ScenePictures(world.model(), world.vehicle_body(), world.object_bodies(), width, height) {}
 
 ScenePictures::~ScenePictures() {
   context_.make_current();

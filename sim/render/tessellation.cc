@@ -1,7 +1,6 @@
 #include "sim/render/tessellation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>

@@ -1,6 +1,7 @@
 #include "sim/render/uniforms.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dodgesim::glsl {
 

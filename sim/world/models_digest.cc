@@ -5,7 +5,6 @@
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "sim/base/error.h"
 #include "sim/world/mjcf.h"

@@ -65,6 +65,7 @@ class World {
   const mjModel& model() const { return *model_; }
   const mjData& data() const { return *data_; }
   int vehicle_body() const { return vehicle_body_; }
+  const std::vector<int>& object_bodies() const { return object_bodies_; }
   int object_body(int i) const { return object_bodies_.at(static_cast<std::size_t>(i)); }
 
   // Whether the geom belongs to the room, a hull or an object's surface, rather than being for the

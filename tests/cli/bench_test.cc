@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <vector>
 
 #include "tests/cli/program.h"
 #include "tests/sim/files/temporary_directory.h"
@@ -13,8 +14,8 @@ namespace {
 using dodgesim::testing::contents;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 struct Line {
   std::string name, unit;

@@ -14,9 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class CampaignCommandTest : public testing::Test {
+class CampaignCommandTest : public ::testing::Test {
  protected:
   CampaignCommandTest() {
     fs::create_directories(root_);

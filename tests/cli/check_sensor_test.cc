@@ -12,8 +12,8 @@ using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using dodgesim::testing::put;
 using dodgesim::testing::TemporaryDirectory;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(CheckSensorCommand, PassesAndWritesAReport) {
   const TemporaryDirectory directory;

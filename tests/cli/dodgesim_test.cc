@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "tests/cli/program.h"
 #include "tests/sim/files/temporary_directory.h"
@@ -17,14 +18,14 @@ namespace fs = std::filesystem;
 using dodgesim::testing::contents;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const fs::path kSource = DODGESIM_SOURCE_DIR;
 
-class DodgesimTest : public testing::Test {
+class DodgesimTest : public ::testing::Test {
  protected:
   DodgesimTest() {
-    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
     root_ = fs::temp_directory_path() / ("dodgesim_" + name + "_" + std::to_string(::getpid()));
     fs::create_directories(root_);
   }

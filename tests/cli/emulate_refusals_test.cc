@@ -17,8 +17,8 @@ using dodgesim::testing::kPixels;
 using dodgesim::testing::Outcome;
 using dodgesim::testing::put;
 using dodgesim::testing::random_film;
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 class EmulateRefusalsTest : public EmulateCommandTest {
  protected:

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "tests/cli/emulate_command.h"
 
@@ -22,12 +23,12 @@ using dodgesim::testing::npy_array;
 using dodgesim::testing::Outcome;
 using dodgesim::testing::put;
 using dodgesim::testing::random_film;
-using testing::ContainsRegex;
-using testing::EndsWith;
-using testing::HasSubstr;
-using testing::MatchesRegex;
-using testing::Not;
-using testing::StartsWith;
+using ::testing::ContainsRegex;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 struct Event {
   double t_us = 0;

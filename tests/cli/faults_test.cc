@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <thread>
 
 #include "tests/cli/program.h"
@@ -22,13 +21,13 @@ namespace fs = std::filesystem;
 using dodgesim::testing::contents;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 // Short flights without a throw or eyes, some 20 ms each.
-class FaultsTest : public testing::Test {
+class FaultsTest : public ::testing::Test {
  protected:
   FaultsTest() {
-    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
     root_ = fs::temp_directory_path() / ("dodgesim_" + name + "_" + std::to_string(::getpid()));
     fs::create_directories(root_);
     std::ofstream(path("s.yaml")) << "seed: 5\nrepeats: 60\npilot: none\nduration_s: 0.1\n";
@@ -128,8 +127,8 @@ TEST_F(FaultsTest, AFullDiskIsReportedAndTheRunResumesOnceThereIsSpace) {
   EXPECT_EQ(contents(path("full_code")), "4\n");
   EXPECT_THAT(contents(path("full.txt")),
               HasSubstr("results.bin could not be written: No space left on device."));
-  EXPECT_THAT(contents(path("left")), testing::Not(HasSubstr("throws.csv")));
-  EXPECT_THAT(contents(path("left")), testing::Not(HasSubstr("manifest.json")));
+  EXPECT_THAT(contents(path("left")), ::testing::Not(HasSubstr("throws.csv")));
+  EXPECT_THAT(contents(path("left")), ::testing::Not(HasSubstr("manifest.json")));
   EXPECT_EQ(contents(path("resumed_code")), "0\n") << contents(path("resumed.txt"));
   expect_same(root_ / "whole", root_ / "resumed");
 }

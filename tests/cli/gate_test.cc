@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "tests/cli/command_test.h"
 
@@ -15,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 class GateCommandTest : public dodgesim::testing::CommandTest {
  protected:
@@ -120,7 +119,7 @@ TEST_F(GateCommandTest, UpdateNeverWritesOverWhatIsNoBaseline) {
   fs::rename(root_ / "campaign", root_ / "b");
   const Outcome refused = gate("--update");
   EXPECT_EQ(refused.exit_code, 4);
-  EXPECT_THAT(refused.output, HasSubstr(path("b") + " is no baseline, and no broken one: "));
+  EXPECT_THAT(refused.output, HasSubstr(path("b") + " is not empty, but no baseline: "));
   EXPECT_EQ(contents("b/manifest.json"), manifest);
   EXPECT_FALSE(fs::exists(root_ / "out")) << "nothing is flown in vain";
 }

@@ -5,17 +5,18 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "tests/cli/program.h"
+#include "tests/sim/files/temporary_directory.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using dodgesim::testing::contents;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 // Physics only, so that it takes no time: a throw each that is dodged, that hits and that misses.
 constexpr const char* kScenario = R"(
@@ -29,7 +30,7 @@ throw: {size_m: !choice [0.2, 0.3], distance_m: 3, speed_mps: !uniform [4, 9], l
 after_s: 0.2
 )";
 
-class ReportCommandTest : public testing::Test {
+class ReportCommandTest : public ::testing::Test {
  protected:
   ReportCommandTest() {
     fs::create_directories(root_);
@@ -77,9 +78,47 @@ TEST_F(ReportCommandTest, ReportAndTableReadADirectory) {
 
   const Outcome table = dodgesim("table " + path("out") + " --by speed_mps,size_m --format csv");
   EXPECT_EQ(table.exit_code, 0);
-  EXPECT_THAT(table.output, testing::StartsWith("speed_mps,size_m,pilot,throws,would_have_hit,"));
+  EXPECT_THAT(table.output, ::testing::StartsWith("speed_mps,size_m,pilot,throws,would_have_hit,"));
   EXPECT_EQ(dodgesim("table " + path("out") + " --by colour").exit_code, 2);
   EXPECT_EQ(dodgesim("table " + path("nowhere")).exit_code, 4);
+}
+
+TEST_F(ReportCommandTest, NothingIsWrittenOverACampaign) {
+  const std::string results = contents(root_ / "out/results.bin");
+  for (const std::string file : {"results.bin", "throws.csv", "table.csv", "manifest.json"}) {
+    const std::string out = path("out/" + file);
+    const Outcome table = dodgesim("table " + path("out") + " --out " + out);
+    EXPECT_EQ(table.exit_code, 2);
+    EXPECT_EQ(table.output, "--out " + out + " would overwrite a file of a campaign.\n");
+    EXPECT_EQ(dodgesim("report " + path("out") + " --out " + out).exit_code, 2);
+  }
+  fs::create_symlink(root_ / "out/results.bin", root_ / "link");
+  EXPECT_EQ(dodgesim("table " + path("out") + " --out " + path("link")).exit_code, 2);
+  EXPECT_EQ(contents(root_ / "out/results.bin"), results);
+  EXPECT_EQ(dodgesim("table " + path("out") + " --out " + path("out/mine.md")).exit_code, 0);
+}
+
+TEST_F(ReportCommandTest, CompareSaysWhatACampaignLacks) {
+  const std::string run = "run " + path("s.yaml") + " -j 1 --shard ";
+  ASSERT_EQ(dodgesim(run + "0/2 --out " + path("part")).exit_code, 0);
+  const Outcome outcome = dodgesim("compare " + path("part") + " " + path("out"));
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output,
+              HasSubstr(path("part") + " has 2 of the 4 throws of its scenario.\n"));
+  EXPECT_THAT(outcome.output, Not(HasSubstr(path("out") + " has ")));
+  const Outcome empty = dodgesim(run + "'' --out " + path("empty"));
+  EXPECT_EQ(empty.exit_code, 2);
+  EXPECT_THAT(empty.output, HasSubstr("--shard: nothing was given"));
+  EXPECT_FALSE(fs::exists(root_ / "empty"));
+}
+
+TEST_F(ReportCommandTest, APilotWithoutCamerasHasNoEventsToReplay) {
+  const Outcome outcome =
+      dodgesim("replay " + path("out") + " --throw 1 --events " + path("events.h5"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.output, "--events " + path("events.h5") +
+                                ": the pilot of throw 1 is oracle, which flies without cameras.\n");
+  EXPECT_FALSE(fs::exists(root_ / "events.h5"));
 }
 
 int count_of(const std::string& text, const std::string& part) {
@@ -100,7 +139,7 @@ TEST_F(ReportCommandTest, ASweepHasACurveWithItsBandForEachCellOfTheGrid) {
   EXPECT_EQ(count_of(dom, "aria-label=\"delays.compute_us 30000, speed "), 2) << "the table's rows";
   // Without --by the cells of the grid are told apart.
   EXPECT_THAT(dodgesim("table " + path("swept") + " --format csv").output,
-              testing::StartsWith("delays.compute_us,throw.speed_mps,pilot,"));
+              ::testing::StartsWith("delays.compute_us,throw.speed_mps,pilot,"));
 }
 
 TEST_F(ReportCommandTest, ASweepOverNamesSaysThatThereIsNoCurve) {
@@ -120,7 +159,7 @@ TEST_F(ReportCommandTest, ACampaignThatStopEndedIsWhole) {
   const Outcome table = dodgesim("table " + path("early"));
   EXPECT_EQ(table.exit_code, 0) << table.output;
   EXPECT_THAT(table.output, HasSubstr("sequential 95 %"));
-  EXPECT_THAT(table.output, testing::ContainsRegex("ended by stop after [0-9]+ of at most 200"));
+  EXPECT_THAT(table.output, ::testing::ContainsRegex("ended by stop after [0-9]+ of at most 200"));
   const Outcome report = dodgesim("report " + path("early"));
   EXPECT_EQ(report.exit_code, 0) << report.output;
   const Outcome check = dodgesim("merge --check " + path("early"));

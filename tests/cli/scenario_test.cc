@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <regex>
 #include <sstream>
 #include <vector>
@@ -18,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 class ScenarioCommandTest : public dodgesim::testing::CommandTest {
  protected:
@@ -62,12 +61,13 @@ TEST_F(ScenarioCommandTest, WhatOnlyTheModelsRefuseHasAPlaceToo) {
   write("start.yaml", "pilot: none\nmission:\n  start_m: [50, 0, 2]\n");
   const Outcome start = dodgesim("validate " + path("start.yaml"));
   EXPECT_EQ(start.exit_code, 2);
-  EXPECT_THAT(start.output, testing::StartsWith(path("start.yaml") +
-                                                ":3:12: The vehicle cannot start at (50, 0, 2) m"));
+  EXPECT_THAT(start.output,
+              ::testing::StartsWith(path("start.yaml") +
+                                    ":3:12: The vehicle cannot start at (50, 0, 2) m"));
   const Outcome weak =
       dodgesim("validate " + path("s.yaml") + " --set vehicle_overrides.max_thrust_n=1");
   EXPECT_EQ(weak.exit_code, 2);
-  EXPECT_THAT(weak.output, AllOf(testing::StartsWith("--set vehicle_overrides.max_thrust_n=1: "),
+  EXPECT_THAT(weak.output, AllOf(::testing::StartsWith("--set vehicle_overrides.max_thrust_n=1: "),
                                  HasSubstr("lift only 0.4")));
 }
 
@@ -155,7 +155,7 @@ TEST_F(ScenarioCommandTest, AMeshThatCrashesMujocoCostsASentenceAndExitCodeTwo) 
     const Outcome refused = dodgesim(std::string(command) + " " + path("s.yaml") + " --models " +
                                      path("models") + " --set throw.object=evil");
     EXPECT_EQ(refused.exit_code, 2) << refused.output;
-    EXPECT_THAT(refused.output, AllOf(HasSubstr("objects/evil.xml"), testing::EndsWith(".\n")));
+    EXPECT_THAT(refused.output, AllOf(HasSubstr("objects/evil.xml"), ::testing::EndsWith(".\n")));
   }
   EXPECT_FALSE(fs::exists("x"));
 }

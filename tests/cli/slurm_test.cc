@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "tests/cli/command_test.h"
 
@@ -16,7 +15,7 @@ namespace fs = std::filesystem;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using dodgesim::testing::shell;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 class SlurmTest : public dodgesim::testing::CommandTest {
  protected:

@@ -35,8 +35,8 @@ double tilt_rad(const Snapshot& now) {
   return std::acos((now.vehicle.q_W * Eigen::Vector3d::UnitZ()).z());
 }
 
-class DriftRate : public testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(Rates, DriftRate, testing::Values(-1.0, -0.3, 0.3, 1.0),
+class DriftRate : public ::testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Rates, DriftRate, ::testing::Values(-1.0, -0.3, 0.3, 1.0),
                          [](const auto& info) { return std::to_string(info.index); });
 
 TEST_P(DriftRate, LandsTheVehicleGently) {

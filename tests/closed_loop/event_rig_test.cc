@@ -53,7 +53,7 @@ Centroid centroid(const std::vector<Event>& events) {
 
 // A vehicle that stands still in the air, its cameras, and a ball that moves as it is told: the
 // physics advance only the time.
-class RigTest : public testing::Test {
+class RigTest : public ::testing::Test {
  protected:
   RigTest() : world_({scenario("{}").models_dir, "room", "qav_rxl", {{"ball", 0.2}}}) {
     setup_.intrinsics = intrinsics(CameraSpec{});

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 // A vehicle that moves as it is told in front of the room, and a ball.
-class CausesTest : public testing::Test {
+class CausesTest : public ::testing::Test {
  protected:
   CausesTest() : world_({scenario("{}").models_dir, "room", "qav_rxl", {{"ball", 0.2}}}) {
     setup_.intrinsics = intrinsics(CameraSpec{});

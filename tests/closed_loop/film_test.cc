@@ -20,10 +20,10 @@ namespace fs = std::filesystem;
 const cv::Vec3b kGrey(110, 110, 110), kWhite(255, 255, 255), kBlack(0, 0, 0);
 
 // A folder of this test's own, removed afterwards.
-class FilmTest : public testing::Test {
+class FilmTest : public ::testing::Test {
  protected:
   FilmTest() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     folder_ = fs::temp_directory_path() /
               ("dodgesim_" + std::string(test->name()) + "_" + std::to_string(getpid()));
     fs::create_directories(folder_);

@@ -41,8 +41,8 @@ FlightRecord fly_as(const std::string& pilot, const Scenario& scenario, FlightPl
   return fly(scenario, plan, observer);
 }
 
-class Throws : public testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Missions, Throws, testing::Values(kHover, kGoalFlight),
+class Throws : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Missions, Throws, ::testing::Values(kHover, kGoalFlight),
                          [](const auto& info) { return info.index == 0 ? "Hover" : "GoalFlight"; });
 
 TEST_P(Throws, HitAVehicleThatDoesNotDodgeWhenTheyAreAimedAtIt) {
@@ -62,7 +62,7 @@ TEST_P(Throws, HitAVehicleThatDoesNotDodgeWhenTheyAreAimedAtIt) {
 }
 
 // Models of the project, but with a vehicle whose rotor drag is so large that a tick is too long.
-class DivergingVehicle : public testing::Test {
+class DivergingVehicle : public ::testing::Test {
  protected:
   DivergingVehicle() {
     fs::remove_all(models_);
@@ -338,7 +338,7 @@ TEST(Loop, AResultSaysWhatWasThrownAndHowItEnded) {
   EXPECT_EQ(result.speed_mps, toss.speed_mps);
   EXPECT_EQ(result.distance_m, toss.distance_m);
   EXPECT_EQ(result.bearing_deg, toss.bearing_deg);
-  EXPECT_THAT(result.aim_offset_m, testing::ElementsAre(0.1, -0.05));
+  EXPECT_THAT(result.aim_offset_m, ::testing::ElementsAre(0.1, -0.05));
   EXPECT_EQ(result.launch_us, toss.launch_us);
   EXPECT_TRUE(result.none.hit);
   EXPECT_EQ(result.none.clearance_m, 0);

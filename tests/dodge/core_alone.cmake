@@ -22,7 +22,7 @@ if(BUILD)
   file(REMOVE_RECURSE ${WORK_DIR})
   file(COPY ${SOURCE_DIR}/dodge DESTINATION ${WORK_DIR})
   set(configure -S ${WORK_DIR}/dodge -B ${WORK_DIR}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Debug
-                -DCMAKE_CXX_FLAGS_DEBUG=-O0
+                -DCMAKE_CXX_FLAGS_DEBUG=-O0  # without -g: built to see whether it builds
                 -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
   foreach(step "${configure}"
                "--build;${WORK_DIR}/build;--parallel;2")

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "dodge/camera_model.h"

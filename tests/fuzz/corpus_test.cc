@@ -67,8 +67,8 @@ std::vector<Input> corpus(const std::string& target, Found found) {
   return inputs;
 }
 
-class Corpus : public testing::TestWithParam<Target> {};
-INSTANTIATE_TEST_SUITE_P(Readers, Corpus, testing::ValuesIn(kTargets),
+class Corpus : public ::testing::TestWithParam<Target> {};
+INSTANTIATE_TEST_SUITE_P(Readers, Corpus, ::testing::ValuesIn(kTargets),
                          [](const auto& info) { return info.param.name; });
 
 TEST_P(Corpus, BreaksNoPromise) {

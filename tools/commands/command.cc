@@ -49,6 +49,13 @@ CLI::Validator whole_number_between(std::uint64_t least, std::uint64_t most) {
   return between("a whole number", least, most);
 }
 
+CLI::Validator not_empty() {
+  return {[](const std::string& text) {
+            return text.empty() ? std::string("nothing was given") : std::string();
+          },
+          ""};
+}
+
 CLI::Validator file_ending(const std::string& extension) {
   return {[extension](const std::string& text) {
             return std::filesystem::path(text).extension() == extension
@@ -119,7 +126,8 @@ std::string truth_text(const EventTruthSums& sums) {
            std::to_string(counts.object_events) + " that an object made";
   };
   return "Events before the vehicle evades: " + line(sums.before) +
-         "\nEvents while it evades: " + line(sums.after);
+         "\nEvents while it evades: " + line(sums.after) +
+         "\n(An event counts once for each of the pilot's windows that it is in.)";
 }
 
 }  // namespace dodgesim

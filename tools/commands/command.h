@@ -47,7 +47,7 @@ void add_set_option(CLI::App& command, std::vector<std::string>& set);
 std::vector<Setting> parse_settings(const std::string& option,
                                     const std::vector<std::string>& texts);
 
-// Two lines about precision and recall, without the last line's end.
+// Three lines about precision and recall, without the last line's end.
 std::string truth_text(const EventTruthSums& sums);
 
 // The exit code of a command that reads a campaign; tells on standard error of throws that it
@@ -57,6 +57,7 @@ int completeness(const std::string& directory, const LoadedCampaign& campaign);
 // What the value of an option must be; the ranges of CLI11 let a NaN pass.
 CLI::Validator number_between(double least, double most);
 CLI::Validator whole_number_between(std::uint64_t least, std::uint64_t most);
+CLI::Validator not_empty();
 CLI::Validator file_ending(const std::string& extension);
 
 // The text "n throws" with the right plural.

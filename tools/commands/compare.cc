@@ -3,6 +3,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "sim/base/error.h"
 #include "sim/gate/comparison.h"
@@ -27,8 +28,13 @@ void print_changes(const std::string& heading, const std::vector<ChangedThrow>& 
 
 // Outcomes by the number of their sweep value: of different values they are never pooled.
 std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& directory) {
+  const CampaignTables tables = read_tables(directory);
+  if (tables.planned && tables.throws.rows() < *tables.planned) {
+    std::cerr << directory.string() << " has " << tables.throws.rows() << " of the "
+              << *tables.planned << " throws of its scenario.\n";
+  }
   std::map<int, std::vector<ThrowOutcome>> parts;
-  for (ThrowOutcome& outcome : outcomes(read_tables(directory))) {
+  for (ThrowOutcome& outcome : outcomes(tables)) {
     const int sweep = outcome.sweep;
     parts[sweep].push_back(std::move(outcome));
   }

@@ -186,8 +186,9 @@ std::optional<Baseline> find_baseline(const GateArguments& arguments) {
     return read_baseline(where);
   } catch (const IoError& error) {
     if (!is_marked_as_baseline(where)) {
-      throw IoError(where.string() + " is no baseline, and no broken one: " + error.what() +
-                    " Choose another directory, or remove what is there.");
+      throw IoError(where.string() +
+                    " is not empty, but no baseline: its manifest.json has no \"gate\". Choose "
+                    "another directory, or remove what is there.");
     }
     if (!arguments.update) {
       throw IoError(std::string(error.what()) + " To make the baseline anew, add --update.");

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "sim/base/error.h"
@@ -10,6 +11,7 @@
 #include "sim/campaign/journal.h"
 #include "sim/campaign/result_files.h"
 #include "sim/config/expand.h"
+#include "sim/config/pilot.h"
 #include "sim/event_truth.h"
 #include "sim/files/event_writer.h"
 #include "sim/film.h"
@@ -189,6 +191,18 @@ class Onlookers {
   std::unique_ptr<EventRecorder> events_;
 };
 
+// The pilots that do not perceive fly without cameras.
+void expect_cameras(const Scenario& scenario, const ReplayArguments& arguments) {
+  if (perceives(scenario.pilot)) return;
+  for (const auto& [option, value] :
+       {std::pair{"--events", &arguments.events}, {"--stages", &arguments.stages}}) {
+    if (value->empty()) continue;
+    throw ScenarioError(std::string(option) + " " + *value + ": the pilot of throw " +
+                        std::to_string(arguments.throw_index) + " is " + scenario.pilot +
+                        ", which flies without cameras.");
+  }
+}
+
 int replay(const ReplayArguments& arguments) {
   const std::string& directory = arguments.directory;
   const Scenario campaign =
@@ -198,6 +212,7 @@ int replay(const ReplayArguments& arguments) {
   }
   try_models({campaign});
   const Scenario scenario = case_of(campaign, arguments.throw_index).scenario;
+  expect_cameras(scenario, arguments);
   const std::string recorded = recorded_row(directory, arguments.throw_index);
 
   Onlookers onlookers(scenario, arguments);
@@ -245,10 +260,12 @@ void add_replay_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("--stages", arguments->stages,
                    "Write the pilot's stages, a PNG for each of its cycles")
+      ->check(not_empty())
       ->type_name("DIR2");
   command
       ->add_option("--picture", arguments->picture,
                    "Write one picture: both flight paths and what the pilot first noticed")
+      ->check(file_ending(".png"))
       ->type_name("FILE.png");
   command
       ->add_option("--events", arguments->events,
@@ -256,6 +273,7 @@ void add_replay_command(CLI::App& program, int& exit_code) {
                    "reach the computer before the flight ends, and print how well the pilot finds\n"
                    "an object's events. Causes: 0 the static scene, moved by ego-motion; 1 + i\n"
                    "object i; 253 leak; 254 shot noise; 255 a hot pixel")
+      ->check(not_empty())
       ->type_name("FILE.h5|.npy|.txt");
   command->add_option("--camera", arguments->camera, "Whose events: top or bottom")
       ->check(CLI::IsMember({"top", "bottom"}))

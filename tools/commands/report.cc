@@ -35,6 +35,7 @@ void add_report_command(CLI::App& program, int& exit_code) {
       ->required()
       ->type_name("DIR");
   command->add_option("--out", arguments->out, "Where it goes; DIR/report.html when not given")
+      ->check(file_ending(".html"))
       ->type_name("FILE.html");
   command->footer(
       "One file that any browser opens, offline. `run` and `merge` make it at their end; this\n"

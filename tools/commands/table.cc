@@ -3,7 +3,9 @@
 #include <iostream>
 #include <memory>
 
+#include "sim/base/error.h"
 #include "sim/campaign/load_campaign.h"
+#include "sim/campaign/result_files.h"
 #include "sim/campaign/statistics_table.h"
 #include "sim/files/output_file.h"
 #include "tools/commands/command.h"
@@ -27,6 +29,9 @@ std::string formatted(const StatisticsTable& table, const std::string& format) {
 }
 
 int table(const TableArguments& arguments) {
+  if (!arguments.out.empty() && belongs_to_campaign(arguments.out)) {
+    throw ScenarioError("--out " + arguments.out + " would overwrite a file of a campaign.");
+  }
   const LoadedCampaign campaign = load_campaign(arguments.directory);
   const std::vector<Part> parts = parts_of(campaign);
   std::vector<Axis> axes = arguments.by.empty() ? grid_axes(campaign.results) : std::vector<Axis>();
@@ -68,8 +73,10 @@ void add_table_command(CLI::App& program, int& exit_code) {
                    "not given: all of those, or size_m and distance_m without a grid); the values\n"
                    "of a sweep always stand apart")
       ->delimiter(',')
+      ->transform([](const std::string& key) { return CLI::detail::trim_copy(key); })
       ->type_name("KEYS");
   command->add_option("--out", arguments->out, "Where it goes, instead of the terminal")
+      ->check(not_empty())
       ->type_name("FILE");
   command->footer(
       "Rates (dodged of those that would have hit, hit or crashed, detected of those in view, "

@@ -65,10 +65,10 @@ Flight fly(const RepulsiveConfig& config, const Vector3d& offset, const Vector3d
   return flight;
 }
 
-class EveryEscape : public testing::TestWithParam<RepulsiveConfig> {};
+class EveryEscape : public ::testing::TestWithParam<RepulsiveConfig> {};
 INSTANTIATE_TEST_SUITE_P(Avoider, EveryEscape,
-                         testing::Values(escape("cross", true), escape("cross", false),
-                                         escape("away", false)),
+                         ::testing::Values(escape("cross", true), escape("cross", false),
+                                           escape("away", false)),
                          [](const auto& info) {
                            return info.param.direction + (info.param.upward ? "_upward" : "");
                          });

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numbers>
-#include <vector>
 
 #include "tests/dodge/generator.h"
 

@@ -15,7 +15,7 @@ namespace dodge {
 namespace {
 
 using Eigen::Vector3d;
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 MeasuredPosition at(double x, double y = 0, double z = 0) {
   return {Vector3d(x, y, z), Eigen::Matrix3d::Zero()};

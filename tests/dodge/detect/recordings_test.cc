@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "dodge/detect/cluster.h"
 #include "dodge/detect/ego_motion.h"

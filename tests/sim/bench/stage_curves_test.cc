@@ -31,7 +31,7 @@ TEST(StageCurves, HaveTheSlopesOfTheLoad) {
 }
 
 TEST(StageCurves, AreDrawnAndWritten) {
-  const fs::path out = fs::path(testing::TempDir()) / "stage_curves";
+  const fs::path out = fs::path(::testing::TempDir()) / "stage_curves";
   fs::remove_all(out);
   write_stage_curves(out, windows());
   EXPECT_GT(fs::file_size(out / "ego_motion.png"), 1000u);

@@ -11,8 +11,6 @@ namespace {
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::Ge;
-using ::testing::IsEmpty;
-using ::testing::Le;
 
 // Something that reached the pilot: its stamp and the start of the cycle that had it first.
 struct Arrival {
@@ -130,7 +128,8 @@ TEST(OnboardComputer, DeliversNothingBeforeItsStampPlusItsDelay) {
   const DelaySpec& delays = bench.delays;
   // What arrives waits for the next cycle, and no longer.
   const auto between = [&](TimeUs delay_us, TimeUs slack_us) {
-    return Each(testing::AllOf(Ge(delay_us), testing::Lt(delay_us + delays.cycle_us + slack_us)));
+    return Each(
+        ::testing::AllOf(Ge(delay_us), ::testing::Lt(delay_us + delays.cycle_us + slack_us)));
   };
   EXPECT_THAT(ages(bench.log.imu), between(delays.imu_us, 0));
   EXPECT_THAT(ages(bench.log.states), between(delays.state_estimate_us, 0));

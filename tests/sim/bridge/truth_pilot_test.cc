@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "dodge/config.h"
 #include "dodge/detect/tracker.h"
 

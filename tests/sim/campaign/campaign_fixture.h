@@ -16,10 +16,10 @@
 
 namespace dodgesim {
 
-class CampaignTest : public testing::Test {
+class CampaignTest : public ::testing::Test {
  protected:
   CampaignTest() {
-    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
     root_ = std::filesystem::temp_directory_path() /
             ("dodgesim_" + name + "_" + std::to_string(::getpid()));
     std::filesystem::remove_all(root_);

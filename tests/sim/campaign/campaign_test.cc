@@ -8,7 +8,6 @@
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <thread>
 
 #include "sim/base/error.h"
@@ -176,8 +175,8 @@ TEST_F(CampaignTest, ADirectoryOfSomethingElseIsLeftAlone) {
 
 TEST_F(CampaignTest, ADirectoryThatCannotBeIsRefusedInOneSentence) {
   EXPECT_THAT([&] { run_campaign(scenario_, options(std::string(300, 'a')), {}); },
-              testing::ThrowsMessage<IoError>(
-                  testing::HasSubstr("aaa could not be created: File name too long.")));
+              ::testing::ThrowsMessage<IoError>(
+                  ::testing::HasSubstr("aaa could not be created: File name too long.")));
 }
 
 TEST_F(CampaignTest, TheResolvedScenarioIsTheScenario) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -16,7 +17,7 @@ constexpr double kGravity = 9.81;
 constexpr double kPi = std::numbers::pi;
 
 // About the nominal vehicle: 4 x 9.5 N on 1 kg.
-const Agility kVehicle{38, 404, 0.04, 0.001};
+const Agility kNominalAgility{38, 404, 0.04, 0.001};
 
 const Vector3d kLeftward = Vector3d::UnitY(), kUpward = Vector3d::UnitZ();
 
@@ -37,7 +38,7 @@ Encounter head_on_box(double speed_mps = 6) {
 }
 
 TEST(ManoeuvrePath, StraightUpFollowsTheLagOfTheRotors) {
-  const ManoeuvrePath path(kVehicle, {0, 0, 1}, 0.3);
+  const ManoeuvrePath path(kNominalAgility, {0, 0, 1}, 0.3);
   for (const double t_s : {0.0, 0.001, 0.02, 0.1, 0.3}) {
     const double z_m = (38 - kGravity) * lagged(std::max(0.0, t_s - 0.001), 0.04);
     EXPECT_NEAR(path.at(t_s).translation().z(), z_m, 4e-4 * t_s + 1e-6) << t_s;
@@ -46,13 +47,13 @@ TEST(ManoeuvrePath, StraightUpFollowsTheLagOfTheRotors) {
 }
 
 TEST(ManoeuvrePath, WithoutThrustTheVehicleEndsInFreeFall) {
-  const ManoeuvrePath path(kVehicle, {0, 0, 0}, 0.3);
+  const ManoeuvrePath path(kNominalAgility, {0, 0, 0}, 0.3);
   EXPECT_NEAR(path.at(0.3).translation().z(), -kGravity * lagged(0.299, 0.04), 1e-4);
 }
 
 TEST(ManoeuvrePath, TiltsTowardsTheAzimuthAsFastAsTheTorqueAllowsAndStops) {
   const double azimuth = 0.7, tilt = kPi / 3;
-  const ManoeuvrePath path(kVehicle, {azimuth, tilt, 1}, 0.3);
+  const ManoeuvrePath path(kNominalAgility, {azimuth, tilt, 1}, 0.3);
   const Vector3d early = path.at(0.05).linear() * kUpward, late = path.at(0.3).linear() * kUpward;
   EXPECT_NEAR(std::acos(early.z()), 404 * lagged(0.049, 0.04), 1e-9);
   EXPECT_NEAR(std::acos(late.z()), tilt, 1e-12);
@@ -136,8 +137,8 @@ double least_time_of_balls(const Vector3d& offset, const Vector3d& v, double sum
   for (const double thrust_share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
     for (int tilt_deg = 0; tilt_deg <= 180; tilt_deg += 15) {
       for (int i = 0; i < (tilt_deg == 0 ? 1 : 20); ++i) {
-        const ManoeuvrePath path(kVehicle, {2 * kPi * i / 20, tilt_deg * kPi / 180, thrust_share},
-                                 0.5);
+        const ManoeuvrePath path(kNominalAgility,
+                                 {2 * kPi * i / 20, tilt_deg * kPi / 180, thrust_share}, 0.5);
         for (double left_s = 0; left_s < least_s; left_s += 2e-3) {
           if (balls_pass(path, left_s, offset, v, sum_of_radii)) least_s = left_s;
         }
@@ -154,7 +155,7 @@ TEST(LeastTimeToEscape, IsNearlyThatOfAFinerSetOfManoeuvres) {
     const Vector3d v = 8 * Vector3d(-1, 0.3 * unit(random), 0.5 * unit(random));
     const Vector3d away = -v.normalized() + 0.6 * Vector3d(0, unit(random), unit(random));
     const Vector3d offset = kSumOfRadii * away.normalized();
-    const double least_s = *least_time_to_escape_s(kVehicle, two_balls(offset, v));
+    const double least_s = *least_time_to_escape_s(kNominalAgility, two_balls(offset, v));
     const double finer_s = least_time_of_balls(offset, v, kSumOfRadii, least_s + 0.01);
     EXPECT_GT(finer_s, least_s - 0.012) << n;
     EXPECT_LT(finer_s, least_s + 0.005) << n;
@@ -163,18 +164,18 @@ TEST(LeastTimeToEscape, IsNearlyThatOfAFinerSetOfManoeuvres) {
 
 TEST(LeastTimeToEscape, DownwardTheRotorsHelpToFall) {
   const Encounter above = two_balls({0.29, 0, 0.08}, {-8, 0, -1});
-  const ManoeuvrePath drop(kVehicle, {0, 0, 0}, 0.6);
+  const ManoeuvrePath drop(kNominalAgility, {0, 0, 0}, 0.6);
   double drop_s = 0;
   while (!balls_pass(drop, drop_s, above.object.p_W, above.object.v_W, kSumOfRadii)) drop_s += 1e-3;
   ASSERT_LT(drop_s, 0.4);
-  EXPECT_LT(*least_time_to_escape_s(kVehicle, above, -kUpward), drop_s - 0.01);
+  EXPECT_LT(*least_time_to_escape_s(kNominalAgility, above, -kUpward), drop_s - 0.01);
 }
 
 TEST(LeastTimeToEscape, AFlatVehicleGetsAwayFastestUpward) {
   const Encounter encounter = head_on_box(20);
-  const double least_s = *least_time_to_escape_s(kVehicle, encounter);
-  EXPECT_EQ(least_time_to_escape_s(kVehicle, encounter, kUpward), least_s);
-  EXPECT_GT(*least_time_to_escape_s(kVehicle, encounter, kLeftward), least_s + 0.02);
+  const double least_s = *least_time_to_escape_s(kNominalAgility, encounter);
+  EXPECT_EQ(least_time_to_escape_s(kNominalAgility, encounter, kUpward), least_s);
+  EXPECT_GT(*least_time_to_escape_s(kNominalAgility, encounter, kLeftward), least_s + 0.02);
   // The last 15 cm are reached while the ball is over the vehicle, 5 to 22 ms after the contact.
   double rise_s = 0;
   while ((38 - kGravity) * lagged(rise_s, 0.04) < 0.15) rise_s += 1e-4;
@@ -185,23 +186,23 @@ TEST(LeastTimeToEscape, AFlatVehicleGetsAwayFastestUpward) {
 TEST(LeastTimeToEscape, AnObjectAsideIsSoonerEscapedToTheOtherSide) {
   Encounter encounter = head_on_box();
   encounter.object.p_W.y() = 0.1;
-  const double left_s = *least_time_to_escape_s(kVehicle, encounter, kLeftward);
-  const double right_s = *least_time_to_escape_s(kVehicle, encounter, -kLeftward);
+  const double left_s = *least_time_to_escape_s(kNominalAgility, encounter, kLeftward);
+  const double right_s = *least_time_to_escape_s(kNominalAgility, encounter, -kLeftward);
   EXPECT_GT(left_s, right_s + 0.02);
 }
 
 TEST(LeastTimeToEscape, OnlyTheWayAcrossTheFlightCounts) {
   const Encounter encounter = head_on_box();
-  EXPECT_FALSE(least_time_to_escape_s(kVehicle, encounter, Vector3d(-5, 0, 0)));
-  EXPECT_EQ(least_time_to_escape_s(kVehicle, encounter, Vector3d(-5, 0, 1)),
-            least_time_to_escape_s(kVehicle, encounter, kUpward));
+  EXPECT_FALSE(least_time_to_escape_s(kNominalAgility, encounter, Vector3d(-5, 0, 0)));
+  EXPECT_EQ(least_time_to_escape_s(kNominalAgility, encounter, Vector3d(-5, 0, 1)),
+            least_time_to_escape_s(kNominalAgility, encounter, kUpward));
 }
 
 TEST(LeastTimeToEscape, StrongerRotorsNeedLess) {
-  Agility strong = kVehicle;
+  Agility strong = kNominalAgility;
   strong.max_thrust_mps2 *= 2;
   EXPECT_LT(*least_time_to_escape_s(strong, head_on_box()),
-            *least_time_to_escape_s(kVehicle, head_on_box()) - 0.01);
+            *least_time_to_escape_s(kNominalAgility, head_on_box()) - 0.01);
 }
 
 TEST(LeastTimeToEscape, IsEmptyForRotorsThatHardlyLift) {

@@ -97,7 +97,7 @@ TEST_F(MergeTest, OfManyMissingThrowsItListsTheFirst) {
   scenario_.repeats = 100;
   fly_shard("a", 0, 2);
   EXPECT_THAT(refusal<MissingThrows>({"a"}),
-              testing::MatchesRegex("50 of 100 throws are missing: 1, 3, .*, 39 and 30 more."));
+              ::testing::MatchesRegex("50 of 100 throws are missing: 1, 3, .*, 39 and 30 more."));
 }
 
 TEST_F(MergeTest, CanBeAskedWhetherAllIsThere) {

@@ -18,6 +18,15 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
+[[noreturn]] void hang() {
+  for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+[[noreturn]] void fill_memory() {
+  std::vector<std::vector<char>> hoard;
+  for (;;) hoard.emplace_back(std::size_t{100} << 20, 'x');
+}
+
 class ResumeTest : public CampaignTest {
  protected:
   FlyFunction fly_one_ = [this](int index) { return fly(index); };
@@ -169,7 +178,7 @@ TEST_F(ResumeTest, AThrowThatHangsIsGivenUp) {
   CampaignOptions limited = options("hang", 2);
   limited.limits.wall_s = 0.3;
   const CampaignSummary summary = run_campaign(scenario_, limited, [&](int index) {
-    while (index == 5) std::this_thread::sleep_for(std::chrono::hours(1));
+    if (index == 5) hang();
     return fly(index);
   });
   EXPECT_EQ(summary.errors, 1);
@@ -182,7 +191,7 @@ TEST_F(ResumeTest, AThrowThatWasLostIsFlownAgain) {
   CampaignOptions limited = options("hang", 2);
   limited.limits.wall_s = 0.3;
   run_campaign(scenario_, limited, [&](int index) {
-    while (index == 5) std::this_thread::sleep_for(std::chrono::hours(1));
+    if (index == 5) hang();
     return fly(index);
   });
   const CampaignSummary again = run_campaign(scenario_, resuming("hang"), fly_one_);
@@ -198,8 +207,7 @@ TEST_F(ResumeTest, AThrowThatNeedsTooMuchMemoryFails) {
   CampaignOptions limited = options("memory", 2);
   limited.limits.memory_mb = 2048;
   const CampaignSummary summary = run_campaign(scenario_, limited, [&](int index) {
-    std::vector<std::vector<char>> hoard;
-    while (index == 5) hoard.emplace_back(std::size_t{100} << 20, 'x');
+    if (index == 5) fill_memory();
     return fly(index);
   });
   EXPECT_EQ(summary.errors, 1);

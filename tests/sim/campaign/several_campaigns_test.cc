@@ -78,7 +78,8 @@ TEST_F(SeveralCampaignsTest, BeginTheNextWhileTheLastThrowOfOneIsInTheAir) {
     return fly(index);
   };
   run_campaigns({first, second}, listener());
-  EXPECT_THAT(read(root_ / "first/throws.csv"), testing::Not(testing::HasSubstr("did not begin")));
+  EXPECT_THAT(read(root_ / "first/throws.csv"),
+              ::testing::Not(::testing::HasSubstr("did not begin")));
   EXPECT_THAT(ended_, ElementsAre(Pair(0, true), Pair(1, true)));
 }
 
@@ -158,7 +159,7 @@ TEST_F(SeveralCampaignsTest, AreAllLookedThroughBeforeTheFirstThrow) {
   run_campaign(scenario_, first.options, first.fly);
   const std::string before = read(root_ / "first/results.bin");
   EXPECT_THROW(run_campaigns({first, plan("second", 2)}, listener()), ScenarioError);
-  EXPECT_THAT(begun_, testing::IsEmpty());
+  EXPECT_THAT(begun_, ::testing::IsEmpty());
   EXPECT_EQ(read(root_ / "first/results.bin"), before) << "nothing is overwritten for nothing";
 }
 
@@ -169,7 +170,8 @@ TEST_F(SeveralCampaignsTest, NeverShareADirectory) {
       [&] {
         run_campaigns({plan("first", 1), again}, listener());
       },
-      testing::ThrowsMessage<ScenarioError>(testing::HasSubstr("Two campaigns would write to")));
+      ::testing::ThrowsMessage<ScenarioError>(
+          ::testing::HasSubstr("Two campaigns would write to")));
   EXPECT_FALSE(fs::exists(root_ / "first"));
 }
 
@@ -224,7 +226,7 @@ TEST_F(SeveralCampaignsTest, WhileTablesAreWrittenNoFinishedThrowIsGivenUp) {
 
 TEST_F(SeveralCampaignsTest, OfNoneThereIsNothingToFly) {
   EXPECT_EQ(run_campaigns({}, listener()).first_mb, 0);
-  EXPECT_THAT(begun_, testing::IsEmpty());
+  EXPECT_THAT(begun_, ::testing::IsEmpty());
 }
 
 }  // namespace

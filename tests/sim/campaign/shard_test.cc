@@ -47,15 +47,15 @@ TEST(Shard, IsTakenFromTheEnvironmentOfAnArrayJob) {
 TEST(Shard, RefusesWhatIsNone) {
   for (const char* text : {"", "3", "8/8", "-1/8", "1/0", "a/8", "1/b", "1/8/2", "1.5/8", "/8",
                            "1/", "99999999999/2", "0/99999999999"}) {
-    EXPECT_THAT(refusal(text), testing::HasSubstr("--shard")) << text;
+    EXPECT_THAT(refusal(text), ::testing::HasSubstr("--shard")) << text;
   }
-  EXPECT_THAT(refusal("auto/8"), testing::HasSubstr("none of SLURM_ARRAY_TASK_ID"));
+  EXPECT_THAT(refusal("auto/8"), ::testing::HasSubstr("none of SLURM_ARRAY_TASK_ID"));
   EXPECT_THAT(refusal("auto", {{"SLURM_ARRAY_TASK_ID", "1"}}),
-              testing::HasSubstr("SLURM_ARRAY_TASK_COUNT is not set"));
+              ::testing::HasSubstr("SLURM_ARRAY_TASK_COUNT is not set"));
   EXPECT_THAT(refusal("auto/8", {{"JOB_COMPLETION_INDEX", "x"}}),
-              testing::HasSubstr("which is no number"));
+              ::testing::HasSubstr("which is no number"));
   EXPECT_THAT(refusal("auto/8", {{"JOB_COMPLETION_INDEX", "8"}}),
-              testing::HasSubstr("there is no shard 8 of 8"));
+              ::testing::HasSubstr("there is no shard 8 of 8"));
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ std::vector<std::string> lines(const std::string& text) {
 TEST(GroupBy, HasARowForEachCombinationThatOccursAndOneOfAll) {
   const StatisticsTable grouped = table();
   ASSERT_EQ(grouped.rows.size(), 3u);
-  EXPECT_THAT(grouped.rows[1].values, testing::ElementsAre("ball", "0.2"));
-  EXPECT_THAT(grouped.rows[2].values, testing::ElementsAre("all", "all"));
+  EXPECT_THAT(grouped.rows[1].values, ::testing::ElementsAre("ball", "0.2"));
+  EXPECT_THAT(grouped.rows[2].values, ::testing::ElementsAre("all", "all"));
   EXPECT_EQ(grouped.rows[2].statistics.flown().tally.throws, 2);
   EXPECT_EQ(grouped.rows[2].statistics.false_alarms.of, 3);
 }
@@ -47,24 +47,24 @@ TEST(GroupBy, KeepsValuesOfASweepApart) {
   results[1].sweep = 1;
   const StatisticsTable grouped =
       group_by(parts_of(results, "falanga2020"), {Axis("size_m", results)});
-  EXPECT_THAT(grouped.keys, testing::ElementsAre("delays.compute_us", "size_m"));
+  EXPECT_THAT(grouped.keys, ::testing::ElementsAre("delays.compute_us", "size_m"));
   ASSERT_EQ(grouped.rows.size(), 4u);
-  EXPECT_THAT(grouped.rows[1].values, testing::ElementsAre("0", "all"));
-  EXPECT_THAT(grouped.rows[2].values, testing::ElementsAre("3500", "0.1"));
+  EXPECT_THAT(grouped.rows[1].values, ::testing::ElementsAre("0", "all"));
+  EXPECT_THAT(grouped.rows[2].values, ::testing::ElementsAre("3500", "0.1"));
 }
 
 TEST(TableFormats, CsvHasEqualColumnsAndEmptyCellsForTheUnknown) {
   const std::vector<std::string> rows = lines(to_csv(table()));
   ASSERT_EQ(rows.size(), 1 + 3 * 2u);
   EXPECT_THAT(rows[0],
-              testing::StartsWith("object,size_m,pilot,throws,would_have_hit,dodged,rate,"
-                                  "rate_lo,rate_hi,rate_interval,errors,flights,collisions,"));
+              ::testing::StartsWith("object,size_m,pilot,throws,would_have_hit,dodged,rate,"
+                                    "rate_lo,rate_hi,rate_interval,errors,flights,collisions,"));
   const auto commas = std::count(rows[0].begin(), rows[0].end(), ',');
   for (std::size_t i = 3; i < rows.size(); ++i) {
     EXPECT_EQ(std::count(rows[i].begin(), rows[i].end(), ','), commas) << rows[i];
   }
-  EXPECT_THAT(rows[3], testing::StartsWith("ball,0.2,falanga2020,1,1,0,0,"));
-  EXPECT_THAT(rows[3], testing::EndsWith(",0,,,,,"));  // a sample of nothing
+  EXPECT_THAT(rows[3], ::testing::StartsWith("ball,0.2,falanga2020,1,1,0,0,"));
+  EXPECT_THAT(rows[3], ::testing::EndsWith(",0,,,,,"));  // a sample of nothing
 }
 
 TEST(TableFormats, JsonIsValidAndHasNullForTheUnknown) {

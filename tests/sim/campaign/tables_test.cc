@@ -19,8 +19,9 @@ ThrowResult throw_with(int index, const FlightResult& pilot, const FlightResult&
   return result;
 }
 
-Tables tables(const std::vector<ThrowResult>& results) {
+Tables tables(const std::vector<ThrowResult>& results, const std::string& pilot = "falanga2020") {
   LoadedCampaign campaign;
+  campaign.scenario.pilot = pilot;
   campaign.scenario.name = "test";
   campaign.results = results;
   return make_tables(campaign);
@@ -79,14 +80,14 @@ All throws. Median (10 % to 90 % quantile), count.
 
 ## Why it was hit or crashed
 
-| cause | throws | numbers |
+| cause | throws | throw numbers |
 |---|---|---|
 | seen late | 1 | 1 |
 
 Of 1 throw that would have missed, falanga2020 evaded 1 and was hit by 0.
 
 )");
-  EXPECT_THAT(made.csv, testing::StartsWith(
+  EXPECT_THAT(made.csv, ::testing::StartsWith(
                             "size_m,distance_m,speed_mps,pilot,throws,"
                             "would_have_hit,dodged,rate,rate_lo,rate_hi,rate_interval,errors,"));
   EXPECT_THAT(made.csv, HasSubstr("\n0.1,2,all,falanga2020,2,1,1,1,"));
@@ -107,7 +108,7 @@ TEST(Tables, EveryCellOfAGridHasItsRowWhateverTheKeys) {
                                        "delays.command_us | throw.size_m | falanga2020: dodged |"));
   EXPECT_THAT(made.markdown, HasSubstr("\n| -20 | 0 | 0.1 | 2 / 2 (1.000, 0.342 to 1.000) |"));
   EXPECT_THAT(made.markdown, HasSubstr("\n| 20 | 10000 | 0.1 | 1 / 2 (0.500, 0.095 to 0.905) |"));
-  EXPECT_THAT(made.csv, testing::StartsWith(
+  EXPECT_THAT(made.csv, ::testing::StartsWith(
                             "size_m,distance_m,speed_mps,throw.bearing_deg,delays.command_us,"));
   EXPECT_THAT(made.csv, HasSubstr("\n0.1,all,all,20,10000,falanga2020,2,2,1,"));
   EXPECT_THAT(made.csv, HasSubstr("\n0.1,2,all,all,all,falanga2020,8,8,7,"));
@@ -125,7 +126,7 @@ TEST(Tables, ACellThatTheOtherTablesShowHasOneRowInTheCsv) {
 
 TEST(Tables, WithoutOracleThereIsNoRowOfIt) {
   const Tables made = tables({throw_with(0, flown(false), flown(true), FlightResult{})});
-  EXPECT_THAT(made.markdown, testing::Not(HasSubstr("oracle")));
+  EXPECT_THAT(made.markdown, ::testing::Not(HasSubstr("oracle")));
 }
 
 TEST(Tables, AnOracleIsNotShownBesideItself) {
@@ -140,7 +141,7 @@ TEST(Tables, ErrorsAreShownWithThrowPilotAndReason) {
   const Tables made =
       tables({throw_with(0, failed("The state diverged."), flown(true), flown(true)),
               throw_with(1, flown(false), flown(true), failed("No context."))});
-  EXPECT_THAT(made.markdown, HasSubstr("| 1 / 2 (0.500, 0.095 to 0.905), 1 errors |"));
+  EXPECT_THAT(made.markdown, HasSubstr("| 1 / 2 (0.500, 0.095 to 0.905), 1 error |"));
   EXPECT_THAT(made.markdown, HasSubstr("2 flights failed and count as no success:\n\n"
                                        "- throw 0, pilot falanga2020: The state diverged.\n"
                                        "- throw 1, pilot oracle: No context.\n"));
@@ -151,7 +152,7 @@ TEST(Tables, LandingsAreNamedWhenThereAreAny) {
   for (int i = 0; i < 4; ++i) {
     results.push_back(throw_with(i, flown(false), flown(true), FlightResult{}));
   }
-  EXPECT_THAT(tables(results).markdown, testing::Not(HasSubstr("landing")));
+  EXPECT_THAT(tables(results).markdown, ::testing::Not(HasSubstr("landing")));
   results[0].landing_us = results[1].landing_us = 1000000;  // the object would have hit at 1.5 s
   results[1].landed_us = 1400000;
   results[2].landing_us = 1600000;
@@ -169,7 +170,27 @@ TEST(Tables, EvasionsOfQuietFlightsAreFalseAlarms) {
   results[2].evaded = true;
   const Tables made = tables(results);
   EXPECT_THAT(made.markdown, HasSubstr("False alarms: falanga2020 evaded in 1 / 4 (0.250, "));
-  EXPECT_THAT(made.markdown, testing::Not(HasSubstr("By size")));
+  EXPECT_THAT(made.markdown, ::testing::Not(HasSubstr("crashed")));
+  EXPECT_THAT(made.markdown, ::testing::Not(HasSubstr("By size")));
+}
+
+TEST(Tables, CrashesOfQuietFlightsAreCounted) {
+  ThrowResult quiet;
+  quiet.flown = flown(false);
+  std::vector<ThrowResult> results(4, quiet);
+  results[1].flown = flown(false, true);
+  const Tables made = tables(results);
+  EXPECT_THAT(made.markdown, HasSubstr("nobody threw.\n\nIt crashed in 1 flight of these.\n"));
+  EXPECT_THAT(made.csv, HasSubstr(",flights,collisions,"));
+  EXPECT_THAT(made.csv, HasSubstr(",4,1,0.25,"));
+}
+
+TEST(Tables, AFlightOfThePilotNoneFailsOnceOnly) {
+  const FlightResult diverged = failed("diverged");
+  ThrowResult result = throw_with(0, diverged, diverged, FlightResult{});
+  const Tables made = tables({result}, "none");
+  EXPECT_THAT(made.markdown, HasSubstr("1 flight failed"));
+  EXPECT_THAT(made.markdown, HasSubstr("1 error |"));
 }
 
 }  // namespace

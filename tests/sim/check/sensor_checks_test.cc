@@ -31,9 +31,9 @@ std::vector<std::string> failures(const Check& check) { return lines(check, Outc
 
 using Names = std::vector<std::string>;
 
-class Preset : public testing::TestWithParam<const char*> {};
+class Preset : public ::testing::TestWithParam<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(Cameras, Preset, testing::Values("sees1", "ideal", "noisy", "low_light"),
+INSTANTIATE_TEST_SUITE_P(Cameras, Preset, ::testing::Values("sees1", "ideal", "noisy", "low_light"),
                          [](const auto& info) { return info.param; });
 
 TEST_P(Preset, PassesEveryCheck) {
@@ -259,6 +259,10 @@ TEST(NoiseCheck, FailsForOtherRates) {
             (Names{"noise.shot.bright.on", "noise.shot.bright.off"}));
   EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_hz *= 1.05; }), Names{"noise.hot.rate"});
   EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_fraction *= 2; }), Names{"noise.hot.pixels"});
+  EventCameraSpec without_leak;
+  without_leak.leak_hz = 0;
+  EXPECT_EQ(failures(judge(measure_noise(EventCameraSpec(), 1), without_leak)),
+            Names{"noise.leak.on"});
 }
 
 TEST(NoiseCheck, KnowsHowOftenALeakComesThatIsHeldForLong) {

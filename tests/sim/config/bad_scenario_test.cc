@@ -29,10 +29,10 @@ struct BadScenario {
 
 void PrintTo(const BadScenario& bad, std::ostream* out) { *out << bad.name; }
 
-class BadScenarioTest : public testing::TestWithParam<BadScenario> {};
+class BadScenarioTest : public ::testing::TestWithParam<BadScenario> {};
 
 TEST_P(BadScenarioTest, IsRefusedWithPlaceKeyAndReason) {
-  EXPECT_THAT(error_of(GetParam().yaml), testing::StartsWith(GetParam().message));
+  EXPECT_THAT(error_of(GetParam().yaml), ::testing::StartsWith(GetParam().message));
 }
 
 std::string repeat(const std::string& text, int times) {
@@ -127,10 +127,16 @@ const BadScenario kBadScenarios[] = {
     {"List", "- 1\n- 2\n", "bad.yaml:1:1: The file must be a map of keys"},
     {"Text", "hello\n", "bad.yaml:1:1: The file must be a map of keys"},
     {"Syntax", "throw: {size_m: 0.1\nseed: 1\n", "bad.yaml:2:"},
-    {"Tab", "throw:\n\tsize_m: 0.1\n", "bad.yaml:2:"},
+    {"Tab", "throw:\n\tsize_m: 0.1\n",
+     "bad.yaml:2:8: This is not valid YAML (illegal map value). Line 2 is indented with a tab; "
+     "YAML "
+     "takes spaces only."},
+    {"TabFarAway", "seed: 1 # c\n\n \trepeats: 2\n",
+     "bad.yaml:3:3: This is not valid YAML (end of map not found). Line 3 is indented with a tab"},
     {"NotUtf8", "name: \"\xff\"\n", "bad.yaml:1:8: This is not UTF-8 text (byte 255)."},
     {"Overlong", "name: \"\xc0\xaf\"\n", "bad.yaml:1:8: This is not UTF-8 text"},
-    {"Zero", std::string("name: a\0b\n", 10), "bad.yaml:1:8: This is not UTF-8 text (byte 0)."},
+    {"Zero", std::string("name: a\0b\n", 10),
+     "bad.yaml:1:8: This is a control character (byte 0)."},
     {"Utf16", std::string("\xff\xfes\0e\0e\0d\0", 10), "bad.yaml:1:1: This is not UTF-8 text"},
     // Bounded time and memory.
     {"DeepFlow", "throw: " + repeat("[", 100000), "bad.yaml:1:"},
@@ -243,6 +249,8 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:1:16: room is \"../../etc/passwd\", but must be the name of a file"},
     {"GridTwiceTheSame", "throw: {}\ngrid: {size_m: [0.1, 0.2, 0.1]}\n",
      "bad.yaml:2:27: grid.size_m[2] is 0.1, but this value is in the list already."},
+    {"GridTwiceTheSameNumber", "throw: {}\ngrid: {size_m: [0.2, 2e-1]}\n",
+     "bad.yaml:2:22: grid.size_m[1] is 2e-1, but this value is in the list already."},
     {"GridByBothNames", "throw: {}\ngrid: {size_m: [0.1], throw.size_m: [0.2]}\n",
      "bad.yaml:2:23: grid.throw.size_m is given twice."},
     {"GridAndSweep", "throw: {}\ngrid: {size_m: [0.1]}\nsweep: {size_m: [0.2]}\n",
@@ -256,7 +264,8 @@ const BadScenario kBadScenarios[] = {
     {"SweepContradiction",
      "dodger: {position: {min_range_m: 0.2}}\nsweep:\n"
      "  dodger.position.max_range_m: [0.1, 1]\n",
-     "bad.yaml:1:34: dodger.position.min_range_m must be less than position.max_range_m.\n"
+     "bad.yaml:1:34: dodger.position.min_range_m is 0.2 but must be less than "
+     "position.max_range_m, which is 0.1.\n"
      "bad.yaml:3:33: That is so with dodger.position.max_range_m 0.1."},
     {"GridTooLarge", "throw: {}\nrepeats: 1000000\ngrid: {size_m: [" + numbers(11) + "]}\n",
      "bad.yaml:3:7: repeats, grid and sweep make more than 10000000 throws."},
@@ -281,7 +290,10 @@ const BadScenario kBadScenarios[] = {
     {"NegativeMass", "vehicle_overrides: {mass_scale: -1}\n",
      "bad.yaml:1:33: vehicle_overrides.mass_scale is -1, but must be between 0.1 and 10."},
     {"CoreContradiction", "dodger: {position: {min_range_m: 2, max_range_m: 1}}\n",
-     "bad.yaml:1:34: dodger.position.min_range_m must be less than position.max_range_m."},
+     "bad.yaml:1:34: dodger.position.min_range_m is 2 but must be less than "
+     "position.max_range_m, which is 1."},
+    {"KhoslaFieldTooFlat", "dodger: {repulsive: {field: khosla, gamma: 0.1}}\n",
+     "bad.yaml:1:44: dodger.repulsive.gamma is 0.1 but must be at least 1 for the khosla field"},
     {"CoreContradictionOfOneKey",
      "dodger:\n  position: {max_range_m: 3}\n  time_image: {blur_px: 4}\n",
      "bad.yaml:3:25: dodger.time_image.blur_px is 4 but must be odd"},
@@ -304,7 +316,7 @@ const BadScenario kBadScenarios[] = {
     {"SweptToTooSlowARangeSensor", "sweep: {sensors.range.rate_hz: [200, 10]}\n", "bad.yaml:1:"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, BadScenarioTest, testing::ValuesIn(kBadScenarios),
+INSTANTIATE_TEST_SUITE_P(All, BadScenarioTest, ::testing::ValuesIn(kBadScenarios),
                          [](const auto& info) { return info.param.name; });
 
 TEST(BadScenario, AllProblemsAreReportedInFileOrder) {
@@ -346,7 +358,7 @@ TEST(BadScenario, AMissingFileAndWhatIsNoFileAreRefused) {
   EXPECT_THROW(load_scenario("/no/such/file.yaml", ""), ScenarioError);
   EXPECT_THROW(load_scenario("/", ""), ScenarioError);
   EXPECT_THROW(load_scenario("/dev/zero", ""), ScenarioError);
-  const std::string pipe = testing::TempDir() + "dodgesim_pipe_" + std::to_string(::getpid());
+  const std::string pipe = ::testing::TempDir() + "dodgesim_pipe_" + std::to_string(::getpid());
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_THROW(load_scenario(pipe, ""), ScenarioError);
   ::unlink(pipe.c_str());

@@ -144,13 +144,13 @@ TEST(Scenario, EveryScenarioOfTheProjectIsValid) {
 
 TEST(Explain, FindsAKeyByItsPathOrItsLastPart) {
   const std::vector<ParameterDoc> docs = scenario_docs();
-  EXPECT_THAT(explain(docs, "throw.size_m"), testing::StartsWith("throw.size_m\n"));
-  EXPECT_THAT(explain(docs, "compute_us"), testing::StartsWith("delays.compute_us\n"));
-  EXPECT_THAT(explain(docs, "throw"), testing::HasSubstr("throw.launch_s\n"));
+  EXPECT_THAT(explain(docs, "throw.size_m"), ::testing::StartsWith("throw.size_m\n"));
+  EXPECT_THAT(explain(docs, "compute_us"), ::testing::StartsWith("delays.compute_us\n"));
+  EXPECT_THAT(explain(docs, "throw"), ::testing::HasSubstr("throw.launch_s\n"));
   EXPECT_THAT(explain(docs, "height_monitor"),
-              testing::HasSubstr("dodger.height_monitor.persist_us\n"));
+              ::testing::HasSubstr("dodger.height_monitor.persist_us\n"));
   EXPECT_THAT(explain(docs, "pilot"),
-              testing::HasSubstr("falanga2020, dodgesim, oracle or none; default falanga2020"));
+              ::testing::HasSubstr("falanga2020, dodgesim, oracle or none; default falanga2020"));
 }
 
 TEST(Explain, SuggestsTheKeyThatWasMeant) {

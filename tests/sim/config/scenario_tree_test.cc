@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-class ScenarioTree : public testing::Test {
+class ScenarioTree : public ::testing::Test {
  protected:
   ScenarioTree() {
-    const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
     root_ = fs::canonical(fs::temp_directory_path()) /
             ("dodgesim_" + name + "_" + std::to_string(::getpid()));
     fs::create_directories(root_ / "a/b/c");
@@ -70,7 +70,7 @@ TEST_F(ScenarioTree, KeysOfTheFileCountMoreThanThoseOfItsBase) {
   EXPECT_EQ(scenario.toss->size_m, Distribution::constant(0.3));
   EXPECT_EQ(scenario.toss->speed_mps, Distribution::normal(6, 2, 0.5, 30)) << "not merged";
   EXPECT_EQ(scenario.toss->aim_offset_m.parts.size(), 1u);
-  EXPECT_THAT(to_yaml(scenario), testing::Not(HasSubstr("extends")));
+  EXPECT_THAT(to_yaml(scenario), ::testing::Not(HasSubstr("extends")));
   EXPECT_EQ(to_yaml(parse_scenario(to_yaml(scenario), "mine.yaml", "")), to_yaml(scenario));
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <deque>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "sim/base/gravity.h"
 #include "sim/control/flight_controller.h"

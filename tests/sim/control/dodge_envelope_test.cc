@@ -3,6 +3,7 @@
 // m, 3.5 ms perception, 6.5 ms command delay).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

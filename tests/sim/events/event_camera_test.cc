@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "sim/base/error.h"
 #include "sim/base/random.h"

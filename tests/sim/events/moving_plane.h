@@ -1,8 +1,10 @@
 // A textured wall seen by a moving camera, evaluated in closed form at the pixel centres.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "sim/events/event_camera.h"

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
-#include <numbers>
+#include <utility>
 
 #include "tests/sim/events/reference.h"
 

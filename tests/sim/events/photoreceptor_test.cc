@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -204,7 +205,7 @@ TEST(Photoreceptor, RowsAreTheSameBytesAtEveryVectorLevel) {
     for (std::size_t i = 0; i < a.size(); ++i) {
       // Which of many NaNs comes out is not said.
       if (std::isnan(a[i]) && std::isnan(b[i])) continue;
-      if (std::memcmp(&a[i], &b[i], sizeof a[i]) != 0) return false;
+      if (std::bit_cast<std::uint32_t>(a[i]) != std::bit_cast<std::uint32_t>(b[i])) return false;
     }
     return true;
   };

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <iterator>
 
 #include "sim/base/error.h"
 #include "sim/files/output_file.h"

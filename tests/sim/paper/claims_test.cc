@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "sim/paper/experiment.h"
 #include "tests/sim/paper/synthetic_campaign.h"
 

@@ -1,6 +1,7 @@
 // How far away what a key shows is at least: KeyPicture::nearest_m().
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sim/base/error.h"
 #include "tests/sim/render/render_fixture.h"
 
@@ -60,7 +62,7 @@ TEST_F(Pictures, ShowVehicleAndLaunchedObjectWhereTheyAre) {
   double vehicle_x = 0, object_x = 0;
   EXPECT_GT(count(2, &vehicle_x), 100);
   EXPECT_GT(count(0, &object_x), 100);
-  EXPECT_NEAR(vehicle_x, kWidth / 2, 3);
+  EXPECT_NEAR(vehicle_x, 0.5 * kWidth, 3);
   EXPECT_LT(object_x, vehicle_x - 20);  // +y is on the left of a view along +x
   view_.azimuth_deg = 180;
   draw();

@@ -1,6 +1,7 @@
 // The static scene with its depth, and objects drawn over it: luminance_renderer.h.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/world/room_ray.h"

@@ -27,11 +27,11 @@ std::string message_of(const WorldSpec& spec) {
 }
 
 // A copy of the models in which a test may put files of its own.
-class OwnModels : public testing::Test {
+class OwnModels : public ::testing::Test {
  protected:
   void SetUp() override {
-    directory_ = std::filesystem::path(testing::TempDir()) /
-                 testing::UnitTest::GetInstance()->current_test_info()->name();
+    directory_ = std::filesystem::path(::testing::TempDir()) /
+                 ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::remove_all(directory_);
     std::filesystem::copy(test_spec().models_dir, directory_,
                           std::filesystem::copy_options::recursive);
@@ -151,7 +151,7 @@ TEST_F(OwnModels, BrokenFilesGiveOneSentenceWithTheFile) {
   };
   for (const std::string& text : broken) {
     write_object(text);
-    EXPECT_THAT(message_of(spec_), AllOf(HasSubstr("own.xml"), testing::EndsWith("."))) << text;
+    EXPECT_THAT(message_of(spec_), AllOf(HasSubstr("own.xml"), ::testing::EndsWith("."))) << text;
   }
 }
 

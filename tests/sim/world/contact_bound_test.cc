@@ -9,7 +9,7 @@
 namespace dodgesim {
 namespace {
 
-class ContactBoundTest : public testing::TestWithParam<const char*> {
+class ContactBoundTest : public ::testing::TestWithParam<const char*> {
  protected:
   ContactBoundTest() {
     WorldSpec spec = test_spec({{"ball", 0.3}, {"box", 0.2}});
@@ -80,7 +80,7 @@ TEST_P(ContactBoundTest, ClaimsNothingOfModelsWithPairsOfTheirOwn) {
   model_->npair = 0;
 }
 
-INSTANTIATE_TEST_SUITE_P(Rooms, ContactBoundTest, testing::Values("room", "field"));
+INSTANTIATE_TEST_SUITE_P(Rooms, ContactBoundTest, ::testing::Values("room", "field"));
 
 }  // namespace
 }  // namespace dodgesim

@@ -18,12 +18,12 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 // A copy of the models with an object of the test's own.
-class ModelTrial : public testing::Test {
+class ModelTrial : public ::testing::Test {
  protected:
   ModelTrial() {
     directory_ =
-        fs::path(testing::TempDir()) /
-        (std::string("trial_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+        fs::path(::testing::TempDir()) /
+        (std::string("trial_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(directory_);
     fs::copy(test_spec().models_dir, directory_, fs::copy_options::recursive);
     fs::create_directories(directory_ / "meshes");
@@ -95,7 +95,7 @@ TEST_F(ModelTrial, AStartInsideOrOutsideOfWhatStandsThereCostsASentence) {
 
 TEST_F(ModelTrial, AMeshThatCrashesMujocoCostsASentence) {
   write_mesh(std::string(kTetrahedron) + "f 1 2 4000000\n");
-  EXPECT_THAT(complaint(), AllOf(HasSubstr("objects/own.xml"), testing::EndsWith(".")));
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("objects/own.xml"), ::testing::EndsWith(".")));
 }
 
 TEST_F(ModelTrial, BrokenMeshesCostASentence) {
@@ -104,18 +104,18 @@ TEST_F(ModelTrial, BrokenMeshesCostASentence) {
         std::string("f -5 -6 -7\n"), std::string(100000, '\xff')}) {
     write_mesh(obj);
     const std::string found = complaint();
-    EXPECT_THAT(found, AllOf(HasSubstr("own"), testing::EndsWith("."))) << obj.substr(0, 80);
+    EXPECT_THAT(found, AllOf(HasSubstr("own"), ::testing::EndsWith("."))) << obj.substr(0, 80);
     EXPECT_EQ(found.find('\n'), std::string::npos) << found;
   }
 }
 
 TEST_F(ModelTrial, NumbersThatAreNoneCostASentence) {
   write_object("<geom size='0.1' pos='nan 0 0' group='1' contype='4' conaffinity='7'/>");
-  EXPECT_THAT(complaint(), AllOf(HasSubstr("own.xml"), testing::EndsWith(".")));
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("own.xml"), ::testing::EndsWith(".")));
   write_object(kBall, "", "1 1 nan");
-  EXPECT_THAT(complaint(), AllOf(HasSubstr("own.xml"), testing::EndsWith(".")));
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("own.xml"), ::testing::EndsWith(".")));
   write_object(kBall, "", "1 1 1e300");
-  EXPECT_THAT(complaint(), testing::EndsWith("."));
+  EXPECT_THAT(complaint(), ::testing::EndsWith("."));
 }
 
 // As a decoder would have to unpack them: a PNG says its size in its first bytes.
@@ -136,10 +136,10 @@ TEST_F(ModelTrial, HugeAndBrokenTexturesCostASentence) {
               HasSubstr("own.png has 65537 x 65537 pixels; at most 4096 x 4096 are allowed."));
   write("textures/own.png", png_head(0));
   EXPECT_THAT(with_texture("type='2d' file='textures/own.png'"),
-              AllOf(HasSubstr("own"), testing::EndsWith(".")));
+              AllOf(HasSubstr("own"), ::testing::EndsWith(".")));
   write("textures/own.png", std::string(1000, 'x'));
   EXPECT_THAT(with_texture("type='2d' file='textures/own.png'"),
-              AllOf(HasSubstr("own"), testing::EndsWith(".")));
+              AllOf(HasSubstr("own"), ::testing::EndsWith(".")));
   EXPECT_THAT(with_texture("type='cube' builtin='flat' width='100000' height='100000'"),
               HasSubstr("own.xml:1: A texture has at most 4096 x 4096 pixels."));
   write("textures/own.png", std::string((32 << 20) + 1, 'x'));
@@ -172,7 +172,7 @@ TEST_F(ModelTrial, TakesNoMoreMemoryThanAllowed) {
   EXPECT_EQ(complaint(), "");
   TrialLimits limits;
   limits.memory_mb = 256;
-  EXPECT_THAT(complaint(limits), AllOf(HasSubstr("own"), testing::EndsWith(".")));
+  EXPECT_THAT(complaint(limits), AllOf(HasSubstr("own"), ::testing::EndsWith(".")));
 }
 
 }  // namespace

@@ -15,11 +15,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of a copy of the models that a test may change.
-class ModelsDigest : public testing::Test {
+class ModelsDigest : public ::testing::Test {
  protected:
   void SetUp() override {
-    directory_ = fs::path(testing::TempDir()) /
-                 testing::UnitTest::GetInstance()->current_test_info()->name();
+    directory_ = fs::path(::testing::TempDir()) /
+                 ::testing::UnitTest::GetInstance()->current_test_info()->name();
     fs::remove_all(directory_);
     fs::copy(test_spec().models_dir, directory_, fs::copy_options::recursive);
     spec_ = test_spec({{"ball", 0.2}});

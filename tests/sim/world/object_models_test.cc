@@ -1,6 +1,8 @@
 // What is claimed in the files of models/objects.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "sim/base/random.h"
@@ -30,8 +32,8 @@ std::vector<Convex> surface(const World& world) {
   return parts;
 }
 
-class ObjectModel : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Models, ObjectModel, testing::ValuesIn(object_names()),
+class ObjectModel : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Models, ObjectModel, ::testing::ValuesIn(object_names()),
                          [](const auto& info) { return info.param; });
 
 // From end to end along an axis of its body (and a box along its longest edge), or from tip to tip

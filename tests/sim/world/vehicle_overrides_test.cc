@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "sim/base/error.h"
 #include "tests/sim/world/test_world.h"
 
@@ -70,7 +72,7 @@ TEST(VehicleOverrides, ThrustIsClippedAtTheNewLimit) {
     World too_weak(with(overrides));
     FAIL();
   } catch (const ScenarioError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("the rotors lift only 1.0"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("the rotors lift only 1.0"));
   }
 }
 
