@@ -41,11 +41,7 @@ void add_dodged(const StatisticsTable& table, TextTable& text) {
     text.head.push_back(heads[pilot]);
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
       const Tally& tally = table.rows[i].statistics.pilots[pilot].tally;
-      std::string cell = rate_text(tally.shown(pilot == 2));
-      if (tally.errors > 0) {
-        cell += ", " + std::to_string(tally.errors) + (tally.errors == 1 ? " error" : " errors");
-      }
-      text.rows[i].push_back(cell);
+      text.rows[i].push_back(tally_text(tally, pilot == 2));
     }
   }
 }

@@ -144,9 +144,7 @@ class MarkdownWriter {
     values.resize(table_.keys.size(), "all");
     const StatisticsTable::Row* const row = find_row(table_, values);
     const Tally tally = row == nullptr ? Tally{} : row->statistics.pilots[pilot].tally;
-    std::string text = rate_text(tally.shown(pilot == 2));
-    if (tally.errors > 0) text += ", " + count_text(tally.errors, "error");
-    return text;
+    return tally_text(tally, pilot == 2);
   }
 
   void size_rows(const std::string& size, const std::vector<std::string>& distances) {

@@ -73,6 +73,12 @@ std::string rate_text(const Rate& rate) {
          fixed(interval.hi) + (rate.sequential ? ", " + rate.interval_name() : "") + ")";
 }
 
+std::string tally_text(const Tally& tally, bool none) {
+  std::string text = rate_text(tally.shown(none));
+  if (tally.errors == 0) return text;
+  return text + ", " + std::to_string(tally.errors) + (tally.errors == 1 ? " error" : " errors");
+}
+
 void Tally::add(const ThrowResult& result, ThrowResult::FlightOf by) {
   const FlightResult &flight = result.*by, &none = result.none;
   if (flight.failed() || none.failed()) ++errors;

@@ -55,6 +55,9 @@ struct Tally {
   Rate shown(bool none) const { return none ? Rate{would_have_hit, throws} : success(); }
 };
 
+// What tables show of it, with its errors: "25 / 34 (0.735, 0.569 to 0.854), 1 error".
+std::string tally_text(const Tally& tally, bool none);
+
 // Numbers of throws that lie on a line, such as the clearance.
 class Measured {
  public:

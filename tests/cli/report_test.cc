@@ -79,6 +79,8 @@ TEST_F(ReportCommandTest, ReportAndTableReadADirectory) {
   const Outcome table = dodgesim("table " + path("out") + " --by speed_mps,size_m --format csv");
   EXPECT_EQ(table.exit_code, 0);
   EXPECT_THAT(table.output, ::testing::StartsWith("speed_mps,size_m,pilot,throws,would_have_hit,"));
+  EXPECT_EQ(dodgesim("table " + path("out") + " --by 'speed_mps, size_m' --format csv").output,
+            table.output);
   EXPECT_EQ(dodgesim("table " + path("out") + " --by colour").exit_code, 2);
   EXPECT_EQ(dodgesim("table " + path("nowhere")).exit_code, 4);
 }

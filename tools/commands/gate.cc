@@ -187,7 +187,7 @@ std::optional<Baseline> find_baseline(const GateArguments& arguments) {
   } catch (const IoError& error) {
     if (!is_marked_as_baseline(where)) {
       throw IoError(where.string() +
-                    " is not empty, but no baseline: its manifest.json has no \"gate\". Choose "
+                    " is not empty, but no baseline: it has no manifest.json with \"gate\". Choose "
                     "another directory, or remove what is there.");
     }
     if (!arguments.update) {

@@ -73,7 +73,9 @@ void add_table_command(CLI::App& program, int& exit_code) {
                    "not given: all of those, or size_m and distance_m without a grid); the values\n"
                    "of a sweep always stand apart")
       ->delimiter(',')
-      ->transform([](const std::string& key) { return CLI::detail::trim_copy(key); })
+      ->transform([](const std::string& key) {
+        return key.substr(std::min(key.find_first_not_of(' '), key.size()));  // behind a comma
+      })
       ->type_name("KEYS");
   command->add_option("--out", arguments->out, "Where it goes, instead of the terminal")
       ->check(not_empty())

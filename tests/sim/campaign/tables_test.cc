@@ -191,6 +191,9 @@ TEST(Tables, AFlightOfThePilotNoneFailsOnceOnly) {
   const Tables made = tables({result}, "none");
   EXPECT_THAT(made.markdown, HasSubstr("1 flight failed"));
   EXPECT_THAT(made.markdown, HasSubstr("1 error |"));
+  const std::string row = "\nall,all,all,none,";
+  EXPECT_THAT(made.csv, HasSubstr(row));
+  EXPECT_EQ(made.csv.find(row), made.csv.rfind(row)) << "and has one row";
 }
 
 }  // namespace

@@ -129,8 +129,7 @@ const BadScenario kBadScenarios[] = {
     {"Syntax", "throw: {size_m: 0.1\nseed: 1\n", "bad.yaml:2:"},
     {"Tab", "throw:\n\tsize_m: 0.1\n",
      "bad.yaml:2:8: This is not valid YAML (illegal map value). Line 2 is indented with a tab; "
-     "YAML "
-     "takes spaces only."},
+     "YAML takes spaces only."},
     {"TabFarAway", "seed: 1 # c\n\n \trepeats: 2\n",
      "bad.yaml:3:3: This is not valid YAML (end of map not found). Line 3 is indented with a tab"},
     {"NotUtf8", "name: \"\xff\"\n", "bad.yaml:1:8: This is not UTF-8 text (byte 255)."},
