@@ -11,9 +11,9 @@
 
 namespace dodgesim {
 
-void Losses::add(const ThrowResult& result) {
-  if (!result.flown.ok() || !result.oracle.ok() || !result.none.ok() || !result.none.hit) return;
-  const bool by_oracle = result.dodged(&ThrowResult::oracle);
+void Losses::add(const ThrowResult& result, const FlightResult& oracle) {
+  if (!result.flown.ok() || !oracle.ok() || !result.none.ok() || !result.none.hit) return;
+  const bool by_oracle = oracle.unharmed();
   counts.add(by_oracle, result.dodged());
   if (result.dodged()) return;
   // Nothing harmed who gave up in time, and nothing caused it.

@@ -18,7 +18,9 @@ struct Losses {
   std::map<std::string, int> perception;   // causes of what the oracle dodged
   std::map<std::string, int> with_oracle;  // causes of what the oracle lost, too
 
-  void add(const ThrowResult& result);
+  void add(const ThrowResult& result) { add(result, result.oracle); }
+  // The same against another flight by an oracle through the same throw.
+  void add(const ThrowResult& result, const FlightResult& oracle);
 
   Rate dodged() const { return {counts.both + counts.only_second, counts.total()}; }
   Rate dodged_by_oracle() const { return {counts.both + counts.only_first, counts.total()}; }

@@ -21,8 +21,8 @@ void count(const ThrowResult& result, Tally& tally, std::map<std::string, int>& 
 
 }  // namespace
 
-void PilotPair::add(const LoadedCampaign& first_flew, const LoadedCampaign& second_flew,
-                    const std::function<bool(const ThrowResult&)>& belongs) {
+void for_each_throw(const LoadedCampaign& first_flew, const LoadedCampaign& second_flew,
+                    const std::function<void(const ThrowResult&, const ThrowResult&)>& both) {
   if (first_flew.results.size() != second_flew.results.size()) {
     throw std::invalid_argument("The two pilots flew different numbers of throws.");
   }
@@ -31,12 +31,19 @@ void PilotPair::add(const LoadedCampaign& first_flew, const LoadedCampaign& seco
     if (!same_throw(a, b)) {
       throw std::invalid_argument("The two pilots flew different throws.");
     }
-    if (!belongs(a)) continue;
+    both(a, b);
+  }
+}
+
+void PilotPair::add(const LoadedCampaign& first_flew, const LoadedCampaign& second_flew,
+                    const std::function<bool(const ThrowResult&)>& belongs) {
+  for_each_throw(first_flew, second_flew, [&](const ThrowResult& a, const ThrowResult& b) {
+    if (!belongs(a)) return;
     count(a, first, first_causes);
     count(b, second, second_causes);
     oracle.add(a, &ThrowResult::oracle);
     if (a.none.hit) paired.add(a.dodged(), b.dodged());
-  }
+  });
 }
 
 std::string p_text(double p) { return p < 0.0001 ? "< 0.0001" : fixed_text(p, 4); }

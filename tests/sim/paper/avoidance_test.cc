@@ -2,7 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "sim/paper/experiment.h"
+#include "sim/paper/rate_grid.h"
 #include "tests/sim/paper/synthetic_campaign.h"
 
 namespace dodgesim {
@@ -71,17 +75,53 @@ TEST(AvoidanceTables, KeepLossesOfPerceptionApartFromWhatTheOracleLosesToo) {
               HasSubstr("\n| all sets | falanga2020 | " + rate_text({2, 4}) + " | 1.5 m |"));
 }
 
-TEST(MoreThrows, CountOfAllThrownWhatTheyLeaveUnharmed) {
-  ThrowResult hit = thrown(0, true, true, "seen late"), missed = thrown(1, false, false),
-              dodged = thrown(2, true, false);
-  hit.oracle.hit = true;
-  const LoadedCampaign near = campaign({hit, dodged}), far = campaign({hit}),
-                       scattered = campaign({hit, missed, missed, missed});
-  const std::string table = more_throws_experiment().analyse({near, far, scattered}).markdown;
+ThrowResult thrown_from(double distance_m, ThrowResult result) {
+  result.distance_m = distance_m;
+  return result;
+}
+
+// A set flown by the pilot, and by an oracle that dodges nothing.
+void add_set(const std::vector<ThrowResult>& results, std::vector<LoadedCampaign>& campaigns) {
+  campaigns.push_back(campaign(results));
+  campaigns.push_back(campaigns.back());
+  for (ThrowResult& result : campaigns.back().results) result.flown.hit = result.none.hit;
+}
+
+TEST(MoreThrows, AreSplitByDistanceAndSpeed) {
+  const ThrowResult slow = thrown(0, true, true, "not detected"), fast = thrown(1, true, false);
+  std::vector<LoadedCampaign> campaigns;
+  add_set({thrown_from(3.2, slow), thrown_from(3.9, fast)}, campaigns);
+  add_set({thrown_from(4, slow), thrown_from(4.2, fast)}, campaigns);
+  add_set({thrown_from(4.9, slow)}, campaigns);
+  add_set({slow}, campaigns);
+  const std::string table = more_throws_experiment().analyse(campaigns).markdown;
   EXPECT_THAT(table, HasSubstr("\n| from 3 to 4 m | 2 | 2 | 1 / 2 ("));
-  EXPECT_THAT(table, HasSubstr("\n| from 4 to 5 m | 1 | 1 | 0 / 1 ("));
-  EXPECT_THAT(table, HasSubstr("\n| from 3 to 5 m | 3 | 3 | 1 / 3 ("));
-  EXPECT_THAT(table, HasSubstr("\n| aimed less well | 4 | 1 | 0 / 1 ("));
+  EXPECT_THAT(table, HasSubstr("\n| from 4 to 5 m, faster than 5 m/s | 1 | 1 | 1 / 1 ("));
+  EXPECT_THAT(table, HasSubstr("\n| from 4 to 5 m, to 5 m/s | 2 | 2 | 0 / 2 ("));
+  EXPECT_THAT(table, HasSubstr("\n| all of outdoor.md | 5 | 5 | 2 / 5 ("));
+}
+
+TEST(MoreThrows, StandBesideAnOracleThatMustHaveTheBallInView) {
+  std::vector<ThrowResult> results;
+  for (int i = 0; i < 40; ++i) results.push_back(thrown_from(3, thrown(i, true, i % 4 != 0)));
+  std::vector<LoadedCampaign> campaigns;
+  for (int i = 0; i < 4; ++i) add_set(results, campaigns);
+  for (std::size_t i = 1; i < campaigns.size(); i += 2) {
+    for (ThrowResult& result : campaigns[i].results) result.flown.hit = result.index % 2 != 0;
+  }
+  const std::string table = more_throws_experiment().analyse(campaigns).markdown;
+  // The oracle that is told dodges everything, the other one half, the pilot a quarter.
+  EXPECT_THAT(table, HasSubstr("| hover, aimed less well | 40 | 40 | " + short_rate_text({10, 40}) +
+                               " | " + short_rate_text({40, 40}) + " | 0.25 ("));
+  EXPECT_THAT(table, HasSubstr(") | " + short_rate_text({20, 40}) + " | 0.50 ("));
+}
+
+TEST(MoreThrows, CountOfAllThrownWhatTheyLeaveUnharmed) {
+  const ThrowResult hit = thrown(0, true, true, "seen late"), missed = thrown(1, false, false);
+  std::vector<LoadedCampaign> campaigns;
+  for (int i = 0; i < 4; ++i) add_set({hit, missed, missed, missed}, campaigns);
+  const std::string table = more_throws_experiment().analyse(campaigns).markdown;
+  EXPECT_THAT(table, HasSubstr("\n| hover, aimed less well | 4 | 1 | 0 / 1 ("));
   EXPECT_THAT(table, HasSubstr("| 3 / 4 (0.30 to 0.95) |\n"));
 }
 
