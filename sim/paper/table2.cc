@@ -12,7 +12,6 @@
 #include "sim/paper/bootstrap.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/miss_investigator.h"
-#include "sim/paper/passing_flights.h"
 #include "sim/paper/success.h"
 
 namespace dodgesim {
@@ -269,7 +268,10 @@ PaperTables analyse_table2(const std::vector<LoadedCampaign>& campaigns) {
 }  // namespace
 
 PaperExperiment table2_experiment() {
-  return {"table2", "Table 2: success rate of the detector", {stereo_passing()}, analyse_table2};
+  return {"table2",
+          "Table 2: success rate of the detector",
+          {{"passing", "passing.yaml", {}}},
+          analyse_table2};
 }
 
 }  // namespace dodgesim

@@ -119,10 +119,15 @@ TEST(PaperExperiments, AreFoundByName) {
 }
 
 TEST(PaperExperiments, ShareTheirFlights) {
-  const auto all = flights_of(experiments_named({"table1", "table2"}));
-  EXPECT_EQ(all.size(), table1_experiment().flights.size());
-  EXPECT_EQ(all[1].arguments(),
-            "scenarios/paper/passing_mono.yaml --set throw.size_m=0.15 --set "
+  const auto all = flights_of(experiments_named({"outdoor", "more_throws"}));
+  // The flights of falanga2020 at the throws of outdoor.md.
+  EXPECT_EQ(all.size() + 3,
+            outdoor_experiment().flights.size() + more_throws_experiment().flights.size());
+}
+
+TEST(PaperExperiments, SayHowTheirFlightsAreFlown) {
+  EXPECT_EQ(table1_experiment().flights[1].arguments(),
+            "scenarios/paper/toward_mono.yaml --set throw.size_m=0.15 --set "
             "dodger.position.known_size_m=0.15");
 }
 
