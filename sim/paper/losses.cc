@@ -11,9 +11,16 @@
 
 namespace dodgesim {
 
-void Losses::add(const ThrowResult& result, const FlightResult& oracle) {
-  if (!result.flown.ok() || !oracle.ok() || !result.none.ok() || !result.none.hit) return;
-  const bool by_oracle = oracle.unharmed();
+void Losses::add(const ThrowResult& result) {
+  if (result.oracle.ok()) add(result, result.dodged(&ThrowResult::oracle));
+}
+
+void Losses::add(const ThrowResult& result, const ThrowResult& oracle_flew) {
+  if (oracle_flew.flown.ok()) add(result, oracle_flew.dodged());
+}
+
+void Losses::add(const ThrowResult& result, bool by_oracle) {
+  if (!result.flown.ok() || !result.none.ok() || !result.none.hit) return;
   counts.add(by_oracle, result.dodged());
   if (result.dodged()) return;
   // Nothing harmed who gave up in time, and nothing caused it.

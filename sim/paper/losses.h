@@ -18,14 +18,17 @@ struct Losses {
   std::map<std::string, int> perception;   // causes of what the oracle dodged
   std::map<std::string, int> with_oracle;  // causes of what the oracle lost, too
 
-  void add(const ThrowResult& result) { add(result, result.oracle); }
-  // The same against another flight by an oracle through the same throw.
-  void add(const ThrowResult& result, const FlightResult& oracle);
+  void add(const ThrowResult& result);
+  // Against another oracle, which is the pilot of `oracle_flew` through the same throw.
+  void add(const ThrowResult& result, const ThrowResult& oracle_flew);
 
   Rate dodged() const { return {counts.both + counts.only_second, counts.total()}; }
   Rate dodged_by_oracle() const { return {counts.both + counts.only_first, counts.total()}; }
   Rate lost_to_perception() const { return {counts.only_first, counts.total()}; }
   Rate lost_with_oracle() const { return {counts.neither, counts.total()}; }
+
+ private:
+  void add(const ThrowResult& result, bool by_oracle);
 };
 
 // "1.04 (0.90 to 1.19)": the pilot's dodges by the oracle's, with the 95 % interval of

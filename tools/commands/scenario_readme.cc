@@ -26,7 +26,7 @@ and flies. Each file here runs as it is:
 | `paper/drift_up.yaml`, `paper/drift_down.yaml` | a state estimate that drifts in height: lands or crashes |
 | `paper/drift_none.yaml` | their control: nothing drifts, nothing lands |
 | `paper/drift_thrown_at.yaml` | balls at a vehicle whose height estimate drifts |
-| `paper/passing*.yaml`, `paper/indoor.yaml`, `paper/outdoor_*.yaml` | the first paper's experiments (`dodgesim paper`) |
+| `paper/toward*.yaml`, `paper/passing.yaml`, `paper/indoor.yaml`, `paper/outdoor_*.yaml` | the first paper's experiments (`dodgesim paper`) |
 | `paper/claims*.yaml` | the claims behind its method: latency, speed, range, physics, field, threshold, translation |
 | `paper/training_*.yaml` | the throws on which `tools/search` looks for parameters |
 

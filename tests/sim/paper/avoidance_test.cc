@@ -81,6 +81,17 @@ ThrowResult from_height(double height_m, ThrowResult result) {
   return result;
 }
 
+// Another ball is in view, half a metre ahead of the first.
+ThrowResult with_second_ball(ThrowResult result) {
+  Trajectory trajectory = trajectory_from_bytes(result.trajectory);
+  trajectory.sizes_m.push_back(0.1);
+  for (Trajectory::Sample& sample : trajectory.samples) {
+    sample.objects.push_back(Eigen::Vector3d(sample.objects[0]->x() - 0.5, 0, 0.075));
+  }
+  result.trajectory = to_bytes(trajectory);
+  return result;
+}
+
 // A set flown by the pilot, and by an oracle that dodges nothing.
 void add_set(const std::vector<ThrowResult>& results, std::vector<LoadedCampaign>& campaigns) {
   LoadedCampaign flown = campaign(results);
@@ -99,12 +110,44 @@ TEST(MoreThrows, AreSplitByWhatIsInViewWithinTheRange) {
   // The view ends at 32 degrees: 0.79 m above the axis at a range of 1.5 m.
   add_set({from_height(0.7, lost), from_height(0.7, dodged), from_height(0.9, lost)}, campaigns);
   add_set({from_height(-0.9, lost), from_height(0, dodged)}, campaigns);
-  add_set({from_height(2, lost)}, campaigns);  // never within 1.5 m
+  // Never within 1.5 m; and beside another one that is in view there first.
+  add_set({from_height(2, lost), with_second_ball(from_height(0.9, dodged))}, campaigns);
   add_set({lost}, campaigns);
   const std::string table = more_throws_experiment().analyse(campaigns).markdown;
-  EXPECT_THAT(table, HasSubstr("\n| in view at 1.5 m | 3 | 3 | 2 / 3 ("));
-  EXPECT_THAT(table, HasSubstr("\n| above or beside the view at 1.5 m | 3 | 3 | 0 / 3 ("));
-  EXPECT_THAT(table, HasSubstr("\n| all of outdoor.md | 6 | 6 | 2 / 6 ("));
+  EXPECT_THAT(table, HasSubstr("\n| in view within 1.5 m | 4 | 4 | 3 / 4 ("));
+  EXPECT_THAT(table, HasSubstr("\n| not in view within 1.5 m | 3 | 3 | 0 / 3 ("));
+  EXPECT_THAT(table, HasSubstr("\n| all of outdoor.md | 7 | 7 | 3 / 7 ("));
+}
+
+TEST(MoreThrows, LeaveOutFlightsThatFailed) {
+  std::vector<LoadedCampaign> campaigns;
+  for (int i = 0; i < 4; ++i) add_set({thrown(0, true, false), thrown(1, true, true)}, campaigns);
+  for (FlightResult ThrowResult::*flight :
+       {&ThrowResult::flown, &ThrowResult::none, &ThrowResult::oracle}) {
+    std::vector<LoadedCampaign> failed = campaigns;
+    ThrowResult& result = failed[0].results[1];
+    (result.*flight).status = "error";
+    if (flight == &ThrowResult::flown) result.trajectory.clear();  // there is none
+    EXPECT_THAT(more_throws_experiment().analyse(failed).markdown,
+                HasSubstr("\n| all of outdoor.md | 5 | 5 | 3 / 5 ("));
+  }
+  campaigns[1].results[1].flown.status = "error";
+  EXPECT_THAT(more_throws_experiment().analyse(campaigns).markdown,
+              HasSubstr("\n| all of outdoor.md | 5 | 5 | 3 / 5 ("));
+}
+
+TEST(MoreThrows, AreFlownByThePilotAndByAnOracleThatMustSee) {
+  const std::vector<PaperFlight> flights = more_throws_experiment().flights;
+  ASSERT_EQ(flights.size(), 8u);
+  EXPECT_EQ(flights[0].arguments(), "scenarios/paper/outdoor_hover.yaml");
+  EXPECT_EQ(flights[1].arguments(),
+            "scenarios/paper/outdoor_hover.yaml --set pilot=oracle --set "
+            "oracle.field_of_view=true");
+  for (std::size_t i = 0; i < flights.size(); i += 2) {
+    EXPECT_EQ(flights[i + 1].arguments(),
+              flights[i].arguments() + " --set pilot=oracle --set oracle.field_of_view=true");
+  }
+  EXPECT_EQ(flights.back().scenario, "outdoor_scattered.yaml");
 }
 
 TEST(MoreThrows, StandBesideAnOracleThatMustHaveTheBallInView) {

@@ -46,6 +46,18 @@ TEST(Losses, LeaveOutWhatWouldHaveMissedAndWhatFailed) {
   EXPECT_EQ(losses.counts.total(), 0);
 }
 
+TEST(Losses, CanBeHeldAgainstAnotherOracle) {
+  const ThrowResult lost = with_oracle(thrown(0, true, true, "seen late"), false);
+  ThrowResult failed = thrown(0, true, false);
+  failed.flown.status = "error";
+  Losses losses;
+  losses.add(lost, thrown(0, true, false));
+  losses.add(lost, thrown(0, true, true));
+  losses.add(lost, failed);
+  EXPECT_EQ(rate_text(losses.dodged_by_oracle()), rate_text({1, 2}));
+  EXPECT_EQ(rate_text(losses.lost_to_perception()), rate_text({1, 2}));
+}
+
 TEST(Losses, TheRatioToTheOracleHasAnIntervalOverThrows) {
   Losses losses;
   losses.counts = {40, 10, 5, 45};  // both, only the oracle, only the pilot, neither

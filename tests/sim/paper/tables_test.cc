@@ -2,7 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+#include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "sim/base/error.h"
 #include "sim/paper/experiment.h"
@@ -83,10 +88,13 @@ TEST(Table1, DiscardsWhatIsPartlyOutsideOfTheImageOnRequest) {
   ThrowResult cut = hanging_ball(0, 0, 0.3, 0.3);
   cut.trajectory = to_bytes(straight_flight(ahead(0.3) + Vector3d(0, 0.15, 0), {0, 0, 0}, 0.3));
   detect(cut, 0.3, 0.05);
-  const LoadedCampaign mono = campaign("mono", {cut}), empty = campaign("mono", {});
+  ThrowResult whole = hanging_ball(1, 0, 0.7, 0.1);
+  detect(whole, 0.7, 0.05);
+  const LoadedCampaign mono = campaign("mono", {cut, whole}), empty = campaign("mono", {});
   const PaperTables tables = table1_experiment().analyse({mono, empty, empty, empty, empty, empty});
   EXPECT_NE(line_with(tables.csv, "\"monocular, all detections\",0.2"), "");
   EXPECT_EQ(line_with(tables.csv, "\"monocular, ball wholly in view\",0.2"), "");
+  EXPECT_NE(line_with(tables.csv, "\"monocular, ball wholly in view\",0.5"), "");
 }
 
 TEST(Table2, CountsThePassagesOfEachCell) {
@@ -123,6 +131,49 @@ TEST(PaperExperiments, ShareTheirFlights) {
   // The flights of falanga2020 at the throws of outdoor.md.
   EXPECT_EQ(all.size() + 3,
             outdoor_experiment().flights.size() + more_throws_experiment().flights.size());
+}
+
+TEST(PaperExperiments, ShareOnlyFlightsThatAreTheSame) {
+  std::map<std::string, std::string> arguments;
+  for (const PaperExperiment& experiment : paper_experiments()) {
+    for (const PaperFlight& flight : experiment.flights) {
+      const auto [known, added] = arguments.emplace(flight.name, flight.arguments());
+      EXPECT_EQ(known->second, flight.arguments()) << flight.name;
+    }
+  }
+}
+
+TEST(Table1, IsFlownInTheOrderOfItsSetups) {
+  std::vector<std::string> names;
+  for (const PaperFlight& flight : table1_experiment().flights) names.push_back(flight.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"toward_mono_0.075m", "toward_mono_0.15m",
+                                             "toward_mono_0.25m", "toward_centres", "toward",
+                                             "toward_rigs"}));
+}
+
+TEST(Table1, GivesTheDifferenceOfOneAndTwoCamerasAnInterval) {
+  std::vector<ThrowResult> one, two;
+  for (int i = 0; i < 40; ++i) {
+    one.push_back(hanging_ball(i, 0, 0.7, 0.1));
+    two.push_back(one.back());
+    detect(one.back(), 0.7, i % 2 == 0 ? 0.11 : 0.13);  // 0.12, its mean known to 0.0016 m
+    detect(two.back(), 0.7, i % 2 == 0 ? 0.06 : 0.1);   // 0.08, 0.0032 m
+  }
+  const LoadedCampaign mono = campaign("mono", one), empty = campaign("mono", {}),
+                       stereo = campaign("stereo", two);
+  const std::string text =
+      table1_experiment().analyse({mono, empty, empty, stereo, empty, empty}).markdown;
+  const std::string row =
+      line_with(text, "| stereo by centres, all detections; monocular, ball wholly in view |");
+  double difference_m = 0, lo_m = 0, hi_m = 0;
+  ASSERT_EQ(std::sscanf(row.substr(row.find("view |") + 6).c_str(), " | %lf (%lf to %lf)",
+                        &difference_m, &lo_m, &hi_m),
+            3)
+      << row;
+  const double half_m = 1.96 * std::hypot(0.01, 0.02) / std::sqrt(40);
+  EXPECT_DOUBLE_EQ(difference_m, -0.04);
+  EXPECT_NEAR(lo_m, -0.04 - half_m, 0.0011);
+  EXPECT_NEAR(hi_m, -0.04 + half_m, 0.0011);
 }
 
 TEST(PaperExperiments, SayHowTheirFlightsAreFlown) {
