@@ -47,6 +47,16 @@ struct Sum {
   }
 };
 
+// Throws by the pilot and by the oracle in view; without those of which a flight failed.
+template <class Both>
+void for_each_flown(const LoadedCampaign& pilot, const LoadedCampaign& oracle_in_view, Both both) {
+  for_each_throw(pilot, oracle_in_view, [&](const ThrowResult& flown, const ThrowResult& seen) {
+    if (flown.flown.ok() && flown.oracle.ok() && flown.none.ok() && seen.flown.ok()) {
+      both(flown, seen);
+    }
+  });
+}
+
 // The ball that is first within the range from the reference camera, when it comes there; empty if
 // none does.
 std::optional<Sight> first_within(double range_m, const Trajectory& trajectory,
@@ -73,8 +83,7 @@ struct Sums {
   void add(const LoadedCampaign& pilot, const LoadedCampaign& oracle_in_view) {
     const CameraRig rig = camera_rig(pilot.scenario);
     const double range_m = pilot.scenario.dodger.position.max_range_m;
-    for_each_throw(pilot, oracle_in_view, [&](const ThrowResult& flown, const ThrowResult& seen) {
-      if (!flown.flown.ok() || !flown.oracle.ok() || !flown.none.ok() || !seen.flown.ok()) return;
+    for_each_flown(pilot, oracle_in_view, [&](const ThrowResult& flown, const ThrowResult& seen) {
       const auto near = first_within(range_m, trajectory_from_bytes(flown.trajectory), rig);
       const bool visible = near && centre_in_image(rig.intrinsics, near->p_C);
       (visible ? in_view : not_in_view).add(flown, seen);
@@ -102,13 +111,16 @@ PaperTables analyse_more_throws(const std::vector<LoadedCampaign>& campaigns) {
                 "dodged, of these", "oracle",         "ratio",
                 "oracle, in view",  "ratio, in view", "unharmed, of all thrown"};
   const std::size_t last = campaigns.size() - 2;
-  Sums outdoors, scattered;
+  Sums outdoors;
+  Sum scattered;
   for (std::size_t i = 0; i < last; i += 2) outdoors.add(campaigns[i], campaigns[i + 1]);
-  scattered.add(campaigns[last], campaigns[last + 1]);
+  for_each_flown(
+      campaigns[last], campaigns[last + 1],
+      [&](const ThrowResult& flown, const ThrowResult& seen) { scattered.add(flown, seen); });
   table.rows = {row_of("in view within 1.5 m", outdoors.in_view),
                 row_of("not in view within 1.5 m", outdoors.not_in_view),
                 row_of("all of outdoor.md", outdoors.all),
-                row_of("hover, aimed less well", scattered.all)};
+                row_of("hover, aimed less well", scattered)};
   return {table.to_markdown() + "\n" + kMoreThrowsProtocol, table.to_csv()};
 }
 
