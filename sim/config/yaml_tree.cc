@@ -124,7 +124,8 @@ class TreeBuilder : public YAML::EventHandler {
   void require_key_if_due(const YamlNode& node) {
     const Open& top = open_.back();
     if (top.node.kind == YamlNode::Kind::kMap && !top.expects_value) {
-      throw Stop{node.at, "A key must be a plain word, not a list or a map."};
+      throw Stop{node.at,
+                 "A key must be a plain word, not a list or a map; or a bracket is not closed."};
     }
   }
 

@@ -36,6 +36,21 @@ TEST_F(PaperCommandTest, MakesTheSameTablesAgain) {
   EXPECT_EQ(fly("b", "").exit_code, 2) << "without --force or --resume";
 }
 
+TEST_F(PaperCommandTest, ASeedIsAddedToThatOfEveryScenario) {
+  const auto commands = [&](const std::string& out, const std::string& options) {
+    EXPECT_EQ(dodgesim("paper physics --throws 1 --out " + path(out) + options).exit_code, 0);
+    return contents(out + "/physics.md");
+  };
+  const std::string quick = " --set 'grid.speed_mps=[6]'";
+  EXPECT_THAT(commands("own", quick), HasSubstr("- 3 throws, seed 4007: "));
+  EXPECT_THAT(commands("other", quick + " --seed 1000"),
+              ::testing::AllOf(HasSubstr("- 3 throws, seed 5007: "), HasSubstr("--set seed=5007`"),
+                               HasSubstr("--seed 1000`")));
+  const Outcome bad = dodgesim("paper physics --seed x --out " + path("bad"));
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_THAT(bad.output, HasSubstr("--seed x: seed is \"x\", but must be a whole number"));
+}
+
 // Nine campaigns in the same workers.
 TEST_F(PaperCommandTest, GivesTheSameFilesForAnyNumberOfWorkersAndAfterAStop) {
   const auto fly = [&](const std::string& out, const std::string& options) {

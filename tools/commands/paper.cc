@@ -22,14 +22,29 @@ struct PaperArguments {
   std::vector<std::string> set;
 };
 
+Scenario scenario_of(const PaperFlight& flight, const std::string& models_dir) {
+  return load_scenario(DODGESIM_SCENARIOS_DIR "/paper/" + flight.scenario, models_dir,
+                       flight.settings);
+}
+
+// Adds to the seed: throws that were the same in two flights stay the same, others different.
+void add_to_seed(const Setting& seed, const std::string& models_dir, PaperFlight& flight) {
+  const std::uint64_t own = scenario_of(flight, models_dir).seed;
+  flight.settings.push_back(seed);
+  Setting& sum = flight.settings.back();
+  sum.value = std::to_string(own + scenario_of(flight, models_dir).seed);
+}
+
 // The experiments as the command line wants them.
 std::vector<PaperExperiment> chosen_experiments(const PaperArguments& arguments) {
-  std::vector<Setting> settings = parse_settings("--set", arguments.set);
-  append_settings(arguments.repeat, settings);
+  std::vector<Setting> settings = parse_settings("--set", arguments.set), seed;
+  append_settings({arguments.repeat.throws, ""}, settings);
+  append_settings({"", arguments.repeat.seed}, seed);
   std::vector<PaperExperiment> experiments = experiments_named(arguments.experiments);
   for (PaperExperiment& experiment : experiments) {
     for (PaperFlight& flight : experiment.flights) {
       flight.settings.insert(flight.settings.end(), settings.begin(), settings.end());
+      for (const Setting& setting : seed) add_to_seed(setting, arguments.models_dir, flight);
     }
   }
   return experiments;
@@ -79,8 +94,7 @@ int paper(const PaperArguments& arguments) {
   std::vector<Scenario> scenarios;
   scenarios.reserve(flights.size());
   for (const PaperFlight& flight : flights) {
-    scenarios.push_back(load_scenario(DODGESIM_SCENARIOS_DIR "/paper/" + flight.scenario,
-                                      arguments.models_dir, flight.settings));
+    scenarios.push_back(scenario_of(flight, arguments.models_dir));
   }
 
   try_models(scenarios);  // all of them before an hour of flights
@@ -109,10 +123,11 @@ void add_paper_command(CLI::App& program, const std::string& command_line, int& 
   command->add_option("experiments", arguments->experiments, "Which ones; all of them without any")
       ->type_name("EXPERIMENT");
   add_campaign_options(*command, arguments->options);
-  add_repeat_options(*command, arguments->repeat,
-                     "Repeats of every scenario, in place of its own: for a quick look",
-                     "Seed of every scenario: for trying something out, as no parameter may be\n"
-                     "tuned on the throws that are reported");
+  add_repeat_options(
+      *command, arguments->repeat,
+      "Repeats of every scenario, in place of its own: for a quick look",
+      "Added to the seed of every scenario: for trying something out, as no parameter\n"
+      "may be tuned on the throws that are reported");
   add_set_option(*command, arguments->set);
   add_models_option(*command, arguments->models_dir);
   std::string list = "Experiments:\n";

@@ -91,6 +91,10 @@ TEST_F(ScenarioTree, ProblemsNameTheFileInWhichTheyStand) {
   write("a/mine.yaml", "extends: ../base.yaml\nrepeats: 0\nthrow:\n  speed_mps: 99\n");
   EXPECT_EQ(error_of("a/mine.yaml", {set("throw.spede_mps", "3"), set("after_s", "[1}")}),
             "--set after_s=[1}: This is not valid YAML (illegal flow end).");
+  EXPECT_EQ(
+      error_of("a/mine.yaml", {set("after_s", "[1")}),
+      "--set after_s=[1: A key must be a plain word, not a list or a map; or a bracket is not "
+      "closed.");
   EXPECT_EQ(error_of("a/mine.yaml", {set("throw.spede_mps", "3"), set("after_s", "1000")}),
             "a/mine.yaml:2:10: repeats is 0, but must be between 1 and 1000000.\n"
             "a/mine.yaml:4:14: throw.speed_mps is 99, but must be between 0.5 and 30.\n"
