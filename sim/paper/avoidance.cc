@@ -30,7 +30,7 @@ constexpr const char* kAvoidanceProtocol = R"(How the protocol is read:
   throw that the pilot lost and its oracle dodged is perception's loss; one that both lost is the
   loss of range, escape law, controller and rotors: another law may dodge it from the same range
   (field.md). A pilot may also dodge what its oracle loses: the rates of the two are not nested, and
-  their ratio (95 %, bootstrap over throws) may exceed 1. Throws with a flight that failed are left
+  their ratio (95 %, Bonett and Price) may exceed 1. Throws with a flight that failed are left
   out.
 - Intervals: 95 %, Wilson. p: exact McNemar test on the throws that one of the two pilots dodged
   and the other did not.

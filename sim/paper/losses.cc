@@ -1,13 +1,6 @@
 #include "sim/paper/losses.h"
 
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <span>
-#include <vector>
-
 #include "sim/campaign/text_table.h"
-#include "sim/paper/bootstrap.h"
 
 namespace dodgesim {
 
@@ -29,32 +22,12 @@ void Losses::add(const ThrowResult& result, bool by_oracle) {
 }
 
 std::string ratio_text(const Losses& losses) {
-  struct Dodged {
-    bool oracle, pilot;
-  };
-  std::vector<Dodged> throws;
-  const auto append = [&throws](std::int64_t count, Dodged dodged) {
-    throws.insert(throws.end(), static_cast<std::size_t>(count), dodged);
-  };
-  append(losses.counts.both, {true, true});
-  append(losses.counts.only_first, {true, false});
-  append(losses.counts.only_second, {false, true});
-  append(losses.counts.neither, {false, false});
-  const auto ratio = [&throws](std::span<const std::size_t> drawn) {
-    double pilot = 0, oracle = 0;
-    for (const std::size_t i : drawn) {
-      pilot += throws[i].pilot;
-      oracle += throws[i].oracle;
-    }
-    return oracle > 0 ? pilot / oracle : std::numeric_limits<double>::infinity();
-  };
-  if (throws.empty()) return "-";
-  std::vector<std::size_t> all(throws.size());
-  std::iota(all.begin(), all.end(), 0);
-  const Interval interval = cluster_bootstrap(throws.size(), "ratio", ratio);
-  if (!std::isfinite(interval.lo) || !std::isfinite(interval.hi)) return "-";
-  return fixed_text(ratio(all), 2) + " (" + fixed_text(interval.lo, 2) + " to " +
-         fixed_text(interval.hi, 2) + ")";
+  const auto oracle = losses.counts.both + losses.counts.only_first;
+  if (oracle == 0) return "-";
+  const auto pilot = losses.counts.both + losses.counts.only_second;
+  const Interval interval = bonett_price(losses.counts);
+  return fixed_text(static_cast<double>(pilot) / static_cast<double>(oracle), 2) + " (" +
+         fixed_text(interval.lo, 2) + " to " + fixed_text(interval.hi, 2) + ")";
 }
 
 }  // namespace dodgesim

@@ -32,7 +32,7 @@ struct Losses {
 };
 
 // "1.04 (0.90 to 1.19)": the pilot's dodges by the oracle's, with the 95 % interval of
-// cluster_bootstrap() over throws; "-" where it has none because the oracle dodges so few.
+// bonett_price(); "-" where the oracle dodges none.
 std::string ratio_text(const Losses& losses);
 
 }  // namespace dodgesim

@@ -28,7 +28,7 @@ constexpr const char* kMoreThrowsProtocol = R"(How to read it:
 - *Oracle*: is told of each ball within 1.5 m and avoids it like falanga2020. *Oracle, in view*: the
   same, told of a ball only while its centre is in the view of the reference camera
   (`oracle.field_of_view`). *Ratio*: the pilot's dodges by the oracle's on the same throws (95 %,
-  bootstrap). Other intervals: 95 %, Wilson.
+  Bonett and Price). Other intervals: 95 %, Wilson.
 - *Hover, aimed less well*: other throws, at points around the vehicle's middle with a standard
   deviation of 0.4 m across and up, so that most balls miss a vehicle that stays.
 - *Unharmed*: of all throws, those that left the vehicle unharmed, which is what the paper's outdoor

@@ -139,6 +139,70 @@ TEST(Tango, CoversAsItPromises) {
   EXPECT_GT(least, 0.93);
 }
 
+// Fagerland, Lydersen and Laake 2014, whose ratio is first / second.
+TEST(BonettPrice, AgreesWithThePublishedInterval) {
+  const Interval interval = bonett_price({59, 16, 6, 80});
+  EXPECT_NEAR(interval.lo, 0.7579, 5e-5);
+  EXPECT_NEAR(interval.hi, 0.9910, 5e-5);
+}
+
+TEST(BonettPrice, MirrorsAndHasAWidthEverywhere) {
+  for (const PairedCounts& counts : {kBentur, kCavo, PairedCounts{80, 0, 0, 0},
+                                     PairedCounts{80, 0, 0, 20}, PairedCounts{1, 1, 1, 1}}) {
+    const Interval interval = bonett_price(counts);
+    const Interval mirrored =
+        bonett_price({counts.both, counts.only_second, counts.only_first, counts.neither});
+    EXPECT_NEAR(interval.lo * mirrored.hi, 1, 1e-12);
+    EXPECT_LT(interval.lo, interval.hi);
+    const double seen = static_cast<double>(counts.both + counts.only_second) /
+                        static_cast<double>(counts.both + counts.only_first);
+    EXPECT_TRUE(interval.contains(seen));
+    EXPECT_GT(bonett_price(counts, 0.99).half_width(), interval.half_width());
+  }
+  EXPECT_EQ(bonett_price({0, 13, 0, 7}).lo, 0);
+  EXPECT_GT(bonett_price({0, 13, 0, 7}).hi, 0.1);
+  EXPECT_TRUE(std::isinf(bonett_price({0, 0, 13, 7}).hi));
+  EXPECT_GT(bonett_price({0, 0, 13, 7}).lo, 1);
+  EXPECT_TRUE(std::isinf(bonett_price({0, 0, 0, 7}).hi));
+  EXPECT_THROW(bonett_price({0, -1, 0, 7}), std::invalid_argument);
+}
+
+TEST(BonettPrice, CoversAsItPromises) {
+  const std::int64_t n = 40;
+  double sum = 0, least = 1;
+  int rates = 0;
+  for (double p_both = 0.1; p_both < 0.8; p_both += 0.2) {
+    for (double p_lost = 0.02; p_lost < 0.9 - p_both; p_lost += 0.1) {
+      for (double p_gained = 0.02; p_gained <= p_lost && p_both + p_lost + p_gained < 0.95;
+           p_gained += 0.1) {
+        const double ratio = (p_both + p_gained) / (p_both + p_lost);
+        double coverage = 0;
+        for (std::int64_t both = 0; both <= n; ++both) {
+          const double p_of_both = binomial_pmf(both, n, p_both);
+          for (std::int64_t lost = 0; both + lost <= n; ++lost) {
+            for (std::int64_t gained = 0; both + lost + gained <= n; ++gained) {
+              const double probability =
+                  p_of_both *
+                  trinomial(lost, gained, n - both, p_lost / (1 - p_both), p_gained / (1 - p_both));
+              if (probability < 1e-9) continue;
+              const Interval interval =
+                  bonett_price({both, lost, gained, n - both - lost - gained});
+              if (interval.contains(ratio)) coverage += probability;
+            }
+          }
+        }
+        sum += coverage;
+        least = std::min(least, coverage);
+        ++rates;
+      }
+    }
+  }
+  RecordProperty("mean_coverage", std::to_string(sum / rates));
+  RecordProperty("least_coverage", std::to_string(least));
+  EXPECT_NEAR(sum / rates, 0.956, 0.004);
+  EXPECT_GT(least, 0.94);
+}
+
 // Standardised difference of losses and gains under the most likely rates with lost - gained =
 // margin, found by search.
 double statistic_by_search(double lost, double gained, double n, double margin) {

@@ -71,10 +71,18 @@ TEST(Losses, TheRatioToTheOracleHasAnIntervalOverThrows) {
   EXPECT_NEAR(high, 0.9 * std::exp(1.96 * sd), 0.03);
 }
 
-TEST(Losses, AnOracleThatHardlyDodgesGivesNoRatio) {
+TEST(Losses, TheRatioHasAnIntervalAlsoWhereNothingDiffers) {
+  Losses losses;
+  losses.counts = {80, 0, 0, 0};
+  EXPECT_EQ(ratio_text(losses), "1.00 (0.98 to 1.02)");
+  losses.counts = {0, 13, 0, 7};
+  EXPECT_EQ(ratio_text(losses), "0.00 (0.00 to 0.30)");
+}
+
+TEST(Losses, AnOracleThatDodgesNothingGivesNoRatio) {
   Losses losses;
   EXPECT_EQ(ratio_text(losses), "-");
-  losses.counts = {1, 0, 1, 10};
+  losses.counts = {0, 0, 3, 10};
   EXPECT_EQ(ratio_text(losses), "-");
 }
 
