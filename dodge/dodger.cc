@@ -139,9 +139,16 @@ void Dodger::find_clusters(Eye& eye) {
 
 bool Dodger::locate_obstacles() {
   if (elapsed_windows_ <= 0) return false;  // the same data again are no new measurement
-  const std::optional<StateEstimate> state = states_.at(end_us_);
-  if (state) depth_.locate(views_, *state, detections_);
-  return state.has_value();
+  std::optional<StateEstimate> state = states_.at(end_us_);
+  if (!state) return false;
+  if (config_.ego_motion.reference == "start") {
+    // The pixels show what the cameras saw as they were turned then.
+    const std::optional<StateEstimate> start = states_.at(begin_us_);
+    if (!start) return false;
+    state->q_WB = start->q_WB;
+  }
+  depth_.locate(views_, *state, detections_);
+  return true;
 }
 
 const std::vector<Cluster>& Dodger::clusters(int camera) const {

@@ -19,6 +19,11 @@ Eigen::Vector3d heading(const Eigen::Quaterniond& q_WB) {
   return x.normalized();
 }
 
+bool is_finite(const TrackedObstacle& tracked) {
+  return tracked.obstacle.v_WO.allFinite() && tracked.ellipsoid.centre_W.allFinite() &&
+         tracked.ellipsoid.semi_axes_m.allFinite();
+}
+
 }  // namespace
 
 Avoider::Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attractive,
@@ -55,7 +60,7 @@ Eigen::Vector3d Avoider::repulsion(TimeUs now, const VehicleMotion& vehicle,
                                    std::span<const TrackedObstacle> obstacles) const {
   Eigen::Vector3d repulsive_W = Eigen::Vector3d::Zero();
   for (const TrackedObstacle& tracked : obstacles) {
-    if (!tracked.confirmed) continue;
+    if (!tracked.confirmed || !is_finite(tracked)) continue;
     const Obstacle& obstacle = tracked.obstacle;
     Ellipsoid ellipsoid = tracked.ellipsoid;
     ellipsoid.centre_W += seconds(now - obstacle.t_us) * obstacle.v_WO;

@@ -13,6 +13,9 @@ namespace {
 // Shorter than this a vector has no direction.
 constexpr double kNoDirection = 1e-9;
 
+// Of a unit vector so little is left across an obstacle's path if it is along the path.
+constexpr double kAlongThePath = 0.05;
+
 Eigen::Vector3d without_component_along(const Eigen::Vector3d& v, const Eigen::Vector3d& unit) {
   return v - v.dot(unit) * unit;
 }
@@ -78,10 +81,17 @@ Eigen::Vector3d RepulsiveField::direction(const Eigen::Vector3d& grad_eta_W,
 
 Eigen::Vector3d RepulsiveField::head_on_escape(const Eigen::Vector3d& along,
                                                const Eigen::Vector3d& heading_W) const {
+  const auto across = [&](const Eigen::Vector3d& wanted) -> Eigen::Vector3d {
+    return without_component_along(without_component_along(wanted, along), heading_W);
+  };
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  const bool steep = std::abs(along.z()) >= std::min(steep_sine_, 1 - kNoDirection);
-  const Eigen::Vector3d wanted = steep ? up.cross(heading_W).eval() : up;
-  return without_component_along(without_component_along(wanted, along), heading_W).normalized();
+  if (std::abs(along.z()) >= std::min(steep_sine_, 1 - kNoDirection)) {
+    const Eigen::Vector3d sideways = across(up.cross(heading_W));
+    // To the right if the way to the left goes down: |F_z| would turn it against the obstacle.
+    if (sideways.norm() >= kAlongThePath)
+      return sideways.normalized() * (sideways.z() < 0 ? -1 : 1);
+  }
+  return across(up).normalized();
 }
 
 Eigen::Vector3d RepulsiveField::force(const VehicleMotion& vehicle, const Ellipsoid& obstacle,

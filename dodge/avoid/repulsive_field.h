@@ -59,8 +59,9 @@ struct RepulsiveConfig {
       "practice, and the escape is upward. An estimated velocity's direction is no better than 3 "
       "degrees.");
     v("steep_deg", steep_deg, 0.0, 90.0,
-      "A head-on obstacle that climbs or falls more steeply than this is escaped from to the left, "
-      "because upward would be along its path.");
+      "A head-on obstacle that climbs or falls more steeply than this is escaped from sideways, "
+      "because upward would be along its path: to the left, or to the right if the left would go "
+      "down.");
     v("ignore_receding", ignore_receding,
       "Whether an obstacle that moves away from the vehicle stops pushing at once. The paper lets "
       "it decay only.");
@@ -96,9 +97,10 @@ class RepulsiveField {
   // Unit escape direction for the gradient of the distance (unit, away from the obstacle) and the
   // velocity that counts. Falanga: (29), (30), orthogonal to the heading and made a unit vector
   // again, so that (28) alone sets the magnitude: as printed, an obstacle that crosses from the
-  // side would hardly push. Where (29) or (30) vanish (head-on), the escape is upward, or to the
-  // left if the obstacle flies steeply; in both cases without the components along the obstacle's
-  // velocity and along the heading. Khosla: away from the obstacle.
+  // side would hardly push. Where (29) or (30) vanish (head-on), the escape is upward, or sideways
+  // if the obstacle flies steeply: to the left, or to the right if the left would go down; in all
+  // cases without the components along the obstacle's velocity and along the heading. Khosla: away
+  // from the obstacle.
   Eigen::Vector3d direction(const Eigen::Vector3d& grad_eta_W, const Eigen::Vector3d& v_W,
                             const Eigen::Vector3d& heading_W) const;
 

@@ -87,7 +87,7 @@ void EgoMotion::warp(std::span<const Event> events, float* __restrict u,
       const float x = H(0, 0) * u[i] + H(0, 1) * v[i] + H(0, 2);
       const float y = H(1, 0) * u[i] + H(1, 1) * v[i] + H(1, 2);
       const float z = H(2, 0) * u[i] + H(2, 1) * v[i] + H(2, 2);
-      const float scale = 1.0F / z;
+      const float scale = 1.0F / std::max(z, kLeastZ);
       u[i] = x * scale;
       v[i] = y * scale;
     }

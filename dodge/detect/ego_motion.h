@@ -63,13 +63,13 @@ class EgoMotion {
   // w_WC_C: the camera's mean angular velocity in C [rad/s] over [begin_us, end_us].
   void set_motion(const Eigen::Vector3d& w_WC_C, TimeUs begin_us, TimeUs end_us);
 
-  // A static ray obeys d(reference) = exp([w](t - reference)) d(t). Requires the event's pixel to
-  // lie in the image.
+  // A static ray obeys d(reference) = exp([w](t - reference)) d(t). One that has turned behind the
+  // camera lands far outside of the image. Requires the event's pixel to lie in the image.
   Eigen::Vector2f warp(const Event& event) const {
     const Eigen::Matrix3f& H = bins_[bin_of(event)];
     const Eigen::Vector2f& d = bearing_of(event);
     const Eigen::Vector3f p = H.col(0) * d.x() + H.col(1) * d.y() + H.col(2);
-    const float scale = 1.0F / p.z();
+    const float scale = 1.0F / std::max(p.z(), kLeastZ);
     return {p.x() * scale, p.y() * scale};
   }
 
@@ -77,6 +77,8 @@ class EgoMotion {
   void warp(std::span<const Event> events, float* u, float* v) const;
 
  private:
+  static constexpr float kLeastZ = 0.01F;  // of a ray (x, y, 1) that was turned
+
   std::size_t bin_of(const Event& event) const {
     const auto bin =
         static_cast<std::ptrdiff_t>(static_cast<float>(event.t_us - begin_us_) * bins_per_us_);

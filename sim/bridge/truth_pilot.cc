@@ -60,7 +60,8 @@ dodge::VelocityCommand TruthPilot::update(TimeUs now_us) {
   });
   seen_.clear();
   for (const auto& o : obstacles_) seen_.push_back(o.obstacle);
-  return avoider_.command(now_us, state_, goal_, obstacles_);
+  if (!state_) return {};
+  return avoider_.command(now_us, *state_, goal_, obstacles_);
 }
 
 }  // namespace dodgesim

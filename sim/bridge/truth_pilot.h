@@ -4,6 +4,7 @@
 // controller and motors as the paper's pilot.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "dodge/avoid/avoider.h"
@@ -47,7 +48,7 @@ class TruthPilot : public dodge::Pilot {
   Setup setup_;
   dodge::Avoider avoider_;
   DelayLine<Snapshot> light_;
-  dodge::StateEstimate state_;
+  std::optional<dodge::StateEstimate> state_;
   dodge::Goal goal_;
   std::vector<dodge::TrackedObstacle> obstacles_;
   std::vector<dodge::Obstacle> seen_;

@@ -106,7 +106,9 @@ Eigen::Vector3d VelocityController::limited(const Eigen::Vector3d& a_W) const {
 
   // The largest share s of the acceleration beyond hover with |hover + s extra| <= max thrust.
   const Eigen::Vector3d extra = a - hover;
-  if (a.norm() > max_thrust_mps2_) {
+  if (a.norm() > max_thrust_mps2_ && max_thrust_mps2_ <= kGravityMps2) {
+    a *= max_thrust_mps2_ / a.norm();  // it cannot even hover
+  } else if (a.norm() > max_thrust_mps2_) {
     const double aa = extra.squaredNorm();
     const double b = extra.dot(hover);
     const double c = hover.squaredNorm() - max_thrust_mps2_ * max_thrust_mps2_;

@@ -207,9 +207,12 @@ PaperTables by_speed(const std::vector<LoadedCampaign>& campaigns) {
 struct Shape {
   const char* object;
   const char* size_m;
+  const char* seed;
 };
-constexpr Shape kShapes[] = {{"ball", "0.1"},     {"box", "0.3"},       {"marker", "0.14"},
-                             {"frisbee", "0.27"}, {"quadrotor", "0.3"}, {"bowling_pin", "0.38"}};
+// Each with throws of its own, so that all of them can be counted together.
+constexpr Shape kShapes[] = {{"ball", "0.1", "4021"},      {"box", "0.3", "4022"},
+                             {"marker", "0.14", "4023"},   {"frisbee", "0.27", "4024"},
+                             {"quadrotor", "0.3", "4025"}, {"bowling_pin", "0.38", "4026"}};
 
 std::vector<PaperFlight> flights_of_shapes() {
   std::vector<PaperFlight> flights;
@@ -218,6 +221,7 @@ std::vector<PaperFlight> flights_of_shapes() {
       flight.name += std::string("_") + shape.object;
       flight.settings.push_back(paper_setting("throw.object", shape.object));
       flight.settings.push_back(paper_setting("throw.size_m", shape.size_m));
+      flight.settings.push_back(paper_setting("seed", shape.seed));
       flights.push_back(flight);
     }
   }

@@ -61,6 +61,8 @@ constexpr const char* kTable1Protocol = R"(How the protocol is read:
   the correlation of the two cameras' time images, on a third of the same throws.
 - Intervals: 95 %, bootstrap over throws; monocular ones over courses, which the number in brackets
   counts, too. Those of differences follow from both intervals as if the throws were independent.
+- *Last bin less first*: how much of their lead two cameras lose from the nearest bin to the
+  farthest, whether or not they have one.
 )";
 
 // Which detections count.
@@ -194,33 +196,56 @@ std::string median_verdict(const Setup& setup) {
          " of " + std::to_string(kDepthBins.size()) + " bins.\n";
 }
 
-// "-0.022 (-0.031 to -0.012)": the difference of two means. Its interval follows from those of
-// the two as in Zou and Donner (2008), "Construction of confidence limits about effect measures".
-std::string difference_text(const ErrorStatistics& a, const ErrorStatistics& b) {
-  const double difference = a.mean - b.mean;
-  const double below = std::hypot(a.mean - a.mean_interval.lo, b.mean_interval.hi - b.mean);
-  const double above = std::hypot(a.mean_interval.hi - a.mean, b.mean - b.mean_interval.lo);
-  return with_interval(difference, {difference - below, difference + above}, 3);
+struct Estimate {
+  double value;
+  Interval interval;
+};
+
+Estimate mean_of(const ErrorStatistics& errors) { return {errors.mean, errors.mean_interval}; }
+
+// With the interval that follows from those of the two, as if they were of different throws (Zou
+// and Donner 2008, "Construction of confidence limits about effect measures").
+Estimate difference(const Estimate& a, const Estimate& b) {
+  const double value = a.value - b.value;
+  const double below = std::hypot(a.value - a.interval.lo, b.interval.hi - b.value);
+  const double above = std::hypot(a.interval.hi - a.value, b.value - b.interval.lo);
+  return {value, {value - below, value + above}};
 }
 
+// "-0.022 (-0.031 to -0.012)".
+std::string to_text(const Estimate& estimate) {
+  return with_interval(estimate.value, estimate.interval, 3);
+}
+
+double published_lead(const DepthBin& bin) { return bin.stereo.mean - bin.mono.mean; }
+
 // Stereo's mean less the monocular one: the paper's is better near and worse far.
+std::vector<std::string> trend_row(const Setup& stereo, const Setup& mono) {
+  std::vector<std::string> row = {stereo.name + "; " + mono.name};
+  std::array<std::optional<Estimate>, kDepthBins.size()> leads;
+  for (std::size_t bin = 0; bin < kDepthBins.size(); ++bin) {
+    const auto &a = stereo.statistics[bin], &b = mono.statistics[bin];
+    if (a && b) leads[bin] = difference(mean_of(*a), mean_of(*b));
+    row.push_back(leads[bin] ? to_text(*leads[bin]) : "");
+  }
+  const auto &near = leads.front(), &far = leads.back();
+  row.push_back(near && far ? to_text(difference(*far, *near)) : "");
+  return row;
+}
+
 std::string trend_markdown(const std::vector<std::pair<const Setup*, const Setup*>>& pairs) {
   TextTable table;
   table.head = {"mean error, stereo less monocular"};
   std::vector<std::string> paper = {"the paper"};
   for (const DepthBin& bin : kDepthBins) {
     table.head.push_back(bin_text(bin));
-    paper.push_back(fixed_text(bin.stereo.mean - bin.mono.mean, 2));
+    paper.push_back(fixed_text(published_lead(bin), 2));
   }
+  table.head.push_back("last bin less first");
+  paper.push_back(
+      fixed_text(published_lead(kDepthBins.back()) - published_lead(kDepthBins.front()), 2));
   table.rows.push_back(std::move(paper));
-  for (const auto& [stereo, mono] : pairs) {
-    auto& row = table.rows.emplace_back();
-    row.push_back(stereo->name + "; " + mono->name);
-    for (std::size_t bin = 0; bin < kDepthBins.size(); ++bin) {
-      const auto &a = stereo->statistics[bin], &b = mono->statistics[bin];
-      row.push_back(a && b ? difference_text(*a, *b) : "");
-    }
-  }
+  for (const auto& [stereo, mono] : pairs) table.rows.push_back(trend_row(*stereo, *mono));
   return table.to_markdown() + "\n";
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tests/dodge/generator.h"
@@ -138,6 +139,25 @@ TEST_P(EveryEscape, StaysFiniteAndWithinTheLimitForAnyInput) {
             .command(static_cast<TimeUs>(random.bits() % 1000000), state, goal, obstacles);
     ASSERT_TRUE(command.v_W.allFinite()) << k;
     ASSERT_LE(command.v_W.norm(), 5 + 1e-9);
+  }
+}
+
+TEST_P(EveryEscape, ObstaclesThatAreNotFiniteDoNotAct) {
+  Goal goal;
+  goal.p_WG = {5, 0, 0};
+  Avoider with(GetParam(), {}, {}, {}), without(GetParam(), {}, {}, {});
+  const Vector3d expected = without.command(0, {}, goal, {}).v_W;
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    for (int k = 0; k < 3; ++k) {
+      std::array<TrackedObstacle, 1> obstacles = {
+          known_obstacle(0, 0, {3, 0.1, 0}, {-6, 0, 0}, 0.2)};
+      if (k == 0) obstacles[0].obstacle.v_WO.y() = bad;
+      if (k == 1) obstacles[0].obstacle.p_WO.y() = obstacles[0].ellipsoid.centre_W.y() = bad;
+      if (k == 2) obstacles[0].ellipsoid.semi_axes_m.y() = bad;
+      const VelocityCommand command = with.command(0, {}, goal, obstacles);
+      EXPECT_EQ(command.v_W, expected) << k;
+      EXPECT_FALSE(command.evading) << k;
+    }
   }
 }
 

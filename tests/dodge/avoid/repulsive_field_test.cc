@@ -130,6 +130,35 @@ TEST(RepulsiveDirection, OfASteepHeadOnThrowIsSideways) {
       field.direction(-Vector3d::UnitZ(), {0, 0, -4}, kForward).isApprox(Vector3d::UnitY()));
 }
 
+// The absolute value of F_z must not turn the escape against the obstacle.
+TEST(RepulsiveDirection, OfASteepHeadOnThrowMirrorsAndIsNeverDown) {
+  const RepulsiveField field((RepulsiveConfig()));
+  Generator random(3);
+  for (int k = 0; k < 1000; ++k) {
+    const double azimuth = random.uniform(-3.1, 3.1), fall = random.uniform(0.8, 1.5);
+    const Vector3d along(-std::cos(azimuth) * std::cos(fall), std::sin(azimuth) * std::cos(fall),
+                         -std::sin(fall));
+    const Vector3d mirrored_along(along.x(), -along.y(), along.z());
+    const Vector3d escape = field.direction(along, 5 * along, kForward);
+    const Vector3d mirrored = field.direction(mirrored_along, 5 * mirrored_along, kForward);
+    EXPECT_GE(escape.z(), 0);
+    EXPECT_TRUE(mirrored.isApprox(Vector3d(0, -escape.y(), escape.z()), 1e-9)) << k;
+  }
+  // Falling at 60 degrees from the left: to the right and up, across the path.
+  const double half = 0.5, high = std::sqrt(0.75);
+  EXPECT_TRUE(field.direction(Vector3d(0, -half, -high), {0, -5 * half, -5 * high}, kForward)
+                  .isApprox(Vector3d(0, -high, half)));
+}
+
+TEST(RepulsiveDirection, IsUpwardWhereSidewaysIsAlongThePath) {
+  RepulsiveConfig config;
+  config.steep_deg = 0;
+  const RepulsiveField field(config);
+  for (const Vector3d& along : {Vector3d(0, -1, 0), Vector3d(0.001, -1, 0), Vector3d(0, 1, 0)}) {
+    EXPECT_TRUE(field.direction(along, 6 * along, kForward).isApprox(Vector3d::UnitZ(), 1e-3));
+  }
+}
+
 TEST(RepulsiveDirection, OfAHeadOnThrowFromTheSideIsNotAlongItsPath) {
   const RepulsiveField field((RepulsiveConfig()));
   EXPECT_TRUE(

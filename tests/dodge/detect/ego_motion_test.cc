@@ -122,6 +122,17 @@ TEST(EgoMotion, WarpsManyEventsAsEachAlone) {
   }
 }
 
+TEST(EgoMotion, WhatHasTurnedBehindTheCameraIsOutsideOfTheImage) {
+  const CameraModel camera;
+  EgoMotion ego_motion({}, camera);
+  ego_motion.set_motion({0, 25, 0}, 0, 100000);  // by 2.5 rad
+  for (int x = 0; x < camera.width; x += 16) {
+    const Eigen::Vector2f at =
+        ego_motion.warp({.t_us = 0, .x = static_cast<std::uint16_t>(x), .y = 120});
+    EXPECT_TRUE(at.x() < -100 || at.x() > static_cast<float>(camera.width) + 100) << x;
+  }
+}
+
 TEST(EgoMotion, Undistorts) {
   CameraModel camera{.width = 240,
                      .height = 180,

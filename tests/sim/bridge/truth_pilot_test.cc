@@ -85,6 +85,14 @@ bool sees(const TruthPilot::Setup& s, const Eigen::Vector3d& p_W) {
   return p->obstacles().size() == 1;
 }
 
+TEST(TruthPilot, StaysWhereItIsUntilItKnowsWhereThatIs) {
+  TruthPilot pilot(setup(), avoider());
+  pilot.set_goal(kGoal);
+  EXPECT_EQ(pilot.update(4000).v_W, Eigen::Vector3d::Zero());
+  pilot.add_state(state_at(6000));
+  EXPECT_GT(pilot.update(8000).v_W.norm(), 0.1);
+}
+
 TEST(TruthPilot, SeesAnObjectWithItsTrueStateAfterTheDelay) {
   const auto p = pilot(setup());
   const Eigen::Vector3d ball_W = from_camera(2, 0.1, 0.2);

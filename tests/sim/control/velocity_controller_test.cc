@@ -182,6 +182,18 @@ TEST(VelocityController, WithoutThrustToSpareHeightComesFirstAndTheDirectionIsKe
   EXPECT_NEAR(lateral.x(), std::sqrt(most_mps2 * most_mps2 - kGravityMps2 * kGravityMps2), 1e-9);
 }
 
+TEST(VelocityController, WithoutThrustToHoverItGivesAllItHas) {
+  ControllerSpec spec;
+  spec.max_thrust_fraction = 0.2;
+  const VelocityController controller(spec, nominal_vehicle());
+  const double most_mps2 = spec.max_thrust_fraction * 4 * 9.5 / 1.0;
+  ASSERT_LT(most_mps2, kGravityMps2);
+  const Vector3d hover(0, 0, kGravityMps2);
+  EXPECT_TRUE(controller.limited(hover).isApprox(most_mps2 * Vector3d::UnitZ()));
+  const Vector3d a = controller.limited(hover + Vector3d(2, 0, 0));
+  EXPECT_NEAR(a.norm(), most_mps2, 1e-9);
+}
+
 TEST(VelocityController, DescentGivesWayBeforeLateralAccelerationAtTheTiltLimit) {
   ControllerSpec spec;
   spec.max_tilt_deg = 60;

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -73,6 +75,17 @@ TEST(AvoidanceTables, KeepLossesOfPerceptionApartFromWhatTheOracleLosesToo) {
                                 " | 2.00 (0.44 to 9.05) | " + none + " |  | " + none + " |  |\n"));
   EXPECT_THAT(tables,
               HasSubstr("\n| all sets | falanga2020 | " + rate_text({2, 4}) + " | 1.5 m |"));
+}
+
+TEST(AvoidanceTables, EveryShapeMeetsThrowsOfItsOwn) {
+  std::map<std::string, std::set<std::string>> shapes;  // by the seed of their throws
+  for (const PaperFlight& flight : shapes_experiment().flights) {
+    std::map<std::string, std::string> settings;
+    for (const Setting& setting : flight.settings) settings[setting.key] = setting.value;
+    shapes[settings["seed"]].insert(settings["throw.object"]);
+  }
+  EXPECT_EQ(shapes.size(), 6u);
+  for (const auto& [seed, objects] : shapes) EXPECT_EQ(objects.size(), 1u) << seed;
 }
 
 // The ball comes from ahead, within 1.5 m of the camera at a height above it.

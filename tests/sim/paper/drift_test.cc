@@ -32,6 +32,10 @@ TEST(Drift, TellsTheMonitorsLandingsFromCrashesWithoutIt) {
     result.cell_values = {
         {"sensors.state_estimate.height_drift_mps", result.index == 0 ? "0" : "0.5"}};
   }
+  ThrowResult failed = thrown(2, true, false);
+  failed.cell_values = balls.results[0].cell_values;
+  failed.flown.status = "error";
+  balls.results.push_back(failed);
   const std::string table = drift_experiment().analyse({none, up, up, balls}).markdown;
   EXPECT_THAT(table, HasSubstr("\n| hover | 0 | on | 0 / 1 | 0 / 1 | - |"));
   EXPECT_THAT(table,

@@ -83,6 +83,22 @@ TEST(Table1, PutsErrorsIntoBinsOfTheTrueDistance) {
               HasSubstr("5 detections of the ball in 2 throws; false detections: 1."));
 }
 
+TEST(Table1, SaysHowMuchOfTheirLeadTwoCamerasLose) {
+  const auto seen = [](double near_error_m, double far_error_m) {
+    ThrowResult near = hanging_ball(0, 0, 0.4, 0.05), far = hanging_ball(1, 0, 1.2, 0.05);
+    detect(near, 0.4, near_error_m);
+    detect(far, 1.2, far_error_m);
+    return campaign("mono", {near, far});
+  };
+  const LoadedCampaign mono = seen(0.03, 0.05), stereo = seen(0.01, 0.06);
+  const PaperTables tables = table1_experiment().analyse({mono, mono, mono, stereo, mono, mono});
+  EXPECT_EQ(line_with(tables.markdown, "| the paper |"),
+            "| the paper | -0.01 | 0.00 | 0.03 | 0.04 |");
+  EXPECT_EQ(line_with(tables.markdown, "| stereo by centres, all detections; monocular"),
+            "| stereo by centres, all detections; monocular, ball wholly in view | "
+            "-0.020 (-0.020 to -0.020) |  | 0.010 (0.010 to 0.010) | 0.030 (0.030 to 0.030) |");
+}
+
 TEST(Table1, DiscardsWhatIsPartlyOutsideOfTheImageOnRequest) {
   // 0.3 m ahead the view is 0.5 m wide: a ball of 30 cm that is 15 cm aside is cut off.
   ThrowResult cut = hanging_ball(0, 0, 0.3, 0.3);
