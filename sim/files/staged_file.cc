@@ -44,15 +44,24 @@ StagedFile::StagedFile(std::filesystem::path path) : path_(std::move(path)) {
 }
 
 std::filesystem::path StagedFile::target(const std::filesystem::path& path) {
-  return std::filesystem::is_symlink(path) ? std::filesystem::weakly_canonical(path) : path;
+  constexpr int kMostLinks = 40;
+  std::filesystem::path end = path;
+  for (int i = 0; i < kMostLinks; ++i) {
+    std::error_code no_link;
+    const std::filesystem::path next = std::filesystem::read_symlink(end, no_link);
+    if (no_link) return end;
+    end = end.parent_path() / next;
+  }
+  throw IoError(path.string() + " could not be created: " + std::strerror(ELOOP) + ".");
 }
 
-// Two programs must not write to one file. File systems that know no locks do without.
+// Two programs must not write to one file. File systems that know no locks do without. The lock
+// belongs to the open file: HDF5 opens the same file by its name, and closes it again.
 void StagedFile::lock() {
   struct flock whole {};
   whole.l_type = F_WRLCK;
   whole.l_whence = SEEK_SET;
-  if (::fcntl(fd_, F_SETLK, &whole) == 0 || (errno != EAGAIN && errno != EACCES)) return;
+  if (::fcntl(fd_, F_OFD_SETLK, &whole) == 0 || (errno != EAGAIN && errno != EACCES)) return;
   ::close(fd_);
   fd_ = -1;
   fail("is being written by another program", 0);

@@ -17,7 +17,7 @@ class StagedFile {
   StagedFile& operator=(const StagedFile&) = delete;
   ~StagedFile();  // without commit() the temporary file is removed
 
-  // What PATH names: itself, or what it links to.
+  // What PATH names: itself, or what it links to, whether or not that is there.
   static std::filesystem::path target(const std::filesystem::path& path);
   // What PATH, if it is no link, is called until it is whole.
   static std::filesystem::path partial_name(const std::filesystem::path& path) {

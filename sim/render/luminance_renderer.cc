@@ -189,10 +189,12 @@ void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen
   if (shot.region.empty()) return;
   lease_.context().make_current();
   Canvas& view = canvas(intrinsics_);
-  bind(view, object_id != nullptr);
-  set_scissor(shot.region);
   // Nothing can hide a single solid: no depth is needed.
   const bool with_depth = behind_static || !single_solid(snapshot);
+  // llvmpipe rounds otherwise where it writes depth and no ids, and nobody may see who asks for ids.
+  const bool with_ids = object_id != nullptr || with_depth;
+  bind(view, with_ids);
+  set_scissor(shot.region);
   if (with_depth) {
     glClear(GL_DEPTH_BUFFER_BIT);
   } else {
@@ -202,13 +204,13 @@ void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen
     triangles_.draw_static(shot);
     primitives_.draw_static_depth(shot);
   }
-  if (object_id) {
+  if (with_ids) {
     constexpr GLint kStatic[4] = {0, 0, 0, 0};
     glClearBufferiv(GL_COLOR, 1, kStatic);
   }
   put(view, shot.region, luminance);
   triangles_.draw_objects(shot, snapshot);
-  primitives_.draw_objects(shot, snapshot, object_id != nullptr);
+  primitives_.draw_objects(shot, snapshot, with_ids);
   glEnable(GL_DEPTH_TEST);
   read(view, shot.region, luminance, object_id);
 }

@@ -117,6 +117,16 @@ class CheckedTruth : public EventTruth {
   int labelled_ = 0, clustered_ = 0;
 };
 
+TEST(EventTruth, DoesNotChangeTheFlightAmongSeveralObjects) {
+  const Scenario two = scenario(
+      "seed: 12\npilot: falanga2020\nmission: {start_m: [-2, 0, 2]}\nfly_oracle: false\n"
+      "after_s: 0.1\nthrows: [{size_m: 0.2, launch_s: 0.2, bearing_deg: 15},\n"
+      "  {size_m: 0.2, launch_s: 0.2, bearing_deg: -15}]\n");
+  const FlightPlan plan = plan_throw(two, 0);
+  EventTruth truth;
+  EXPECT_EQ(fly(two, plan, &truth).events_hash, fly(two, plan).events_hash);
+}
+
 TEST(EventTruth, AgreesWithThePilotsWindowsAndFindsTheBall) {
   const Scenario s = scenario(
       "mission: {start_m: [-2, 0, 2]}\n"

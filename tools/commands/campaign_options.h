@@ -22,8 +22,8 @@ void add_repeat_options(CLI::App& command, RepeatOptions& options, const std::st
                         const std::string& seed_help);
 void append_settings(const RepeatOptions& options, std::vector<Setting>& settings);
 
-// Campaigns that show their progress on a terminal and end when the user asks for it (SIGINT,
-// SIGTERM). Call try_models() before they are flown. fly_campaigns() is run_campaigns().
+// Campaigns that show their progress on a terminal and end when the user asks for it
+// (stop_signal.h). Call try_models() before they are flown. fly_campaigns() is run_campaigns().
 PlannedCampaign plan_campaign(const Scenario& scenario, CampaignOptions options);
 void fly_campaigns(const std::vector<PlannedCampaign>& plans, const CampaignListener& listener);
 CampaignSummary fly_campaign(const Scenario& scenario, const CampaignOptions& options);

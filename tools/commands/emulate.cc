@@ -118,6 +118,7 @@ void refuse_same_file(const std::string& out, const std::string& input) {
 }
 
 void emulate(const EmulateArguments& arguments) {
+  watch_stop_signals();
   const EventCameraSpec spec = named_event_camera(arguments.camera);
   Video video(arguments.frames, arguments.times);
   refuse_same_file(arguments.out, arguments.frames);
@@ -126,7 +127,6 @@ void emulate(const EmulateArguments& arguments) {
       arguments.out, {video.width(), video.height(), video.first_us(), video.duration_us()});
   EventCamera camera(spec, video.width(), video.height(), arguments.seed, 0, "emulate");
   TimedEmulation timed(camera, spec.log_epsilon);
-  watch_stop_signals();
   const Counts counts = emulate(video, camera, timed, *writer);
   writer->finish();
   report(video, camera, counts, timed);

@@ -1,11 +1,11 @@
-// The user's wish that a long command end: Ctrl-C, or the signal of a batch system.
+// The user's wish that a long command end: Ctrl-C, a closed terminal, or a batch system's signal.
 #pragma once
 
 namespace dodgesim {
 
-// From now on SIGINT and SIGTERM ask for the end instead of ending the program. A second one ends
-// it at once, unless it comes with the first: a supervisor such as timeout(1) sends one to the
-// program and one to its group.
+// From now on SIGINT, SIGTERM and, unless it is ignored, SIGHUP ask for the end instead of ending the
+// program. A second one ends it at once, unless it comes with the first: a supervisor such as
+// timeout(1) sends one to the program and one to its group.
 void watch_stop_signals();
 
 bool asked_to_stop();

@@ -6,6 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
+
 #include "sim/base/error.h"
 #include "sim/files/output_file.h"
 #include "tests/sim/files/temporary_directory.h"
@@ -58,6 +60,15 @@ TEST(StagedFile, BelongsToOneProgramAtATime) {
   StagedFile second(path);
 }
 
+// As HDF5 does.
+TEST(StagedFile, StaysItsProgramsWhenItIsOpenedAndClosedOnceMore) {
+  const testing::TemporaryDirectory directory;
+  const fs::path path = directory.path() / "file";
+  const StagedFile first(path);
+  { const std::ifstream again(first.partial()); }
+  EXPECT_EQ(complaint_about(path), path.string() + " is being written by another program.");
+}
+
 TEST(StagedFile, LeavesDevicesPipesAndDirectoriesAsTheyAre) {
   const testing::TemporaryDirectory directory;
   const fs::path pipe = directory.path() / "pipe";
@@ -77,6 +88,24 @@ TEST(StagedFile, WritesToWhatALinkNames) {
   write_file(link, "new");
   EXPECT_TRUE(fs::is_symlink(link));
   EXPECT_EQ(contents(target), "new");
+}
+
+TEST(StagedFile, MakesWhatALinkNamesButRefusesACircle) {
+  const testing::TemporaryDirectory directory;
+  const fs::path nowhere = directory.path() / "nowhere", link = directory.path() / "link";
+  fs::create_symlink("nowhere", link);
+  write_file(link, "new");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(contents(nowhere), "new");
+  const fs::path lost = directory.path() / "lost", circle = directory.path() / "circle";
+  fs::create_symlink("no/such/folder", lost);
+  EXPECT_THAT(complaint_about(lost), ::testing::HasSubstr("could not be created: No such file"));
+  EXPECT_TRUE(fs::is_symlink(lost));
+  fs::create_symlink("circle", circle);
+  EXPECT_THAT(complaint_about(circle), ::testing::HasSubstr("Too many levels of symbolic links."));
+  EXPECT_TRUE(fs::is_symlink(circle));
+  const fs::path long_name = directory.path() / std::string(300, 'a');
+  EXPECT_THAT(complaint_about(long_name), ::testing::HasSubstr("File name too long."));
 }
 
 }  // namespace
