@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sim/base/error.h"
+#include "sim/files/staged_file.h"
 
 namespace dodgesim {
 
@@ -42,8 +43,9 @@ void EventPicture::add(std::span<const Event> events) {
 
 void EventPicture::clear() { image_.setTo(kGrey); }
 
-Film::Film(std::string path, const Intrinsics& intrinsics, double slow)
-    : path_(std::move(path)),
+Film::Film(const std::string& path, const Intrinsics& intrinsics, double slow)
+    : path_(StagedFile::target(path)),
+      partial_(StagedFile::partial_name(path_).string() + ".mp4"),
       picture_every_us_(std::lround(static_cast<double>(kShownEveryUs) / slow / kTickUs) * kTickUs),
       picture_(kSceneHeight,
                kSceneWidth + intrinsics.width * (kSceneHeight / 2) / intrinsics.height, kBlack) {
@@ -55,8 +57,8 @@ Film::Film(std::string path, const Intrinsics& intrinsics, double slow)
   for (int i = 0; i < 2; ++i) eyes_.emplace_back(intrinsics.width, intrinsics.height);
   // Exactly `slow` times slower, whatever became of the interval in whole ticks.
   const double shown_per_second = 1e6 / (slow * static_cast<double>(picture_every_us_));
-  writer_.open(path_, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'), shown_per_second,
-               picture_.size());
+  writer_.open(partial_, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
+               shown_per_second, picture_.size());
   if (!writer_.isOpened())
     throw IoError("The video " + path_ + " could not be opened for writing.");
 }
@@ -128,14 +130,25 @@ void Film::caption(const Snapshot& snapshot) {
   write_text(picture_, "events, bottom camera", kSceneWidth + 8, kSceneHeight / 2 + 18);
 }
 
+Film::~Film() {
+  writer_.release();
+  std::error_code ignored;
+  std::filesystem::remove(partial_, ignored);
+}
+
 void Film::close() {
   writer_.release();
   // The writer reports no failure: count what can be read back.
-  cv::VideoCapture reader(path_, cv::CAP_FFMPEG);
+  cv::VideoCapture reader(partial_, cv::CAP_FFMPEG);
   const int written = static_cast<int>(reader.get(cv::CAP_PROP_FRAME_COUNT));
   if (!reader.isOpened() || written != pictures_) {
     throw IoError("The video " + path_ + " holds " + std::to_string(written) + " of " +
                   std::to_string(pictures_) + " pictures: is the disk full?");
+  }
+  std::error_code error;
+  std::filesystem::rename(partial_, path_, error);
+  if (error) {
+    throw IoError("The video " + path_ + " could not be written: " + error.message() + ".");
   }
 }
 

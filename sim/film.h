@@ -35,7 +35,9 @@ class Film : public FlightObserver {
 
   // MPEG-4 with H.264, which browsers open, of about 25 pictures a second, `slow` (1 to kSlowest)
   // times slower than real. Throws IoError if the file cannot be opened for writing.
-  Film(std::string path, const Intrinsics& intrinsics, double slow = 10);
+  // The file gets its name, and takes the place of another, when it is whole.
+  Film(const std::string& path, const Intrinsics& intrinsics, double slow = 10);
+  ~Film() override;
 
   void on_tick(const World& world) override;
   void on_events(int camera, const Packet& packet) override;
@@ -53,8 +55,8 @@ class Film : public FlightObserver {
   void compose(const Snapshot& snapshot);
   void caption(const Snapshot& snapshot);
 
-  std::string path_;
-  TimeUs picture_every_us_;  // of flight
+  std::string path_, partial_;  // partial_: its name until it is whole
+  TimeUs picture_every_us_;     // of flight
   cv::VideoWriter writer_;
   int pictures_ = 0;
   std::unique_ptr<ScenePictures> scene_;

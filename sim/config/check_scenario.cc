@@ -137,6 +137,15 @@ void check_rates(const Scenario& scenario, ReadContext& context) {
   }
 }
 
+void check_range_sensor(const Scenario& scenario, ReadContext& context) {
+  const RangeSpec& range = scenario.sensors.range;
+  if (range.min_range_m < range.max_range_m) return;
+  context.problems.add(position_of(context, "sensors.range.min_range_m"),
+                       "sensors.range.min_range_m is " + to_text(range.min_range_m) +
+                           ", but must be less than sensors.range.max_range_m, which is " +
+                           to_text(range.max_range_m) + ".");
+}
+
 // Of a rotor's thrusts that the scenario sets. What a model says is known only to the simulation.
 void check_thrust(const Scenario& scenario, ReadContext& context) {
   const double least_n = scenario.motors.min_thrust_n;
@@ -157,6 +166,7 @@ void check_keys_together(const Scenario& scenario, ReadContext& context) {
   check_dodger(scenario, context);
   check_height_monitor(scenario, context);
   check_rates(scenario, context);
+  check_range_sensor(scenario, context);
   check_thrust(scenario, context);
 }
 

@@ -1,5 +1,6 @@
 #include "sim/gate/csv_table.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "sim/base/error.h"
@@ -117,7 +118,16 @@ bool CsvTable::boolean(std::size_t row, const std::string& column) const {
   return text == "1";
 }
 
-void CsvTable::refuse(std::size_t row, const std::string& column, const char* what) const {
+const std::string& CsvTable::one_of(std::size_t row, const std::string& column,
+                                    std::initializer_list<std::string_view> words) const {
+  const std::string& text = at(row, column);
+  if (std::find(words.begin(), words.end(), text) != words.end()) return text;
+  std::string list;
+  for (const std::string_view word : words) list.append(list.empty() ? "" : " or ").append(word);
+  refuse(row, column, list);
+}
+
+void CsvTable::refuse(std::size_t row, const std::string& column, const std::string& what) const {
   throw IoError(name_ + ": " + column + " in row " + std::to_string(row) + " is \"" +
                 at(row, column) + "\", not " + what + ".");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <string_view>
@@ -26,11 +27,15 @@ class CsvTable {
   double number(std::size_t row, const std::string& column) const;
   int integer(std::size_t row, const std::string& column) const;
   bool boolean(std::size_t row, const std::string& column) const;  // 0 or 1
+  // at(). Also throws IoError if it is none of the words.
+  const std::string& one_of(std::size_t row, const std::string& column,
+                            std::initializer_list<std::string_view> words) const;
   // `name` or the file's path.
   const std::string& name() const { return name_; }
 
  private:
-  [[noreturn]] void refuse(std::size_t row, const std::string& column, const char* what) const;
+  [[noreturn]] void refuse(std::size_t row, const std::string& column,
+                           const std::string& what) const;
 
   std::string name_;
   std::vector<std::string> columns_;

@@ -76,11 +76,16 @@ class Draws {
   std::size_t next_ = 0;  // row of objects.csv
 };
 
+// Whether one of the flights of a throw went to its end.
+bool flew(const CsvTable& table, std::size_t row, const char* status) {
+  return table.one_of(row, status, {"ok", "error", "lost", "not flown"}) == "ok";
+}
+
 void judge(const CsvTable& table, std::size_t row, ThrowOutcome& out) {
   const bool thrown = !out.draw.empty();
-  const bool judged = table.at(row, "none_status") == "ok";  // it is known whether it would hit
+  const bool judged = flew(table, row, "none_status");  // it is known whether it would hit
   out.counts = !thrown || !judged || table.boolean(row, "none_hit");
-  if (table.at(row, "flown_status") != "ok") {
+  if (!flew(table, row, "flown_status")) {
     out.what = "error: " + table.at(row, "flown_error");
   } else if (table.boolean(row, "flown_hit")) {
     out.what = "hit";

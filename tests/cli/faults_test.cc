@@ -171,6 +171,12 @@ TEST_F(FaultsTest, ADivergedSimulationCountsAsNoSuccessAndReplays) {
   EXPECT_EQ(replay.exit_code, 0);
   EXPECT_THAT(replay.output, HasSubstr("Throw 1 fails: The simulation diverged: "));
   EXPECT_THAT(contents(path("a.mcap")), HasSubstr("The flight failed: The simulation diverged: "));
+  std::ofstream(path("old.mp4")) << "old";
+  const Outcome video =
+      dodgesim("replay " + path("out") + " --throw 1 " + models + " --video " + path("old.mp4"));
+  EXPECT_EQ(video.exit_code, 3);
+  EXPECT_THAT(video.output, HasSubstr("Of a flight that fails --mcap alone shows something."));
+  EXPECT_EQ(contents(path("old.mp4")), "old");
 }
 
 }  // namespace

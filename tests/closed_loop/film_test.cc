@@ -112,8 +112,15 @@ TEST_F(FilmTest, AVideoThatIsGoneIsAnIoError) {
   const Scenario s = scenario("duration_s: 0.1\npilot: none\n");
   Film film(path("c.mp4"), intrinsics(s.sensors.camera));
   fly(s, plan_throw(s, 0), &film);
-  fs::remove(path("c.mp4"));
+  fs::remove(path("c.mp4.partial.mp4"));
   EXPECT_THROW(film.close(), IoError);
+}
+
+TEST_F(FilmTest, AVideoThatIsNotFinishedLeavesAnOtherOfItsName) {
+  std::ofstream(path("d.mp4")) << "old";
+  { const Film film(path("d.mp4"), Intrinsics{}); }
+  EXPECT_EQ(fs::file_size(path("d.mp4")), 3u);
+  EXPECT_FALSE(fs::exists(path("d.mp4.partial.mp4")));
 }
 
 TEST_F(FilmTest, ADirectoryThatCannotBeMadeIsAnIoError) {

@@ -153,14 +153,18 @@ class Onlookers {
 
   FlightObserver* observer() { return &observers_; }
 
-  // Completes the files and says what they are. Of a flight that failed only the recording, which
-  // shows how.
-  void finish(const ThrowResult& result) {
+  // Completes the files and says what they are; false if something cannot be shown. Of a flight
+  // that failed there is only the recording, which shows how.
+  bool finish(const ThrowResult& result) {
     if (mcap_) {
       mcap_->finish(result);
       std::cout << "Recording for Foxglove or Lichtblick: " << arguments_.mcap << "\n";
     }
-    if (result.flown.failed()) return;
+    if (result.flown.failed()) {
+      const bool more = film_ || stages_ || events_ || !arguments_.picture.empty();
+      if (more) std::cerr << "Of a flight that fails --mcap alone shows something.\n";
+      return !more;
+    }
     if (!arguments_.picture.empty()) poster_.save(arguments_.picture);
     if (events_) {
       events_->finish();
@@ -178,6 +182,7 @@ class Onlookers {
       std::cout << stages_->pictures() << " pictures of the pilot's stages: " << arguments_.stages
                 << "\n";
     }
+    return true;
   }
 
  private:
@@ -220,11 +225,11 @@ int replay(const ReplayArguments& arguments) {
   if (result.flown.failed()) {
     std::cerr << "Throw " << arguments.throw_index << " fails: " << result.flown.error << "\n";
   }
-  onlookers.finish(result);
+  const bool shown = onlookers.finish(result);
   const std::string flown = csv_row(result);
   if (flown == recorded) {
     std::cout << "Throw " << arguments.throw_index << " flew as recorded, bit for bit.\n";
-    return kOk;
+    return shown ? kOk : kIncomplete;
   }
   std::cerr << "Throw " << arguments.throw_index
             << " did not fly as recorded: was it another commit or another kind of machine?\n"

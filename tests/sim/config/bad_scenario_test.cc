@@ -66,6 +66,9 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:4:17: dodger.position.stereo.max_cost is -2, but must be between 0 and 1000."},
     {"VectorComponent", "mission:\n  start_m: [0, 1000, 2]\n",
      "bad.yaml:2:16: mission.start_m[1] is 1000, but must be between -100 and 100."},
+    {"RangeSensorThatNeverReads", "sensors:\n  range: {min_range_m: 50, max_range_m: 10}\n",
+     "bad.yaml:2:24: sensors.range.min_range_m is 50, but must be less than "
+     "sensors.range.max_range_m, which is 10."},
     // Numbers that are none.
     {"Nan", "after_s: .nan\n",
      "bad.yaml:1:10: after_s is .nan, but must be a number between 0.1 and 60 (it must be "
