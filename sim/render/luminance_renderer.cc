@@ -191,7 +191,7 @@ void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen
   Canvas& view = canvas(intrinsics_);
   // Nothing can hide a single solid: no depth is needed.
   const bool with_depth = behind_static || !single_solid(snapshot);
-  // llvmpipe rounds otherwise where it writes depth and no ids, and nobody may see who asks for ids.
+  // llvmpipe rounds otherwise where it writes depth and no ids; who asks for ids must not matter.
   const bool with_ids = object_id != nullptr || with_depth;
   bind(view, with_ids);
   set_scissor(shot.region);

@@ -34,7 +34,7 @@ CLI::Validator between(const std::string& kind, T least, T most) {
   range.precision(15);
   range << kind << " between " << least << " and " << most;
   return {[=, allowed = range.str()](const std::string& text) -> std::string {
-            const std::string sentence = text + " was given, but must be " + allowed;
+            std::string sentence = text + " was given, but must be " + allowed;
             if (!is_between(text, least, most)) return sentence;
             // CLI11 would take it as octal.
             const bool zeros = std::is_integral_v<T> && text.size() > 1 && text.front() == '0';

@@ -3,8 +3,8 @@
 
 namespace dodgesim {
 
-// From now on SIGINT, SIGTERM and, unless it is ignored, SIGHUP ask for the end instead of ending the
-// program. A second one ends it at once, unless it comes with the first: a supervisor such as
+// From now on SIGINT, SIGTERM and, unless it is ignored, SIGHUP ask for the end instead of ending
+// the program. A second one ends it at once, unless it comes with the first: a supervisor such as
 // timeout(1) sends one to the program and one to its group.
 void watch_stop_signals();
 
