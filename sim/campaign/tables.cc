@@ -268,8 +268,8 @@ Tables make_tables(const LoadedCampaign& campaign) {
   const std::vector<ThrowResult>& results = campaign.results;
   Tables tables;
   tables.markdown = "# " + campaign.scenario.name + "\n\n" +
-                    count_text(static_cast<std::int64_t>(results.size()), "throw") + ", pilot " +
-                    campaign.scenario.pilot +
+                    count_text(static_cast<std::int64_t>(results.size()), "throw") + ", " +
+                    pilots_of(campaign.scenario) +
                     ". Cells: dodged / would have hit (rate, 95 % Wilson interval); for " +
                     "the pilot none: would have hit / throws.\n\n";
   if (campaign.stop) tables.markdown += campaign.stop->text() + "\n\n";

@@ -92,4 +92,16 @@ std::string label(const std::vector<AxisValue>& values) {
   return text;
 }
 
+std::string pilots_of(const Scenario& scenario) {
+  for (const VariedKey& axis : scenario.sweep) {
+    if (axis.key != "pilot") continue;
+    std::string names;
+    for (const YamlNode& value : axis.values) {
+      names.append(names.empty() ? "" : ", ").append(value.text);
+    }
+    return "pilots " + names;
+  }
+  return "pilot " + scenario.pilot;
+}
+
 }  // namespace dodgesim

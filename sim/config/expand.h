@@ -35,6 +35,9 @@ ThrowCase case_of(const Scenario& scenario, int t);
 // "delays.compute_us 3500, pilot oracle"; empty without values.
 std::string label(const std::vector<AxisValue>& values);
 
+// "pilot falanga2020", or "pilots none, oracle" of a sweep over them.
+std::string pilots_of(const Scenario& scenario);
+
 // The scenario with some keys set to other values, as if they stood in its file; what is wrong with
 // them is added to the problems of `context`. A preset among the values takes the place of all keys
 // that belong to it.

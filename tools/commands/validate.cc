@@ -33,7 +33,7 @@ void validate(const ValidateArguments& arguments) {
   }
   if (!scenario.grid.empty()) std::cout << ", " << cell_count(scenario) << " cells";
   if (!scenario.sweep.empty()) std::cout << ", " << sweep_count(scenario) << " values of the sweep";
-  std::cout << ", pilot " << scenario.pilot << ".\n";
+  std::cout << ", " << pilots_of(scenario) << ".\n";
 }
 
 }  // namespace

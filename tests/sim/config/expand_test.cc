@@ -61,6 +61,11 @@ TEST(Expand, APilotAmongTheValuesBringsItsConfiguration) {
   EXPECT_EQ(case_of(campaign, 2).scenario.dodger.position.max_range_m, 2);
 }
 
+TEST(Expand, NamesThePilotsThatFly) {
+  EXPECT_EQ(pilots_of(parse("throw: {}\npilot: dodgesim\n")), "pilot dodgesim");
+  EXPECT_EQ(pilots_of(parse("throw: {}\nsweep: {pilot: [none, oracle]}\n")), "pilots none, oracle");
+}
+
 double speed(const Scenario& campaign, int t) {
   const ThrowCase thrown = case_of(campaign, t);
   return resolve_throws(thrown.scenario, thrown.stream).front().speed_mps;
