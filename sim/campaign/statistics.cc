@@ -24,7 +24,10 @@ Interval wilson(std::int64_t successes, std::int64_t trials, double confidence) 
   check_counts(successes, trials);
   check_confidence(confidence);
   if (trials == 0) return {0, 1};
-  const double z = normal_quantile(0.5 + 0.5 * confidence);
+  return wilson_of_quantile(successes, trials, normal_quantile(0.5 + 0.5 * confidence));
+}
+
+Interval wilson_of_quantile(std::int64_t successes, std::int64_t trials, double z) {
   const auto n = static_cast<double>(trials);
   const double p = static_cast<double>(successes) / n;
   const double centre = p + z * z / (2 * n);

@@ -22,6 +22,8 @@ void check_confidence(double confidence);
 // Wilson score interval of a proportion (Wilson 1927), without continuity correction: its coverage
 // is close to the confidence on average over the true rates. [0, 1] when there were no trials.
 Interval wilson(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
+// The same for a quantile z of the normal distribution; trials > 0.
+Interval wilson_of_quantile(std::int64_t successes, std::int64_t trials, double z);
 
 // Exact interval of a proportion (Clopper and Pearson 1934): its coverage is never below the
 // confidence, and mostly above. [0, 1] when there were no trials.
