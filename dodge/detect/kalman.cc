@@ -9,6 +9,15 @@ namespace {
 // The near and far centre are this far apart at least to give a line of sight.
 constexpr double kNoDirectionM = 1e-9;
 
+using Matrix36d = Eigen::Matrix<double, 3, 6>;
+
+// H: the position age_s before the state's instant, but for gravity's share.
+Matrix36d past_position_of_state(double age_s) {
+  Matrix36d H;
+  H << Eigen::Matrix3d::Identity(), -age_s * Eigen::Matrix3d::Identity();
+  return H;
+}
+
 }  // namespace
 
 Eigen::Matrix3d measurement_covariance(const KalmanConfig& config, const Detection& detection) {
@@ -58,13 +67,29 @@ void Kalman::predict(TimeUs t_us) {
   }
 }
 
-void Kalman::update(const Eigen::Vector3d& z_W, const Eigen::Matrix3d& R) {
-  const Eigen::Matrix3d S = P_.topLeftCorner<3, 3>() + R;
-  const Eigen::Matrix<double, 3, 6> HP = P_.topRows<3>();
+Eigen::Vector3d Kalman::past_position(double age_s) const {
+  Eigen::Vector3d p_W = position() - age_s * velocity();
+  if (config_.gravity) p_W[2] -= 0.5 * kGravityMps2 * age_s * age_s;
+  return p_W;
+}
+
+Kalman::Position Kalman::position_at(TimeUs t_us) const {
+  Kalman then = *this;
+  then.predict(t_us);
+  const double age_s = seconds(then.t_us_ - t_us);
+  const Matrix36d H = past_position_of_state(age_s);
+  return {then.past_position(age_s), H * then.P_ * H.transpose()};
+}
+
+void Kalman::update(TimeUs t_us, const Eigen::Vector3d& z_W, const Eigen::Matrix3d& R) {
+  predict(t_us);
+  const double age_s = seconds(t_us_ - t_us);
+  const Matrix36d H = past_position_of_state(age_s);
+  const Matrix36d HP = H * P_;
+  const Eigen::Matrix3d S = HP * H.transpose() + R;
   const Eigen::Matrix<double, 6, 3> K = S.llt().solve(HP).transpose();  // (23)
-  x_ += K * (z_W - x_.head<3>());                                       // (24)
-  Matrix6d I_KH = Matrix6d::Identity();
-  I_KH.leftCols<3>() -= K;
+  x_ += K * (z_W - past_position(age_s));                               // (24)
+  const Matrix6d I_KH = Matrix6d::Identity() - K * H;
   const Matrix6d P = I_KH * P_ * I_KH.transpose() + K * R * K.transpose();  // (25)
   P_ = 0.5 * (P + P.transpose());
 }

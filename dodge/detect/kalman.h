@@ -55,8 +55,16 @@ class Kalman {
   // (21), (22) up to t_us; an instant in the past leaves the state as it is.
   void predict(TimeUs t_us);
 
-  // (23) to (25) with a measured position at the state's instant.
-  void update(const Eigen::Vector3d& z_W, const Eigen::Matrix3d& R);
+  // (21) to (25) with the position measured at t_us. One before the state's instant is held
+  // against where the state says the obstacle was then, as if no noise had acted since.
+  void update(TimeUs t_us, const Eigen::Vector3d& z_W, const Eigen::Matrix3d& R);
+
+  struct Position {
+    Eigen::Vector3d mean_W;        // [m]
+    Eigen::Matrix3d covariance_W;  // [m^2]
+  };
+  // Where the obstacle will be at t_us, or was then as if no noise had acted since.
+  Position position_at(TimeUs t_us) const;
 
   TimeUs t_us() const { return t_us_; }
   Eigen::Vector3d position() const { return x_.head<3>(); }
@@ -64,6 +72,8 @@ class Kalman {
   const Matrix6d& covariance() const { return P_; }
 
  private:
+  Eigen::Vector3d past_position(double age_s) const;
+
   KalmanConfig config_;
   TimeUs t_us_;
   Vector6d x_;

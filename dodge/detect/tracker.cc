@@ -69,11 +69,10 @@ void Tracker::take_in(std::span<Detection> detections) {
   const TimeUs t_us = detections.front().t_us;
   predicted_.clear();
   for (const Track& track : tracks_) {
-    Kalman filter = track.filter;
-    filter.predict(t_us);
+    const Kalman::Position position = track.filter.position_at(t_us);
     const TimeUs unseen_us = std::max<TimeUs>(0, t_us - track.last_detection_us);
-    predicted_.push_back({filter.position(), filter.covariance().topLeftCorner<3, 3>(),
-                          track.detections, static_cast<double>(unseen_us) / kUsPerSecond});
+    predicted_.push_back({position.mean_W, position.covariance_W, track.detections,
+                          static_cast<double>(unseen_us) / kUsPerSecond});
   }
   measured_.clear();
   for (const Detection& detection : detections) {
@@ -97,8 +96,7 @@ void Tracker::take_in(std::span<Detection> detections) {
       measure(tracks_.back(), detection);
     } else {
       Track& track = tracks_[static_cast<std::size_t>(track_of[i])];
-      track.filter.predict(detection.t_us);
-      track.filter.update(detection.centre_W, R);
+      track.filter.update(detection.t_us, detection.centre_W, R);
       measure(track, detection);
     }
   }

@@ -44,6 +44,7 @@ class HeaderParser {
   void read_value(const std::string& key) {
     if (key == "descr") {
       once(dtype_, key, peek() == '[' ? list_text() : quoted_text());
+      if (std::any_of(dtype_->begin(), dtype_->end(), is_control)) fail("descr is no data type");
     } else if (key == "fortran_order") {
       once(order_, key, truth());
     } else if (key == "shape") {
@@ -58,6 +59,8 @@ class HeaderParser {
     if (slot) fail("the key " + key + " is given twice");
     slot = std::move(value);
   }
+
+  static bool is_control(char c) { return (c >= 0 && c < ' ') || c == 0x7f; }
 
   void skip_space() {
     const std::size_t n = rest_.find_first_not_of(" \t\r\n");

@@ -74,8 +74,9 @@ void check(const CsvTable& throws, const fs::path& directory) {
   for (std::size_t row = 0; row < throws.rows(); ++row) {
     const std::string& number = throws.at(row, "throw");
     if (numbers.insert(number).second && number == std::to_string(row)) continue;
-    throw IoError((directory / "throws.csv").string() + ": throw " + number + " stands in row " +
-                  std::to_string(row) + "; a baseline has every throw once, in order.");
+    throw IoError((directory / "throws.csv").string() + ":" + std::to_string(throws.line(row)) +
+                  ": Throw " + number + " stands where throw " + std::to_string(row) +
+                  " must; a baseline has every throw once, in order.");
   }
 }
 

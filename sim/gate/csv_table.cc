@@ -87,6 +87,7 @@ CsvTable::CsvTable(std::string_view text, std::string name) : name_(std::move(na
   }
   while (!splitter.done()) {
     rows_.push_back(splitter.next());
+    lines_.push_back(splitter.line());
     if (rows_.back().size() == columns_.size()) continue;
     splitter.fail("There are " + std::to_string(rows_.back().size()) + " cells, not " +
                   std::to_string(columns_.size()) + ".");
@@ -128,7 +129,7 @@ const std::string& CsvTable::one_of(std::size_t row, const std::string& column,
 }
 
 void CsvTable::refuse(std::size_t row, const std::string& column, const std::string& what) const {
-  throw IoError(name_ + ": " + column + " in row " + std::to_string(row) + " is \"" +
+  throw IoError(name_ + ":" + std::to_string(line(row)) + ": " + column + " is \"" +
                 at(row, column) + "\", not " + what + ".");
 }
 

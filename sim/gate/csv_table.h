@@ -30,6 +30,8 @@ class CsvTable {
   // at(). Also throws IoError if it is none of the words.
   const std::string& one_of(std::size_t row, const std::string& column,
                             std::initializer_list<std::string_view> words) const;
+  // The line of the file in which a row begins. Requires row < rows().
+  int line(std::size_t row) const { return lines_[row]; }
   // `name` or the file's path.
   const std::string& name() const { return name_; }
 
@@ -41,6 +43,7 @@ class CsvTable {
   std::vector<std::string> columns_;
   std::map<std::string, std::size_t> index_;
   std::vector<std::vector<std::string>> rows_;
+  std::vector<int> lines_;  // where each row begins
 };
 
 }  // namespace dodgesim

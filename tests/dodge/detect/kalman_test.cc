@@ -46,8 +46,7 @@ std::vector<Measurement> random_track(Generator& random, int count) {
 Kalman filtered(const KalmanConfig& config, const std::vector<Measurement>& track) {
   Kalman filter(config, track.front().t_us, track.front().z, track.front().R);
   for (std::size_t i = 1; i < track.size(); ++i) {
-    filter.predict(track[i].t_us);
-    filter.update(track[i].z, track[i].R);
+    filter.update(track[i].t_us, track[i].z, track[i].R);
   }
   return filter;
 }
@@ -119,6 +118,39 @@ TEST(Kalman, AgreesWithJointGaussianConditioningWithProcessNoise) {
   }
 }
 
+TEST(Kalman, TakesMeasurementsInAnyOrderWithoutProcessNoise) {
+  Generator random(6);
+  KalmanConfig config;
+  config.acceleration_noise = 0;
+  for (int k = 0; k < 50; ++k) {
+    config.gravity = k % 2 == 0;
+    std::vector<Measurement> track = random_track(random, 12);
+    const Kalman in_order = filtered(config, track);
+    std::swap(track[3], track[4]);  // a late one
+    std::swap(track[8], track[10]);
+    const Kalman late = filtered(config, track);
+    EXPECT_EQ(late.t_us(), in_order.t_us());
+    EXPECT_TRUE(late.position().isApprox(in_order.position(), 1e-9)) << k;
+    EXPECT_TRUE(late.velocity().isApprox(in_order.velocity(), 1e-9)) << k;
+    EXPECT_TRUE(late.covariance().isApprox(in_order.covariance(), 1e-9)) << k;
+  }
+}
+
+TEST(Kalman, KnowsWhereTheObstacleWas) {
+  KalmanConfig config;
+  config.gravity = true;
+  const Vector3d p(3, 0.2, 1);
+  const Kalman filter(config, 0, p, 0.01 * Matrix3d::Identity());
+  for (const TimeUs t_us : {-20000, 0, 20000}) {
+    const Kalman::Position at = filter.position_at(t_us);
+    const double t = seconds(t_us);
+    EXPECT_TRUE(at.mean_W.isApprox(p - 0.5 * kGravityMps2 * t * t * Vector3d::UnitZ(), 1e-12));
+    // Its speed has a standard deviation of 6 m/s; only the future has process noise.
+    const double noise = t > 0 ? 9 * t * t * t / 3 : 0;
+    EXPECT_NEAR(at.covariance_W(2, 2), 0.01 + 36 * t * t + noise, 1e-12);
+  }
+}
+
 TEST(Kalman, ConvergesToAConstantVelocity) {
   Generator random(3);
   KalmanConfig config;
@@ -127,8 +159,7 @@ TEST(Kalman, ConvergesToAConstantVelocity) {
   const Matrix3d R = 0.02 * 0.02 * Matrix3d::Identity();
   Kalman filter(config, 0, p + 0.02 * random.normal_vector(), R);
   for (TimeUs t_us = 2000; t_us <= 400000; t_us += 2000) {
-    filter.predict(t_us);
-    filter.update(p + v * seconds(t_us) + 0.02 * random.normal_vector(), R);
+    filter.update(t_us, p + v * seconds(t_us) + 0.02 * random.normal_vector(), R);
   }
   // 201 measurements over 0.4 s: sigma_v = 0.02 sqrt(12 / 201) / 0.4 = 0.012 m/s.
   EXPECT_NEAR(std::sqrt(filter.covariance()(3, 3)), 0.012, 0.001);
@@ -161,8 +192,7 @@ TEST(Kalman, StatesItsErrorsHonestly) {
       }
       t_us += steps * kStepUs;
       R = random_covariance(random);
-      filter.predict(t_us);
-      filter.update(p + R.llt().matrixL() * random.normal_vector(), R);
+      filter.update(t_us, p + R.llt().matrixL() * random.normal_vector(), R);
     }
     Vector6d error;
     error << filter.position() - p, filter.velocity() - v;
@@ -180,9 +210,8 @@ TEST(Kalman, KeepsItsCovarianceSymmetricAndPositiveDefinite) {
     TimeUs t_us = 0;
     for (int i = 0; i < 20000; ++i) {
       t_us += random.bits() % 5 == 0 ? 0 : static_cast<TimeUs>(random.bits() % 3000);
-      filter.predict(t_us);
       const double sigma = std::pow(10.0, random.uniform(-4, 1));
-      filter.update(random.normal_vector(), sigma * sigma * Matrix3d::Identity());
+      filter.update(t_us, random.normal_vector(), sigma * sigma * Matrix3d::Identity());
       const Matrix6d& P = filter.covariance();
       ASSERT_EQ((P - P.transpose()).norm(), 0);
       ASSERT_EQ(P.llt().info(), Eigen::Success) << i;

@@ -187,6 +187,24 @@ TEST(Tracker, TakesOneObstacleFromTwoCameras) {
   EXPECT_EQ(detections[1].obstacle_id, detections[0].obstacle_id);
 }
 
+TEST(Tracker, IsNotMovedByADetectionThatComesLate) {
+  // The second camera saw the ball 4 ms, and 4 cm of its way, before the first.
+  KalmanConfig kalman;
+  kalman.acceleration_noise = 0;
+  Tracker tracker({}, kalman, kLifetimeS);
+  const auto ball = [](TimeUs t_us, int camera) {
+    return seen(t_us, Vector3d(4 - 10 * seconds(t_us), 0, 0), 0.2, camera);
+  };
+  for (TimeUs t_us = 10000; t_us <= 100000; t_us += 10000) {
+    update(tracker, t_us, {ball(t_us, 0), ball(t_us - 4000, 1)});
+  }
+  ASSERT_EQ(tracker.obstacles().size(), 1);
+  const Obstacle& obstacle = tracker.obstacles()[0].obstacle;
+  EXPECT_EQ(obstacle.detections, 20);
+  EXPECT_NEAR(obstacle.p_WO.x(), 3, 1e-3);
+  EXPECT_NEAR(obstacle.v_WO.x(), -10, 0.02);
+}
+
 TEST(Tracker, IgnoresDetectionsThatAreNotFinite) {
   Tracker tracker({}, {}, kLifetimeS);
   Detection bad_centre = seen(0, Vector3d(2, 0, 0)), bad_point = bad_centre, bad_sigma = bad_centre,

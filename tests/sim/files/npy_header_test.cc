@@ -50,6 +50,7 @@ TEST(NpyHeader, SaysWhatIsWrong) {
            {"{'colour': 'red'" + rest, "the key \"colour\" is unknown"},
            {"{'descr': '<f4" + rest.substr(0, 2), "a text does not end"},
            {"{'descr': [('t', '<i8'" + rest, "a list does not end"},
+           {"{'descr': '<f4\x1b[2J'" + rest, "descr is no data type"},
            {"{'descr': 4" + rest, "a text in quotes is missing"},
            {"{'descr' '<f4'" + rest, "\":\" is missing"},
            {"{'descr': '<f4'" + rest + " import os", "something follows the dictionary"},

@@ -98,7 +98,7 @@ TEST_F(BaselineTest, RefusesWhatCannotBeJudgedBy) {
   EXPECT_THAT(complaint_about({0.1, 0, "all"}), HasSubstr("gate.confidence must be between"));
   EXPECT_THAT(complaint_about({0.1, 0.9, "phisics"}), HasSubstr("gate.must_equal must be nothing"));
   write("throws.csv", "throw\n0\n0\n");
-  EXPECT_THAT(complaint_about({}), HasSubstr("throws.csv: throw 0 stands in row 1"));
+  EXPECT_THAT(complaint_about({}), HasSubstr("throws.csv:3: Throw 0 stands where throw 1 must"));
 }
 
 TEST_F(BaselineTest, IsKnownEvenWhenItIsBroken) {

@@ -50,12 +50,12 @@ TEST(CsvTable, SaysWhereAFileIsBroken) {
   EXPECT_EQ(numbers.number(0, "a"), -1.5);
   EXPECT_EQ(numbers.integer(0, "b"), 7);
   EXPECT_THAT([&] { numbers.integer(0, "a"); },
-              ThrowsMessage<IoError>(HasSubstr("t.csv: a in row 0 is \"-1.5\", not an integer.")));
+              ThrowsMessage<IoError>(HasSubstr("t.csv:2: a is \"-1.5\", not an integer.")));
   const CsvTable answers("yes,no,other\n1,0,yes\n", "t.csv");
   EXPECT_TRUE(answers.boolean(0, "yes"));
   EXPECT_FALSE(answers.boolean(0, "no"));
   EXPECT_THAT([&] { answers.boolean(0, "other"); },
-              ThrowsMessage<IoError>(HasSubstr("t.csv: other in row 0 is \"yes\", not 0 or 1.")));
+              ThrowsMessage<IoError>(HasSubstr("t.csv:2: other is \"yes\", not 0 or 1.")));
   EXPECT_THAT([&] { numbers.number(0, "c"); }, ThrowsMessage<IoError>(HasSubstr("not a number")));
   EXPECT_THROW(CsvTable(std::filesystem::path("/nowhere/throws.csv")), IoError);
 }

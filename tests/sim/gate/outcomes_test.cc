@@ -87,10 +87,9 @@ TEST(Outcomes, RefuseTablesThatAreNotOfACampaign) {
   EXPECT_THROW(outcomes(tables_of({throw_that(0, 'd'), throw_that(0, 'd')})), IoError);
   ThrowResult damaged = throw_that(0, 'd');
   damaged.flown.status = "okk";
-  EXPECT_THAT(
-      refusal(tables_of({damaged})),
-      ThrowsMessage<IoError>(HasSubstr("throws.csv: flown_status in row 0 is \"okk\", not ok "
-                                       "or error or lost or not flown.")));
+  EXPECT_THAT(refusal(tables_of({damaged})),
+              ThrowsMessage<IoError>(HasSubstr("throws.csv:2: flown_status is \"okk\", not ok or "
+                                               "error or lost or not flown.")));
   tables = tables_of({throw_of_two(0)});
   tables.objects.reset();
   EXPECT_THAT(
