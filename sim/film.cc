@@ -7,7 +7,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "sim/base/error.h"
-#include "sim/files/staged_file.h"
 
 namespace dodgesim {
 
@@ -44,15 +43,12 @@ void EventPicture::add(std::span<const Event> events) {
 void EventPicture::clear() { image_.setTo(kGrey); }
 
 Film::Film(const std::string& path, const Intrinsics& intrinsics, double slow)
-    : path_(StagedFile::target(path)),
+    : place_(path),
+      path_(StagedFile::target(path)),
       partial_(StagedFile::partial_name(path_).string() + ".mp4"),
       picture_every_us_(std::lround(static_cast<double>(kShownEveryUs) / slow / kTickUs) * kTickUs),
       picture_(kSceneHeight,
                kSceneWidth + intrinsics.width * (kSceneHeight / 2) / intrinsics.height, kBlack) {
-  // It would be gone, as the writer makes files anew.
-  if (std::filesystem::exists(path_) && !std::filesystem::is_regular_file(path_)) {
-    throw IoError(path_ + " is not a regular file.");
-  }
   // One by one: copies would share their pixels.
   for (int i = 0; i < 2; ++i) eyes_.emplace_back(intrinsics.width, intrinsics.height);
   // Exactly `slow` times slower, whatever became of the interval in whole ticks.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dodge/dodger.h"
+#include "sim/files/staged_file.h"
 #include "sim/flight.h"
 #include "sim/render/scene_pictures.h"
 
@@ -34,8 +35,9 @@ class Film : public FlightObserver {
   static constexpr double kSlowest = 160;
 
   // MPEG-4 with H.264, which browsers open, of about 25 pictures a second, `slow` (1 to kSlowest)
-  // times slower than real. Throws IoError if the file cannot be opened for writing.
-  // The file gets its name, and takes the place of another, when it is whole.
+  // times slower than real. Throws IoError if the file cannot be opened for writing
+  // or another program is writing it. The file gets its name, and takes the place of another, when
+  // it is whole.
   Film(const std::string& path, const Intrinsics& intrinsics, double slow = 10);
   ~Film() override;
 
@@ -55,6 +57,7 @@ class Film : public FlightObserver {
   void compose(const Snapshot& snapshot);
   void caption(const Snapshot& snapshot);
 
+  StagedFile place_;            // keeps the name from other programs
   std::string path_, partial_;  // partial_: its name until it is whole
   TimeUs picture_every_us_;     // of flight
   cv::VideoWriter writer_;

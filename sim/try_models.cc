@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/base/error.h"
+#include "sim/base/gravity.h"
 #include "sim/config/expand.h"
 #include "sim/config/numbers.h"
 #include "sim/config/pilot.h"
@@ -98,6 +99,12 @@ void check_world(const World& world, const Trial& trial) {
     throw ScenarioError("motors.min_thrust_n is " + to_text(trial.min_thrust_n) +
                         ", but must be less than what a rotor of vehicles/" + trial.world.vehicle +
                         ".xml gives at most, which is " + to_text(most_n) + " N.");
+  }
+  const double weight_n = world.vehicle().mass_kg * kGravityMps2;
+  if (4 * trial.min_thrust_n >= weight_n) {
+    throw ScenarioError("motors.min_thrust_n is " + to_text(trial.min_thrust_n) +
+                        ", but must be less than a quarter of the vehicle's weight, which is " +
+                        to_text(weight_n / 4) + " N: idling rotors would lift it.");
   }
   if (!trial.seen) return;
   collect_scene(world.model(), world.object_bodies(), false);

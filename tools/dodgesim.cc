@@ -1,7 +1,11 @@
 // The program `dodgesim`: a closed-loop simulator of a quadrotor that dodges thrown objects with
 // event cameras.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <new>
 #include <string>
@@ -27,6 +31,15 @@ int flushed(int exit_code) {
   if (written) return exit_code;
   std::cerr << "dodgesim: the standard output could not be written.\n";
   return kIoError;
+}
+
+// One that is closed would become the next file or pipe that is opened. Writing to the output still
+// fails.
+void open_standard_files() {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(fd, F_GETFD) >= 0) continue;
+    if (::open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY) != fd) std::abort();
+  }
 }
 
 bool is_command(CLI::App& program, const std::string& name) {
@@ -97,6 +110,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_files();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
   try {
     return flushed(run_program(argc, argv));

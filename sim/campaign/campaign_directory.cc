@@ -37,10 +37,11 @@ bool holds_anything(const fs::path& out) {
 }
 
 [[noreturn]] void refuse_finished(const fs::path& out, const JournalIndex& index) {
-  throw ScenarioError(
-      out.string() + " holds results of " + std::to_string(index.throws.size()) +
-      " throws; run it with --resume to fly what is missing, or add --force to start "
-      "anew.");
+  const std::size_t n = index.throws.size();
+  throw ScenarioError(out.string() + " holds results of " + std::to_string(n) +
+                      (n == 1 ? " throw" : " throws") +
+                      "; run it with --resume to fly what is missing, or add --force to start "
+                      "anew.");
 }
 
 }  // namespace

@@ -190,7 +190,7 @@ std::string errors_of(const Part& part) {
     }
   }
   if (failed == 0) return "";
-  return "## Errors\n\n" + count_text(failed, "flight") + " failed and count as no success:\n\n" +
+  return "## Errors\n\n" + count_text(failed, "flight") + " failed, which is no success:\n\n" +
          errors + "\n";
 }
 

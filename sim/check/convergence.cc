@@ -19,6 +19,7 @@ constexpr double kRates[] = {0.25, 0.5, 1, 2, 4, 8};
 constexpr double kCountLimit = 0.01;
 constexpr double kStampLimitUs = 50;
 constexpr double kLeastMatched = 0.9;
+constexpr double kLeastFilmed = 5000;
 
 double default_displacement_px() { return SamplingSpec().max_displacement_px; }
 
@@ -60,6 +61,10 @@ Check judge(const std::vector<Sampled>& rates) {
               "off.",
               {},
               {}};
+  if (rates.front().difference.reference_events < kLeastFilmed) {
+    check.off("convergence", "the film makes fewer than 5000 events");
+    return check;
+  }
   Series counts{"", Series::Kind::kPoints, 0, {}, {}, {}};
   Series medians{"median", Series::Kind::kPoints, 0, {}, {}, {}};
   Series tails{"90 % of the events", Series::Kind::kPoints, 1, {}, {}, {}};

@@ -41,11 +41,6 @@ EventCameraSpec only_hot_pixels(const EventCameraSpec& camera) {
   return spec;
 }
 
-// What a rate becomes when every event is followed by a dead time.
-double with_dead_time(double rate_hz, const EventCameraSpec& spec) {
-  return rate_hz / (1 + rate_hz * seconds(spec.refractory_us));
-}
-
 NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, double events_hz,
                  Cause cause, std::uint64_t seed) {
   NoiseCount found;
@@ -79,6 +74,22 @@ double leaks_expected(const EventCameraSpec& spec, double duration_s) {
   return whole_cycles + std::min(1.0, (duration_s - whole_cycles * cycle_s) / period_s);
 }
 
+// How long a pixel is deaf after an event of noise: its instant is rounded up to the microsecond
+// in which it is held.
+double hold_s(const EventCameraSpec& spec) {
+  return spec.refractory_us > 0 ? seconds(spec.refractory_us) - 0.5e-6 : 0;
+}
+
+// The chance of at least n events where `mean` are expected.
+double poisson_at_least(int n, double mean) {
+  double chance = 1, of_k = std::exp(-mean);
+  for (int k = 0; k < n; ++k) {
+    chance -= of_k;
+    of_k *= mean / (k + 1);
+  }
+  return std::max(0.0, chance);
+}
+
 void judge_leak(const NoiseCount& leak, const EventCameraSpec& spec, Check& check) {
   if (!leak.filmed) {
     check.off("noise.leak", "leak_hz is 0");
@@ -104,7 +115,8 @@ void judge_shot(const std::string& name, const NoiseCount& shot, double share,
     return;
   }
   const double both_hz = share * (spec.shot_noise_on_hz + spec.shot_noise_off_hz);
-  const double seen = with_dead_time(both_hz, spec) / std::max(1e-12, both_hz);
+  const double seen = events_expected(both_hz, hold_s(spec), shot.duration_s) /
+                      std::max(1e-12, both_hz * shot.duration_s);
   const double alive = 1 - spec.dead_pixel_fraction;
   const double seconds_pixels = shot.duration_s * kPixels;
   const auto judge_polarity = [&](const std::string& polarity, double events, double set_hz) {
@@ -127,8 +139,10 @@ void judge_hot(const NoiseCount& hot, const EventCameraSpec& spec, Check& check)
   }
   double pixels = 0;
   for (const double events : hot.per_pixel) pixels += events > 0 ? 1 : 0;
-  const double rate_hz = with_dead_time(spec.hot_pixel_hz, spec);
-  const double fires = 1 - std::exp(-rate_hz * hot.duration_s);  // a hot pixel may stay silent
+  const double rate_hz =
+      events_expected(spec.hot_pixel_hz, hold_s(spec), hot.duration_s) / hot.duration_s;
+  // A hot pixel may stay silent.
+  const double fires = 1 - std::exp(-spec.hot_pixel_hz * hot.duration_s);
   const double p = spec.hot_pixel_fraction * (1 - spec.dead_pixel_fraction) * fires;
   check.within("noise.hot.pixels", pixels, p * kPixels,
                kSigmas * std::sqrt(p * (1 - p) * kPixels) + (p < 1 ? 1 : 0), "pixels", 1);
@@ -150,6 +164,21 @@ Series rates(const std::string& name, int colour, const NoiseCount& noise) {
 }
 
 }  // namespace
+
+double events_expected(double rate_hz, double hold_s, double duration_s) {
+  if (rate_hz <= 0) return 0;
+  const double cycle_s = hold_s + 1 / rate_hz;
+  // The renewal function's asymptote: the first interval lacks the hold.
+  constexpr double kManyHolds = 100;
+  if (duration_s > kManyHolds * hold_s) {
+    return duration_s / cycle_s + 0.5 * (hold_s / cycle_s) * (hold_s / cycle_s);
+  }
+  double events = 0;
+  for (int n = 1; (n - 1) * hold_s < duration_s; ++n) {
+    events += poisson_at_least(n, rate_hz * (duration_s - (n - 1) * hold_s));
+  }
+  return events;
+}
 
 NoiseCounts measure_noise(const EventCameraSpec& camera, std::uint64_t seed) {
   NoiseCounts counts;

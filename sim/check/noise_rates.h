@@ -25,6 +25,10 @@ struct NoiseCounts {
 
 NoiseCounts measure_noise(const EventCameraSpec& camera, std::uint64_t seed);
 
+// Mean number of events of a pixel whose noise comes at random, at rate_hz while it is not held
+// [hold_s] after an event; it is not held at first.
+double events_expected(double rate_hz, double hold_s, double duration_s);
+
 Check judge(const NoiseCounts& counts, const EventCameraSpec& expected);
 
 }  // namespace dodgesim

@@ -25,7 +25,7 @@ EventCameraSpec even_pixels(const EventCameraSpec& camera) {
   spec.readout_max_hz = camera.readout_max_hz;
   spec.mismatch_sigma = 0;
   spec.dead_pixel_fraction = 0;
-  spec.photoreceptor_hz = 0;
+  spec.photoreceptor_hz = spec.follower_hz = 0;
   spec.refractory_us = 0;
   return spec;
 }

@@ -18,7 +18,8 @@ constexpr TimeUs kSettlingUs = 20000;  // events of the first pictures are left 
 constexpr double kNear = 0.05;        // of a sample, as a share of the interval
 constexpr double kShareSlack = 0.02;  // about the even share of 2 kNear
 constexpr int kBins = 20;
-constexpr double kMostOfEven = 1.25;  // of a bin
+constexpr double kMostOfEven = 1.25;        // of a bin
+constexpr std::size_t kLeastStamps = 5000;  // with fewer, bins vary so much by chance
 
 }  // namespace
 
@@ -26,7 +27,8 @@ StampPhases measure_stamps(const EventCameraSpec& camera_spec, std::uint64_t see
   const EventCameraSpec spec = without_noise(camera_spec);
   EventCamera camera(spec, kTextureWidth, kTextureHeight, seed, 0, "check", true);
   const DriftingTexture texture(kTextureWidth, kTextureHeight, kTexturePxps, seed);
-  const auto events = record(camera, texture, regular_times(kSampleUs, kDurationUs)).events;
+  const auto events =
+      record(camera, texture, regular_times(kSampleUs, kDurationUs + spec.latency_us)).events;
   StampPhases measured;
   for (const Event& event : events) {
     const TimeUs changed_us = event.t_us - spec.latency_us;
@@ -46,6 +48,10 @@ Check judge(const StampPhases& measured) {
               {},
               {}};
   const auto& phases = measured.phases;
+  if (phases.size() < kLeastStamps) {
+    check.off("stamps", "the film makes fewer than 5000 events");
+    return check;
+  }
   const auto n = static_cast<double>(phases.size());
   const auto near = std::count_if(phases.begin(), phases.end(),
                                   [](double phase) { return phase < kNear || phase >= 1 - kNear; });
@@ -54,9 +60,8 @@ Check judge(const StampPhases& measured) {
   const Series bars = histogram("", 0, phases, 0, 1, kBins);
   const double highest = *std::max_element(bars.y.begin(), bars.y.end()) * kBins;
   const double lowest = *std::min_element(bars.y.begin(), bars.y.end()) * kBins;
-  check.between("stamps.fullest_bin", phases.empty() ? NAN : highest, 1, kMostOfEven, "of even", 3);
-  check.between("stamps.emptiest_bin", phases.empty() ? NAN : lowest, 2 - kMostOfEven, 1, "of even",
-                3);
+  check.between("stamps.fullest_bin", highest, 1, kMostOfEven, "of even", 3);
+  check.between("stamps.emptiest_bin", lowest, 2 - kMostOfEven, 1, "of even", 3);
   check.plots.push_back({"Time stamps between two samples of the light",
                          {"time since the last sample / interval", 0, 1, false},
                          {"share of the events", 0, 3.0 / kBins, false},

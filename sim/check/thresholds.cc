@@ -65,6 +65,10 @@ Moments moments(const std::vector<double>& values) {
 
 void judge_polarity(const std::string& name, const std::vector<double>& measured, int pixels,
                     double threshold, const EventCameraSpec& spec, Check& check) {
+  if (spec.dead_pixel_fraction >= 1) {
+    check.off("threshold." + name, "all pixels are dead");
+    return;
+  }
   const Moments expected = clipped_normal(threshold, spec.mismatch_sigma, spec.threshold_min);
   const Moments found = moments(measured);
   const auto n = static_cast<double>(std::max<std::size_t>(1, measured.size()));

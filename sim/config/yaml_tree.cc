@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/base/utf8.h"
 #include "sim/config/writer.h"
 
 namespace dodgesim {
@@ -177,33 +178,16 @@ class TreeBuilder : public YAML::EventHandler {
   std::size_t nodes_ = 0;
 };
 
-// Length of the valid UTF-8 sequence at the start of `text`, or 0. Control characters other than
-// tab and line ends do not belong into a text file.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned first = byte(0);
-  if (first < 0x80) {
-    const bool allowed =
-        (first >= 0x20 && first != 0x7f) || first == '\t' || first == '\n' || first == '\r';
-    return allowed ? 1 : 0;
-  }
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
-  unsigned code = first & (0xffu >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0u) != 0x80) return 0;
-    code = (code << 6) | (byte(i) & 0x3fu);
-  }
-  const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
-  const bool surrogate = code >= 0xd800 && code <= 0xdfff;
-  return overlong || surrogate || code > 0x10ffff ? 0 : length;
+// Control characters other than tab and line ends do not belong into a text file.
+bool is_control(char c) {
+  return (c >= 0 && c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
 }
 
 void check_encoding(std::string_view text, Problems& problems, const Place& place) {
   Position at{1, 1, place.source};
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = utf8_length(text.substr(i));
-    if (length == 0) {
+    if (length == 0 || is_control(text[i])) {
       const int byte = static_cast<unsigned char>(text[i]);
       problems.fail(place.lines ? at : place.whole(),
                     (byte < 0x80 ? "This is a control character" : "This is not UTF-8 text") +

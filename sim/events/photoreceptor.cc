@@ -156,9 +156,10 @@ Kernel kernel_for(int order, bool own_time, int level) {
 
 Photoreceptor::Photoreceptor(const EventCameraSpec& spec)
     : response_(spec.log_epsilon, spec.linear_below),
-      order_(spec.photoreceptor_hz <= 0 ? 0 : (spec.follower_hz > 0 ? 2 : 1)),
+      order_((spec.photoreceptor_hz > 0 ? 1 : 0) + (spec.follower_hz > 0 ? 1 : 0)),
       rad_s_(2 * std::numbers::pi * spec.photoreceptor_hz * spec.illuminance_lux / kReferenceLux),
-      dark_rad_s_(2 * std::numbers::pi * spec.photoreceptor_dark_hz),
+      dark_rad_s_(2 * std::numbers::pi *
+                  (spec.photoreceptor_hz > 0 ? spec.photoreceptor_dark_hz : spec.follower_hz)),
       follower_rad_s_(2 * std::numbers::pi * spec.follower_hz) {}
 
 Charge Photoreceptor::at(const Charge& before, double luminance, double u1, double dt_s,

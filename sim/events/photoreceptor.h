@@ -1,5 +1,6 @@
 // The photoreceptor's bandwidth: a low-pass of the pixel's response to light, whose cut-off falls
-// with the light, and optionally a second one (the source follower) with a fixed cut-off.
+// with the light, and optionally a second one (the source follower) with a fixed cut-off. The
+// follower alone is a low-pass of first order.
 //
 // The input u is the response at the samples and runs linearly between them. The outputs y (first
 // order) and z (second order) at the samples are then known (z to within 0.3 % of y's transient
@@ -22,7 +23,7 @@ struct EventCameraSpec;
 struct Charge {
   double u = 0;  // the response to the last sample's light
   double y = 0;  // behind the photoreceptor
-  double z = 0;  // behind the follower; y if there is none
+  double z = 0;  // behind the second low-pass; y if there is none
 };
 
 class Photoreceptor {
@@ -32,7 +33,7 @@ class Photoreceptor {
   int order() const { return order_; }  // of the low-pass: 0, 1 or 2
   const Response& response() const { return response_; }
 
-  // Cut-off [1/s, angular] of the first low-pass at a luminance.
+  // Cut-off [1/s, angular] of the first, or only, low-pass at a luminance.
   double cutoff_rad_s(double luminance) const { return dark_rad_s_ + rad_s_ * luminance; }
 
   // One pixel, t_s after a sample; at dt_s > 0 after it, it shows `luminance`, to which the

@@ -95,7 +95,7 @@ PixelArray::PixelArray(const EventCameraSpec& spec, int width, int height,
   leak_per_us_ = 1e-6 * leak_per_s;
   const double tolerance =
       kCurveShare * std::min(spec.contrast_threshold_on, spec.contrast_threshold_off);
-  const bool exact = spec.photoreceptor_hz <= 0 && spec.leak_hz <= 0;
+  const bool exact = spec.photoreceptor_hz <= 0 && spec.follower_hz <= 0 && spec.leak_hz <= 0;
   signal_ = exact ? make_exact_signal(spec, pixels_.size())
                   : make_filtered_signal(spec, pixels_.size(), leak_per_s, tolerance);
   if (keep_causes) {

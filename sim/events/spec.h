@@ -73,10 +73,11 @@ void EventCameraSpec::visit(Visitor& v) {
     "Cut-off of the photoreceptor's low-pass where 1000 lux fall on white; it falls in proportion "
     "to the light (assumed: some kHz, as the DVS of Lichtsteiner et al. 2008). 0: no limit.");
   v("photoreceptor_dark_hz", photoreceptor_dark_hz, 0.01, 1e6,
-    "Cut-off that is left in the dark (assumed).");
+    "Cut-off that is left in the dark (assumed). Signals are kept in single precision: below about "
+    "1 Hz what is sampled every few microseconds comes to rest too early.");
   v("follower_hz", follower_hz, 0, 1e6,
-    "Cut-off of the source follower behind it, which does not depend on the light and makes the "
-    "response second-order. 0: first order.");
+    "Cut-off of the source follower behind it, which does not depend on the light: both make "
+    "the response second-order. 0: no follower.");
   v("refractory_us", refractory_us, 0, 1000000,
     "Time a pixel is held in reset after an event (most simulators: 100 us, v2e: 500 us).");
   v("leak_hz", leak_hz, 0, 1000,

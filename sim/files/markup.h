@@ -7,7 +7,7 @@
 namespace dodgesim {
 
 // The text as content or attribute: nothing of it is taken for markup. Control characters that XML
-// does not allow become question marks.
+// does not allow become question marks, and what is no character of UTF-8 becomes U+FFFD.
 std::string markup_escaped(std::string_view text);
 
 }  // namespace dodgesim

@@ -13,6 +13,18 @@ namespace {
 constexpr std::string_view kNpyMagic = "\x93NUMPY";
 constexpr std::size_t kAlignment = 64;  // of the array in the file, as NumPy does it
 
+// NumPy's own spelling: "<u1" and "u1" are "|u1", "=f4" and "f4" are "<f4". An array of bytes has
+// no order of bytes, and on this kind of machine the native one is little-endian.
+std::string plain_dtype(std::string text) {
+  if (text.empty()) return text;
+  const bool has_order = std::string_view("<>=|").find(text.front()) != std::string_view::npos;
+  const std::string kind = text.substr(has_order ? 1 : 0);
+  const bool bytes = kind == "u1" || kind == "i1" || kind == "b1";
+  if (bytes) return "|" + kind;
+  if (!has_order || text.front() == '=') return "<" + kind;
+  return text;
+}
+
 // The few forms of Python's literals that NumPy writes.
 class HeaderParser {
  public:
@@ -44,6 +56,7 @@ class HeaderParser {
   void read_value(const std::string& key) {
     if (key == "descr") {
       once(dtype_, key, peek() == '[' ? list_text() : quoted_text());
+      if (!dtype_->starts_with('[')) dtype_ = plain_dtype(*dtype_);
       if (std::any_of(dtype_->begin(), dtype_->end(), is_control)) fail("descr is no data type");
     } else if (key == "fortran_order") {
       once(order_, key, truth());

@@ -11,7 +11,8 @@
 namespace dodgesim {
 
 struct NpyHeader {
-  std::string dtype;  // "<f4"; of an array of records their list as it stands in the file
+  std::string dtype;  // "<f4", as NumPy writes it; of an array of records their list as it stands
+                      // in the file
   bool fortran_order = false;
   std::vector<std::uint64_t> shape;
 };

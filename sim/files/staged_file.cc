@@ -69,8 +69,8 @@ void StagedFile::lock() {
 
 StagedFile::~StagedFile() {
   if (fd_ < 0) return;
+  ::unlink(partial_.c_str());  // before another program may lock it
   ::close(fd_);
-  ::unlink(partial_.c_str());
 }
 
 void StagedFile::commit() {

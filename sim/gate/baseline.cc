@@ -4,6 +4,7 @@
 #include <deque>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 
 #include "sim/base/error.h"
 #include "sim/files/input_file.h"
@@ -29,17 +30,36 @@ Json read_manifest(const fs::path& directory) {
   }
 }
 
+const Json& value_at(const Json& manifest, const std::string& group, const std::string& key) {
+  if (manifest.is_object() && manifest.contains(group) && manifest[group].is_object() &&
+      manifest[group].contains(key)) {
+    return manifest[group][key];
+  }
+  throw std::invalid_argument(group + "." + key + " is missing");
+}
+
+std::string text_at(const Json& manifest, const std::string& group, const std::string& key) {
+  const Json& value = value_at(manifest, group, key);
+  if (value.is_string()) return value.get<std::string>();
+  throw std::invalid_argument(group + "." + key + " must be a text, not " + value.dump());
+}
+
+double number_at(const Json& manifest, const std::string& group, const std::string& key) {
+  const Json& value = value_at(manifest, group, key);
+  if (value.is_number()) return value.get<double>();
+  throw std::invalid_argument(group + "." + key + " must be a number, not " + value.dump());
+}
+
 std::string kind_of(const Json& manifest) {
-  return manifest.at("machine").at("cpu_flags").get<std::string>() + "\n" +
-         manifest.at("libraries").dump() + "\n" +
-         manifest.at("program").at("compiler").get<std::string>() + "\n" +
-         manifest.at("program").at("build_type").get<std::string>();
+  return text_at(manifest, "machine", "cpu_flags") + "\n" +
+         (manifest.contains("libraries") ? manifest["libraries"].dump() : "") + "\n" +
+         text_at(manifest, "program", "compiler") + "\n" +
+         text_at(manifest, "program", "build_type");
 }
 
 GateRules rules_of(const Json& manifest) {
-  const Json& gate = manifest.at("gate");
-  return {gate.at("margin").get<double>(), gate.at("confidence").get<double>(),
-          gate.at("must_equal").get<std::string>()};
+  return {number_at(manifest, "gate", "margin"), number_at(manifest, "gate", "confidence"),
+          text_at(manifest, "gate", "must_equal")};
 }
 
 // What `take` reads from a directory's manifest; a value that is missing or of a wrong type is an
@@ -49,8 +69,8 @@ auto from_manifest(const fs::path& directory, Take take) {
   const Json manifest = read_manifest(directory);
   try {
     return take(manifest);
-  } catch (const Json::exception& error) {
-    throw IoError((directory / kManifest).string() + " lacks a value: " + error.what() + ".");
+  } catch (const std::invalid_argument& error) {
+    throw IoError((directory / kManifest).string() + ": " + error.what() + ".");
   }
 }
 
@@ -89,9 +109,7 @@ Baseline read_baseline(const fs::path& directory) {
       read_tables(directory), read_file(directory / "scenario.resolved.yaml"),
       from_manifest(directory, rules_of),
       from_manifest(directory,
-                    [](const Json& manifest) {
-                      return manifest.at("program").at("commit").get<std::string>();
-                    }),
+                    [](const Json& manifest) { return text_at(manifest, "program", "commit"); }),
       machine_kind(directory)};
   check(baseline.rules, directory);
   check(baseline.tables.throws, directory);

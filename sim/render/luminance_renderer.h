@@ -6,7 +6,8 @@
 // and capsules, by 64 rays a pixel for their ends and for thrown boxes (spheres, ellipsoids,
 // capsules and all thrown solids but meshes are ray-cast), and by edge_smoother.h for what is
 // static and made of triangles (planes, boxes, cylinders, meshes). Not smoothed: thrown meshes, the
-// horizon of an unbounded plane, and where a ray-cast solid cuts into something. Textures are read
+// horizon of an unbounded plane, where a ray-cast solid cuts into something, and the outline of one
+// in front of another whose centre is nearer. Textures are read
 // once a pixel, filtered as RenderSpec::texture_filter says.
 #pragma once
 
@@ -35,7 +36,8 @@ struct RenderSpec {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v("near_m", near_m, 0.001, 0.5, "Nothing nearer to the camera than this depth is drawn.");
+    v("near_m", near_m, 0.001, 0.5,
+      "Nothing of the room and of meshes nearer to the camera than this depth is drawn.");
     v("far_m", far_m, 10.0, 100000.0, "Unbounded planes end at this distance, the horizon.");
     v("sky_luminance", sky_luminance, 0.0, 1000.0,
       "Luminance of the background where the room has no sky texture; 1 is a white surface under "

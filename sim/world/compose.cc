@@ -45,6 +45,11 @@ std::vector<MjcfTag> scaled_object(const std::string& models_dir, const ObjectSp
   }
   std::vector<MjcfTag> tags = read_model_file(models_dir, file);
   check_elements(tags, label);
+  if (std::none_of(tags.begin(), tags.end(),
+                   [](const MjcfTag& t) { return t.name == "inertial"; })) {
+    throw ScenarioError(label + ": The body of an object must have an <inertial>, which is what " +
+                        "mass_exponent scales.");
+  }
   const double reference_size_m = find_numeric(tags, "reference_size_m", label);
   if (!(reference_size_m > 0)) {
     throw ScenarioError(label + ": reference_size_m must be positive.");
@@ -86,17 +91,19 @@ class CompiledModels {
   std::vector<Entry> entries_;
 };
 
-// Air drag is computed by World: MuJoCo's own fluid model stays off (density 0). The constraint
-// buffers are small because only a few contacts ever coexist; the defaults cost 14 MB each world.
+// Air drag is computed by World: MuJoCo's own fluid model stays off (density 0). The buffers hold
+// the contacts of `objects` objects that lie on the floor, and no more: the defaults cost 14 MB
+// each world.
 MjModelPtr compile(const std::string& inner_xml, const std::string& models_dir,
-                   const std::string& label) {
+                   const std::string& label, std::size_t objects) {
   thread_local CompiledModels models;
+  const std::size_t contacts = 30 + 20 * std::max<std::size_t>(objects, 1);
   return models.get(
       "<mujoco model=\"dodgesim\"><compiler angle=\"degree\"/>"
       "<option gravity=\"0 0 " +
           std::to_string(-kGravityMps2) + "\" density=\"0\" viscosity=\"0\" timestep=\"" +
-          std::to_string(seconds(kTickUs)) + "\"/><size nconmax=\"50\" njmax=\"250\"/>" +
-          inner_xml + "</mujoco>",
+          std::to_string(seconds(kTickUs)) + "\"/><size nconmax=\"" + std::to_string(contacts) +
+          "\" njmax=\"" + std::to_string(5 * contacts) + "\"/>" + inner_xml + "</mujoco>",
       models_dir, label);
 }
 
@@ -121,10 +128,10 @@ MjModelPtr compose_model(const WorldSpec& spec) {
   std::string xml;
   for (const Part& part : parts) xml += part.xml;
   try {
-    return compile(xml, spec.models_dir, "The models in " + spec.models_dir);
+    return compile(xml, spec.models_dir, "The models in " + spec.models_dir, spec.objects.size());
   } catch (const ScenarioError&) {
     // Which file is it? Each compiles on its own unless it is the culprit.
-    for (const Part& part : parts) compile(part.xml, spec.models_dir, part.label);
+    for (const Part& part : parts) compile(part.xml, spec.models_dir, part.label, 1);
     throw;
   }
 }

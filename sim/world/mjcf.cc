@@ -309,6 +309,7 @@ void prefix_names(std::vector<MjcfTag>& tags, const std::string& prefix) {
 void scale_body(std::vector<MjcfTag>& tags, double scale, double mass_exponent,
                 const std::string& label) {
   for (MjcfTag& tag : tags) {
+    if (tag.name == "mesh" && !tag.find("scale")) tag.attributes.emplace_back("scale", "1 1 1");
     const bool is_length_tag = tag.name == "geom" || tag.name == "site" || tag.name == "body" ||
                                tag.name == "camera" || tag.name == "inertial";
     for (auto& [name, value] : tag.attributes) {

@@ -47,8 +47,9 @@ class Referee {
   void reset();
 
   // Call after reset and after each step. `landing`: the vehicle has been told to land. Distances
-  // are exact at ticks; between them the clearance is missed by less than
-  // (relative speed x half a tick)^2 / (2 x distance of the centres).
+  // are exact at ticks; between them the clearance is missed by less than the way of the nearest
+  // points in half a tick, and where a ball of radius r passes an edge at clearance c by about
+  // (relative speed x half a tick)^2 / (2 (r + c)).
   void observe(const World& world, bool landing = false);
 
   const Verdict& verdict() const { return verdict_; }

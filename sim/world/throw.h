@@ -26,7 +26,7 @@ struct Throw {
   Eigen::Vector2d aim_offset_m = Eigen::Vector2d::Zero();  // left, up, for a viewer at the vehicle
                                                            // who looks at the launch point
   double launch_height_m = 1.5;                            // z of W
-  Eigen::Vector3d spin_radps = Eigen::Vector3d::Zero();    // angular velocity in W; kept in flight
+  Eigen::Vector3d spin_radps = Eigen::Vector3d::Zero();    // angular velocity in W at launch
   TimeUs launch_us = 0;
 
   double flight_s() const { return distance_m / speed_mps; }

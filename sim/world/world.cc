@@ -82,6 +82,11 @@ World::FreeBody World::find_free_body(int body) const {
   if (model_->body_jntnum[body] != 1 || model_->jnt_type[joint] != mjJNT_FREE) {
     throw ScenarioError(label_ + ": the body must have a free joint and no other.");
   }
+  const int* parents = model_->body_parentid;
+  if (std::find(parents, parents + model_->nbody, body) != parents + model_->nbody) {
+    throw ScenarioError(label_ + ": the body must have no body within it; it is rigid, and its " +
+                        "geoms are its own.");
+  }
   if (ConstMap3(model_->body_ipos + 3 * body).norm() > 1e-6) {
     throw ScenarioError(label_ + ": the origin of the body must be its centre of mass.");
   }
@@ -125,18 +130,38 @@ void World::override_vehicle(const VehicleOverrides& overrides) {
   mj_setConst(model_.get(), data_.get());  // what MuJoCo derives from these
 }
 
+// The mixer knows four alike, which push along z of B and twist about it.
+void World::check_rotor(int site, int actuator) const {
+  const mjtNum* gear = model_->actuator_gear + 6 * actuator;
+  const Eigen::Vector3d up = quaternion(model_->site_quat + 4 * site) * Eigen::Vector3d::UnitZ();
+  const bool plain = model_->actuator_trntype[actuator] == mjTRN_SITE &&
+                     model_->actuator_trnid[2 * actuator] == site && up.z() > 1 - 1e-9 &&
+                     gear[0] == 0 && gear[1] == 0 && gear[2] == 1 && gear[3] == 0 && gear[4] == 0;
+  const bool alike = std::abs(gear[5]) == std::abs(model_->actuator_gear[5]) &&
+                     model_->actuator_ctrlrange[2 * actuator + 1] == model_->actuator_ctrlrange[1];
+  if (plain && alike) return;
+  throw ScenarioError(label_ + ": a rotor must be a motor at its site, with z up, a gear of " +
+                      "\"0 0 1 0 0 kappa\", and the kappa (but for its sign) and the ctrlrange " +
+                      "of the other rotors.");
+}
+
 void World::read_vehicle(const VehicleOverrides& overrides) {
   vehicle_body_ = find(mjOBJ_BODY, "vehicle");
   override_vehicle(overrides);
   vehicle_free_ = find_free_body(vehicle_body_);
   vehicle_.mass_kg = model_->body_mass[vehicle_body_];
   vehicle_.inertia_kgm2 = vehicle_free_.J_kgm2.diagonal();
+  if (!vehicle_free_.J_kgm2.isDiagonal(1e-6)) {
+    throw ScenarioError(label_ +
+                        ": x, y and z of the vehicle must be its principal axes of inertia.");
+  }
   for (int k = 0; k < 4; ++k) {
     const std::string name = "rotor_" + std::to_string(k);
     const int site = find(mjOBJ_SITE, name);
     const int actuator = find(mjOBJ_ACTUATOR, name);
     const double torque_m = model_->actuator_gear[6 * actuator + 5];
     if (actuator != k) throw ScenarioError(label_ + ": rotor_0 to rotor_3 must be in this order.");
+    check_rotor(site, actuator);
     const auto rotor = static_cast<std::size_t>(k);
     vehicle_.rotor_p_B[rotor] = ConstMap3(model_->site_pos + 3 * site);
     vehicle_.rotor_spin[rotor] = torque_m < 0 ? -1 : 1;

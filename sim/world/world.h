@@ -82,6 +82,7 @@ class World {
     Eigen::Matrix3d J_inv;
   };
 
+  void check_rotor(int site, int actuator) const;
   FreeBody find_free_body(int body) const;
   void read_vehicle(const VehicleOverrides& overrides);
   void override_vehicle(const VehicleOverrides& overrides);

@@ -29,11 +29,12 @@ TEST(CheckSensorCommand, PassesAndWritesAReport) {
   EXPECT_THAT(report, HasSubstr("check-sensor --camera ideal"));
 }
 
-TEST(CheckSensorCommand, FailsForACameraThatLosesItsEvents) {
+TEST(CheckSensorCommand, FailsForACameraThatIsTooSlowForItsFilms) {
   const TemporaryDirectory directory;
-  // Held for a second after every event: its thresholds cannot be told, and it misses most.
-  const std::string camera =
-      put(directory / "camera.yaml", "preset: ideal\nrefractory_us: 1000000\n");
+  // Its thresholds cannot be told.
+  const std::string camera = put(directory / "camera.yaml",
+                                 "preset: ideal\nphotoreceptor_hz: 0.1\n"
+                                 "photoreceptor_dark_hz: 0.01\n");
   const Outcome outcome = dodgesim("check-sensor --camera " + camera);
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("FAIL"));

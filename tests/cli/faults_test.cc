@@ -103,6 +103,36 @@ TEST_F(FaultsTest, TwoSignalsAtOnceCountAsOne) {
   EXPECT_EQ(WEXITSTATUS(status), 3);
 }
 
+TEST_F(FaultsTest, AStoppedReplayLeavesNothingBehind) {
+  std::ofstream(path("long.yaml")) << "pilot: none\nduration_s: 60\n";
+  ASSERT_EQ(dodgesim("run " + path("long.yaml") + " --out " + path("long")).exit_code, 0);
+  const pid_t child = start("replay " + path("long") + " --throw 0 --slow 1 --video " +
+                                path("a.mp4") + " --mcap " + path("a.mcap"),
+                            path("output.txt"));
+  for (int i = 0; i < 5000 && !fs::exists(path("a.mcap.partial")); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  ::kill(child, SIGINT);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+  EXPECT_THAT(contents(path("output.txt")), HasSubstr("The replay was stopped."));
+  for (const auto& entry : fs::directory_iterator(root_)) {
+    EXPECT_THAT(entry.path().filename().string(), ::testing::Not(::testing::StartsWith("a.mp4")));
+    EXPECT_THAT(entry.path().filename().string(), ::testing::Not(::testing::StartsWith("a.mcap")));
+  }
+}
+
+// As some daemons start programs.
+TEST_F(FaultsTest, FliesWithoutStandardFiles) {
+  const std::string program = std::string(DODGESIM_BINARY_DIR) + "/dodgesim ";
+  const auto outcome = dodgesim::testing::shell(
+      "sh -c '" + program + run_arguments("closed", "--throws 2 -j 2") + " <&- >&- 2>&-'");
+  EXPECT_EQ(outcome.exit_code, 4);  // the table is not printed
+  EXPECT_TRUE(fs::exists(root_ / "closed" / "throws.csv"));
+}
+
 // Runs shell commands as root of a mount namespace of their own, where file systems can be mounted
 // that end with it. False where that is not permitted.
 bool in_own_namespace(const std::string& script) {

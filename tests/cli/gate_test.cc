@@ -139,6 +139,15 @@ TEST_F(GateCommandTest, UpdateFliesNothingForABaselineThatCannotBeWritten) {
   EXPECT_FALSE(fs::exists(root_ / "out"));
 }
 
+TEST_F(GateCommandTest, FliesNothingForAVerdictThatCannotBeWritten) {
+  ASSERT_EQ(gate("--update").exit_code, 0);
+  fs::remove_all(path("out"));
+  const Outcome outcome = gate("--junit " + path("s.yaml") + "/x.xml");
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_THAT(outcome.output, HasSubstr("--junit " + path("s.yaml") + "/x.xml cannot be written"));
+  EXPECT_FALSE(fs::exists(path("out")));
+}
+
 TEST_F(GateCommandTest, DoesNotWaitForPipes) {
   ASSERT_EQ(::mkfifo(path("b").c_str(), 0600), 0);
   EXPECT_THAT(gate("--update").output, HasSubstr(path("b") + " is not a directory."));

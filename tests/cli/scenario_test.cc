@@ -181,6 +181,9 @@ TEST_F(ScenarioCommandTest, RoomsThatNoCameraCanSeeAndRotorsThatAreTooWeakAreUsa
   EXPECT_EQ(weak.exit_code, 2);
   EXPECT_THAT(weak.output, AllOf(HasSubstr("motors.min_thrust_n is 4.5, but must be less than"),
                                  HasSubstr("vehicles/qav_rxl.xml")));
+  const Outcome lifted = validate(" --set motors.min_thrust_n=2.6");
+  EXPECT_EQ(lifted.exit_code, 2);
+  EXPECT_THAT(lifted.output, HasSubstr("a quarter of the vehicle's weight, which is 2.45"));
 }
 
 TEST_F(ScenarioCommandTest, AVehicleThatCannotFlyIsRefusedBeforeTheCampaign) {

@@ -123,6 +123,12 @@ TEST_F(FilmTest, AVideoThatIsNotFinishedLeavesAnOtherOfItsName) {
   EXPECT_FALSE(fs::exists(path("d.mp4.partial.mp4")));
 }
 
+TEST_F(FilmTest, TwoDoNotTakeOneName) {
+  const Film film(path("e.mp4"), Intrinsics{});
+  EXPECT_THROW(Film(path("e.mp4"), Intrinsics{}), IoError);
+  EXPECT_TRUE(fs::exists(path("e.mp4.partial.mp4")));
+}
+
 TEST_F(FilmTest, ADirectoryThatCannotBeMadeIsAnIoError) {
   std::ofstream(path("file")) << "not a directory";
   EXPECT_THROW(StageFilm(path("file/stages")), IoError);

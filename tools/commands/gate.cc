@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/shell.h"
 #include "sim/campaign/csv.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
@@ -95,8 +96,8 @@ void list_changes(const std::string& heading, const std::vector<ChangedThrow>& c
   for (std::size_t i = 0; i < std::min(changes.size(), kMost); ++i) {
     const ChangedThrow& change = changes[i];
     text << "  throw " << change.number << " (" << change.label << "): " << change.before
-         << ", now " << change.after << "\n    dodgesim replay " << out.string() << " --throw "
-         << change.number << " --picture throw" << change.number << ".png\n";
+         << ", now " << change.after << "\n    dodgesim replay " << shell_quoted(out.string())
+         << " --throw " << change.number << " --picture throw" << change.number << ".png\n";
   }
   if (changes.size() <= kMost) return;
   text << "  and throws";
@@ -158,7 +159,7 @@ void expect_gateable(const Scenario& scenario, const GateArguments& arguments) {
 }
 
 // Before anything is flown for it.
-void expect_writable(const fs::path& where) {
+void expect_writable(const std::string& option, const fs::path& value, const fs::path& where) {
   fs::path there = fs::absolute(where);
   while (!fs::exists(there)) there = there.parent_path();
   std::string reason = "is not a directory";
@@ -166,7 +167,7 @@ void expect_writable(const fs::path& where) {
     if (::access(there.c_str(), W_OK | X_OK) == 0) return;
     reason = std::strerror(errno);
   }
-  throw IoError("--baseline " + where.string() + " cannot be written: " + there.string() + ": " +
+  throw IoError(option + " " + value.string() + " cannot be written: " + there.string() + ": " +
                 reason + ".");
 }
 
@@ -177,7 +178,7 @@ std::optional<Baseline> find_baseline(const GateArguments& arguments) {
   if (fs::exists(where) && !fs::is_directory(where)) {
     throw ScenarioError("--baseline " + where.string() + " is not a directory.");
   }
-  if (arguments.update) expect_writable(where);
+  if (arguments.update) expect_writable("--baseline", where, where);
   if (!holds_baseline_files(where)) {
     if (arguments.update) return std::nullopt;
     throw ScenarioError("There is no baseline in " + where.string() + "; add --update to make it.");
@@ -202,6 +203,9 @@ int gate(const GateArguments& arguments) {
   const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir,
                                           parse_settings("--set", arguments.set));
   expect_gateable(scenario, arguments);
+  if (!arguments.junit.empty()) {
+    expect_writable("--junit", arguments.junit, fs::absolute(arguments.junit).parent_path());
+  }
   const std::optional<Baseline> baseline = find_baseline(arguments);
   const GateRules rules = rules_of(arguments);
   if (!arguments.update) expect_same_throws(scenario, *baseline, arguments.baseline);
@@ -214,9 +218,9 @@ int gate(const GateArguments& arguments) {
   const fs::path& out = arguments.options.out;
   const GateVerdict verdict = judge(*baseline, read_tables(out), machine_kind(out), rules);
   const std::string text = verdict_text(arguments, scenario, *baseline, verdict);
+  std::cout << text << std::flush;
   write_file(arguments.junit.empty() ? out / "junit.xml" : arguments.junit,
              junit_xml(verdict, scenario.name, text));
-  std::cout << text;
   return verdict.passed() ? kOk : kBelowBar;
 }
 

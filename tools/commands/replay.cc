@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "sim/poster.h"
 #include "sim/try_models.h"
 #include "tools/commands/command.h"
+#include "tools/commands/stop_signal.h"
 
 namespace dodgesim {
 
@@ -50,6 +52,7 @@ class Observers : public FlightObserver {
     for (FlightObserver* o : observers_) o->on_start(pilot);
   }
   void on_tick(const World& world) override {
+    if (asked_to_stop()) throw std::runtime_error("The replay was stopped.");
     for (FlightObserver* o : observers_) o->on_tick(world);
   }
   void on_imu(const ImuReading& reading) override {
@@ -220,6 +223,7 @@ int replay(const ReplayArguments& arguments) {
   expect_cameras(scenario, arguments);
   const std::string recorded = recorded_row(directory, arguments.throw_index);
 
+  watch_stop_signals();
   Onlookers onlookers(scenario, arguments);
   const ThrowResult result = fly_throw(campaign, arguments.throw_index, onlookers.observer());
   if (result.flown.failed()) {

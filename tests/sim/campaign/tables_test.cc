@@ -142,7 +142,7 @@ TEST(Tables, ErrorsAreShownWithThrowPilotAndReason) {
       tables({throw_with(0, failed("The state diverged."), flown(true), flown(true)),
               throw_with(1, flown(false), flown(true), failed("No context."))});
   EXPECT_THAT(made.markdown, HasSubstr("| 1 / 2 (0.500, 0.095 to 0.905), 1 error |"));
-  EXPECT_THAT(made.markdown, HasSubstr("2 flights failed and count as no success:\n\n"
+  EXPECT_THAT(made.markdown, HasSubstr("2 flights failed, which is no success:\n\n"
                                        "- throw 0, pilot falanga2020: The state diverged.\n"
                                        "- throw 1, pilot oracle: No context.\n"));
 }

@@ -175,7 +175,9 @@ TEST(StampCheck, FailsForStampsThatClump) {
   EXPECT_EQ(failures(judge(phases)).size(), 3u);
 }
 
-TEST(StampCheck, FailsWithoutEvents) { EXPECT_EQ(failures(judge(StampPhases())).size(), 3u); }
+TEST(StampCheck, IsOffWithoutEvents) {
+  EXPECT_EQ(lines(judge(StampPhases()), Outcome::kOff), Names{"stamps"});
+}
 
 TEST(ConvergenceCheck, FailsForEventsThatDependOnTheSampling) {
   const std::vector<Sampled> good = measure_convergence(EventCameraSpec(), 1);
@@ -270,6 +272,53 @@ TEST(NoiseCheck, KnowsHowOftenALeakComesThatIsHeldForLong) {
   spec.leak_hz = 10;
   spec.refractory_us = 10000;
   EXPECT_EQ(failures(judge(measure_noise(spec, 1), spec)), Names());
+}
+
+TEST(NoiseCheck, KnowsHowManyEventsAHoldLeaves) {
+  RandomStream random(1, 0, "renewal");
+  const struct {
+    double rate_hz, hold_s, duration_s;
+  } cases[] = {{0.3, 1, 5}, {3, 1, 5}, {50, 0.1, 5}, {2000, 0.01, 0.5}, {10, 0, 1}, {20, 0.005, 1}};
+  for (const auto& c : cases) {
+    constexpr int kPixels = 20000;
+    double sum = 0, square = 0;
+    for (int i = 0; i < kPixels; ++i) {
+      int events = 0;
+      const auto wait_s = [&] { return -std::log(random.uniform(1e-300, 1)) / c.rate_hz; };
+      for (double t_s = wait_s(); t_s < c.duration_s; t_s += c.hold_s + wait_s()) ++events;
+      sum += events;
+      square += events * events;
+    }
+    const double mean = sum / kPixels;
+    const double standard_error = std::sqrt((square / kPixels - mean * mean) / kPixels);
+    EXPECT_NEAR(events_expected(c.rate_hz, c.hold_s, c.duration_s), mean, 4 * standard_error);
+  }
+  EXPECT_EQ(events_expected(0, 1, 5), 0);
+}
+
+// Whoever films a sensor with such settings is told what cannot be checked, and nothing false.
+TEST(SensorChecks, OfExtremeCamerasPassOrAreOff) {
+  const auto failed = [](auto change) {
+    EventCameraSpec spec;
+    change(spec);
+    Names names;
+    for (const auto& make_check : sensor_checks(spec, 1)) {
+      for (const std::string& name : failures(make_check())) names.push_back(name);
+    }
+    return names;
+  };
+  EXPECT_EQ(failed([](auto& spec) { spec.refractory_us = 300000; }), Names());
+  EXPECT_EQ(failed([](auto& spec) { spec.latency_us = 99000; }), Names());
+  EXPECT_EQ(failed([](auto& spec) { spec.log_epsilon = 1000; }), Names());
+  EXPECT_EQ(failed([](auto& spec) { spec.linear_below = 10; }), Names());
+  EXPECT_EQ(failed([](auto& spec) { spec.dead_pixel_fraction = 1; }), Names());
+  EXPECT_EQ(failed([](auto& spec) { spec.jitter_us = 5000; }), Names());
+  EXPECT_EQ(failed([](auto& spec) { spec.shot_noise_on_hz = 1000; }), Names());
+  EXPECT_EQ(failed([](auto& spec) {
+              spec.hot_pixel_fraction = 0.2;
+              spec.hot_pixel_hz = 20000;
+            }),
+            Names());
 }
 
 TEST(NoiseCheck, FailsForEventsOfAnotherCause) {

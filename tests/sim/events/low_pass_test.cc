@@ -200,6 +200,22 @@ TEST(LowPass, SamplingMoreOftenGivesTheSameEvents) {
   }
 }
 
+TEST(LowPass, TheFollowerAloneIsALowPassOfFirstOrder) {
+  EventCameraSpec spec = ideal_event_camera();
+  spec.follower_hz = 10;
+  const double w = kTwoPi * 10, swing = std::log(0.201 / 0.101);
+  for (const double light : {1.0, 0.01}) {  // whatever the light
+    spec.illuminance_lux = 500 * light;
+    const auto events = step_response(spec, 0.1, 0.2, 50);
+    ASSERT_EQ(events.size(), 3u);
+    for (std::size_t k = 0; k < events.size(); ++k) {
+      const double expected_us =
+          kStepUs + 0.5 - 1e6 * std::log(1 - 0.2 * static_cast<double>(k + 1) / swing) / w;
+      EXPECT_NEAR(static_cast<double>(events[k].t_us), expected_us, 0.001 * expected_us);
+    }
+  }
+}
+
 TEST(LowPass, FastFlickerMakesNoEvents) {
   // 5 kHz by a factor of 2 under a cut-off of 250 Hz: a twentieth of the swing of 0.7 is left.
   EventCameraSpec spec = ideal_event_camera();

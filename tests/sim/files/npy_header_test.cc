@@ -38,6 +38,17 @@ TEST(NpyHeader, ReadsOtherSpellingsOfTheSame) {
             "[('t', '<i8'), ('x', [('a', '<u2')])]");
 }
 
+TEST(NpyHeader, SpellsTypesAsNumpyDoes) {
+  const auto dtype = [](const std::string& descr) {
+    return parse_npy_header("{'descr':'" + descr + "','fortran_order':False,'shape':()}").dtype;
+  };
+  for (const char* byte : {"|u1", "<u1", ">u1", "=u1", "u1"}) EXPECT_EQ(dtype(byte), "|u1");
+  for (const char* number : {"<f4", "=f4", "f4"}) EXPECT_EQ(dtype(number), "<f4");
+  for (const char* other : {">f4", "<f8", ">i8", "<U1", "<u12"}) {
+    EXPECT_EQ(dtype(other), other);
+  }
+}
+
 TEST(NpyHeader, SaysWhatIsWrong) {
   const std::string rest = ", 'fortran_order': False, 'shape': (1,)}";
   for (const auto& [text, message] : {

@@ -6,8 +6,10 @@
 
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "sim/base/error.h"
+#include "sim/files/input_file.h"
 #include "sim/files/output_file.h"
 #include "tests/sim/gate/outcomes_fixture.h"
 
@@ -79,7 +81,19 @@ TEST_F(BaselineTest, SaysWhatIsBroken) {
               ThrowsMessage<IoError>(HasSubstr("manifest.json is no manifest of a campaign")));
   write_file(baseline_ / "manifest.json", kManifest);
   EXPECT_THAT([&] { read_baseline(baseline_); },
-              ThrowsMessage<IoError>(HasSubstr("manifest.json lacks a value")));
+              ThrowsMessage<IoError>(HasSubstr("manifest.json: gate.margin is missing.")));
+  const auto with = [&](const std::string& key, const std::string& value) {
+    write_baseline(baseline_, campaign_, {});
+    auto manifest = nlohmann::json::parse(read_file(baseline_ / "manifest.json"));
+    const auto dot = key.find('.');
+    manifest[key.substr(0, dot)][key.substr(dot + 1)] = nlohmann::json::parse(value);
+    write_file(baseline_ / "manifest.json", manifest.dump());
+    return [this] { read_baseline(baseline_); };
+  };
+  EXPECT_THAT(with("gate.margin", "\"x\""),
+              ThrowsMessage<IoError>(HasSubstr("gate.margin must be a number, not \"x\".")));
+  EXPECT_THAT(with("program.commit", "null"),
+              ThrowsMessage<IoError>(HasSubstr("program.commit must be a text, not null.")));
   EXPECT_THROW(read_baseline(root_ / "nothing"), IoError);
 }
 

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "sim/base/error.h"
@@ -52,6 +54,15 @@ class OwnModels : public ::testing::Test {
            "<worldbody><body name='body'><freejoint/>"
            "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>" +
            geom + "</body></worldbody></mujoco>";
+  }
+
+  std::string world_message() const {
+    try {
+      World world(spec_);
+    } catch (const ScenarioError& error) {
+      return error.what();
+    }
+    return "no error";
   }
 
   std::filesystem::path directory_;
@@ -168,15 +179,51 @@ TEST_F(OwnModels, AMissingTextureIsNamed) {
   EXPECT_THAT(message_of(spec_), AllOf(HasSubstr("own.xml"), HasSubstr("none.png")));
 }
 
-TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
-  const auto world_message = [&] {
-    try {
-      World world(spec_);
-    } catch (const ScenarioError& error) {
-      return std::string(error.what());
+TEST_F(OwnModels, AMeshWithoutAScaleIsScaledToo) {
+  constexpr const char* kTetrahedron = "vertex='0.05 0 0 -0.05 0 0 0 0.05 0 0 0 0.05'";
+  for (const char* scale : {"", " scale='1 1 1'"}) {
+    write_object(object("<geom type='mesh' mesh='m'/>", std::string("<asset><mesh name='m' ") +
+                                                            kTetrahedron + scale + "/></asset>"));
+    const World world(spec_);
+    const auto* vertex = world.model().mesh_vert;
+    double longest_m = 0;
+    for (int i = 0; i < 4; ++i) {
+      for (int k = 0; k < 4; ++k) {
+        const auto at = [vertex](int n) {
+          return Eigen::Map<const Eigen::Vector3f>(vertex + 3 * n).cast<double>().eval();
+        };
+        longest_m = std::max(longest_m, (at(i) - at(k)).norm());
+      }
     }
-    return std::string("no error");
+    EXPECT_NEAR(longest_m, 0.2, 1e-6) << scale;  // 0.1 at the reference size of 0.1
+  }
+}
+
+TEST_F(OwnModels, AVehicleThatTheMixerWouldTakeForAnotherIsRefused) {
+  spec_.objects.clear();
+  const auto file = directory_ / "vehicles" / "qav_rxl.xml";
+  std::stringstream good;
+  good << std::ifstream(file).rdbuf();
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good.str();
+    text.replace(text.find(from), from.size(), to);
+    std::ofstream(file) << text;
+    return world_message();
   };
+  EXPECT_EQ(with("mujoco", "mujoco"), "no error");
+  const auto a_rotor = HasSubstr("a rotor must be a motor at its site");
+  EXPECT_THAT(with("gear=\"0 0 1", "gear=\"0 0 1.5"), a_rotor);
+  EXPECT_THAT(with("gear=\"0 0 1", "gear=\"0.1 0 1"), a_rotor);
+  EXPECT_THAT(with("0 0  0.012\"", "0 0  0.02\""), a_rotor);
+  EXPECT_THAT(with("ctrlrange=\"0 9.5\"", "ctrlrange=\"0 3\""), a_rotor);
+  EXPECT_THAT(with("site=\"rotor_0\"", "site=\"rotor_1\""), a_rotor);
+  EXPECT_THAT(with("<site name=\"rotor_1\"", "<site euler=\"20 0 0\" name=\"rotor_1\""), a_rotor);
+  EXPECT_THAT(with("diaginertia=\"0.0033 0.0040 0.0062\"",
+                   "fullinertia=\"0.0033 0.0040 0.0062 0.0003 0 0\""),
+              HasSubstr("principal axes"));
+}
+
+TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
   const std::string good = object("<geom size='0.1'/>");
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = good;
@@ -187,6 +234,10 @@ TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
   EXPECT_THAT(with("name='body'", "name='other'"), HasSubstr("no body named 'body'"));
   EXPECT_THAT(with("<freejoint/>", "<joint type='hinge'/>"), HasSubstr("free joint"));
   EXPECT_THAT(with("inertial pos='0 0 0'", "inertial pos='0 0.1 0'"), HasSubstr("centre of mass"));
+  EXPECT_THAT(with("<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>", ""),
+              HasSubstr("must have an <inertial>"));
+  EXPECT_THAT(with("</body>", "<body><geom size='0.1'/></body></body>"),
+              HasSubstr("no body within it"));
   EXPECT_THAT(with("drag_coefficient", "drag"), HasSubstr("drag_coefficient"));
 }
 

@@ -248,6 +248,16 @@ TEST(WorldTest, AnObjectBouncesOffTheGround) {
   EXPECT_NEAR(lowest_m, 0.1, 0.05);
 }
 
+TEST(WorldTest, ManyObjectsMayLieOnTheGround) {
+  World world(test_spec(std::vector<ObjectSpec>(16, {"quadrotor", 0.5})));
+  world.reset(kStart, 0, Vector3d::Zero());
+  for (int i = 0; i < 16; ++i) {
+    world.launch(i, thrown(Vector3d(5 + i % 4, i / 4 - 1.5, 0.2), Vector3d::Zero()));
+  }
+  EXPECT_NO_THROW(run(world, hover(world), kTicksPerSecond));
+  for (const BodyState& object : world.snapshot().objects) EXPECT_LT(object.p_W.z(), 0.2);
+}
+
 TEST(WorldTest, OneObjectDoesNotDisturbTheFlightOfAnother) {
   World alone(test_spec()), crowd(test_spec({{"ball", 0.2}, {"box", 0.3}, {"ball", 0.1}}));
   for (World* world : {&alone, &crowd}) {
