@@ -252,7 +252,8 @@ TEST(WorldTest, ManyObjectsMayLieOnTheGround) {
   World world(test_spec(std::vector<ObjectSpec>(16, {"quadrotor", 0.5})));
   world.reset(kStart, 0, Vector3d::Zero());
   for (int i = 0; i < 16; ++i) {
-    world.launch(i, thrown(Vector3d(5 + i % 4, i / 4 - 1.5, 0.2), Vector3d::Zero()));
+    const int row = i / 4;
+    world.launch(i, thrown(Vector3d(5 + i % 4, row - 1.5, 0.2), Vector3d::Zero()));
   }
   EXPECT_NO_THROW(run(world, hover(world), kTicksPerSecond));
   for (const BodyState& object : world.snapshot().objects) EXPECT_LT(object.p_W.z(), 0.2);
