@@ -51,7 +51,7 @@ struct Goal {
 struct VelocityCommand {
   TimeUs t_us = 0;                                // the instant of the data it was computed from
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // desired velocity [m/s]
-  bool evading = false;                           // an obstacle's repulsive force is part of v_W
+  bool evading = false;  // v_W evades an obstacle: to be followed at once, not smoothed
   bool landing = false;  // an emergency landing, to the ground and for good
 };
 

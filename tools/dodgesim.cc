@@ -76,8 +76,9 @@ int run_program(int argc, char** argv) {
       "  dodgesim validate mine.yaml                              every mistake, with its line\n"
       "Your own video:\n"
       "  dodgesim emulate v.npy --timestamps t.npy --camera ideal --out events.h5\n\n"
-      "Exit codes: 0 ok, 1 below the baseline, 2 usage or scenario error, 3 incomplete,\n"
-      "4 input/output error. \"dodgesim COMMAND --help\" says more.");
+      "Exit codes: 0 ok, 1 not as it should be (below the baseline, not as recorded, a check that\n"
+      "fails), 2 usage or scenario error, 3 incomplete, 4 input/output error. \"dodgesim COMMAND "
+      "--help\" says more.");
   program.require_subcommand(1);
   program.set_version_flag("--version", DODGESIM_VERSION);
 

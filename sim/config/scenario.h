@@ -121,8 +121,9 @@ struct ThrowSpec {
     v("bearing_deg", bearing_deg, -180, 180,
       "Where the throw comes from, seen from the vehicle: 0 ahead, positive to the left.");
     v("aim_offset_m", aim_offset_m, -2, 2,
-      "Offset of the aim point from the vehicle's centre, [lateral, vertical] across the line of "
-      "the throw; a single distribution is drawn for each of the two.");
+      "Offset of the aim point from the vehicle's centre across the line of the throw, [left, up] "
+      "for a viewer at the vehicle who looks at the thrower; a single distribution is drawn for "
+      "each of the two.");
     v("spin_radps", spin_radps, -200, 200,
       "Rotation of the object: a rate about a random axis, or [x, y, z] in the world.");
     v("launch_height_m", launch_height_m, 0.05, 10,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/campaign/result_files.h"
 #include "sim/files/input_file.h"
 
 namespace dodgesim {
@@ -123,7 +124,12 @@ std::optional<std::uint64_t> find_number(const nlohmann::json& manifest, const c
 }  // namespace
 
 CampaignTables read_tables(const fs::path& directory) {
-  CampaignTables tables{CsvTable(directory / "throws.csv")};
+  const fs::path throws = directory / "throws.csv";
+  if (!fs::exists(throws) && fs::exists(directory / kJournalFile)) {
+    throw IoError(directory.string() + " is not finished, so it has no throws.csv: the same run " +
+                  "with --resume flies what is missing.");
+  }
+  CampaignTables tables{CsvTable(throws)};
   const fs::path objects = directory / "objects.csv";
   if (fs::exists(objects)) tables.objects.emplace(objects);
   const fs::path path = directory / "manifest.json";

@@ -175,6 +175,20 @@ TEST_F(GateCommandTest, CompareSaysWhichThrowsItLeavesOut) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, AllOf(HasSubstr("of the same throws"),
                                     HasSubstr("because only one campaign has them: throws 2\n")));
+  fs::remove(path("two") + "/throws.csv");  // as long as it is flown
+  const Outcome unfinished = dodgesim("compare " + path("three") + " " + path("two"));
+  EXPECT_EQ(unfinished.exit_code, 4);
+  EXPECT_THAT(unfinished.output, HasSubstr(path("two") + " is not finished, "));
+}
+
+TEST_F(GateCommandTest, CompareSaysWhichCampaignEndedByItsResults) {
+  const std::string run = "run " + path("s.yaml") + " --set repeats=40 --out ";
+  ASSERT_EQ(dodgesim(run + path("all")).exit_code, 0);
+  ASSERT_EQ(dodgesim(run + path("stopped") + " --set stop.half_width=0.3").exit_code, 0);
+  const Outcome outcome = dodgesim("compare " + path("all") + " " + path("stopped"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr(path("stopped") + " has "),
+                                    HasSubstr("Its own rate ended it (stop)")));
 }
 
 TEST_F(GateCommandTest, CompareDoesNotPairFlightsOfDifferentSeeds) {

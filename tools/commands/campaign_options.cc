@@ -39,7 +39,10 @@ void add_campaign_options(CLI::App& command, CampaignOptions& options) {
       ->capture_default_str();
   CLI::Option* force =
       command.add_flag("--force", options.force, "Start anew, whatever results are in DIR");
-  command.add_flag("--resume", options.resume, "Fly only the throws that DIR has no results of")
+  command
+      .add_flag(
+          "--resume", options.resume,
+          "Fly only the throws that DIR has no results of, or\nwhose worker died or was stopped")
       ->excludes(force);
   command
       .add_option("--time-limit", options.limits.wall_s,

@@ -1,8 +1,10 @@
 // dodgesim compare: two campaigns side by side.
 #include <algorithm>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "sim/base/error.h"
@@ -26,12 +28,24 @@ void print_changes(const std::string& heading, const std::vector<ChangedThrow>& 
   }
 }
 
+// Whether the scenario, as written into the directory, may end by what it finds.
+bool has_stop(const std::filesystem::path& directory) {
+  std::ifstream scenario(directory / "scenario.resolved.yaml");
+  for (std::string line; std::getline(scenario, line);) {
+    if (line.starts_with("stop:")) return true;
+  }
+  return false;
+}
+
 // Outcomes by the number of their sweep value: of different values they are never pooled.
 std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& directory) {
   const CampaignTables tables = read_tables(directory);
   if (tables.planned && tables.throws.rows() < *tables.planned) {
     std::cerr << directory.string() << " has " << tables.throws.rows() << " of the "
               << *tables.planned << " throws of its scenario.\n";
+    if (has_stop(directory)) {
+      std::cerr << "Its own rate ended it (stop); p and intervals take its length for planned.\n";
+    }
   }
   std::map<int, std::vector<ThrowOutcome>> parts;
   for (ThrowOutcome& outcome : outcomes(tables)) {

@@ -265,8 +265,9 @@ void add_gate_command(CLI::App& program, const std::string& command_line, int& e
   command->footer(
       "Compares throw by throw. Exit code 1: the success rate fell by more than the margin with "
       "the\n"
-      "confidence, a throw could not be flown or would have hit in only one of the two, or bytes\n"
-      "changed that must not. Prints the throws that changed, and how to look at them. The throws\n"
+      "confidence, a throw could not be flown or, on a machine of the baseline's kind, would have\n"
+      "hit in only one of the two, or bytes changed that must not. Prints the throws that changed, "
+      "and how to look at them. The throws\n"
       "are the baseline's: other repeats or another seed (--set seed=8) make another baseline, "
       "with\n"
       "--update.\n\n"

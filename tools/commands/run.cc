@@ -165,7 +165,7 @@ void add_sweep_command(CLI::App& program, const std::string& command_line, int& 
       "The same as run with the key sweep in the scenario. Every value meets the same throws with\n"
       "the same noise. The tables have a part for each value; throws.csv names it in every row.\n\n"
       "Examples:\n"
-      "  dodgesim sweep scenarios/demo.yaml --out out/latency --over "
+      "  dodgesim sweep scenarios/demo.yaml --out out/demo_latency --over "
       "delays.compute_us=0,3500,9000\n"
       "  dodgesim sweep scenarios/demo.yaml --out out/speed --over throw.speed_mps=4,6,8\n"
       "  dodgesim sweep scenarios/demo.yaml --out out/pilots --over pilot=falanga2020,oracle");

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sim/base/random.h"
 
@@ -155,10 +157,14 @@ TEST(Clusterer, RectangleCoversWholePixels) {
   const cv::RotatedRect& r = clusters[0].rectangle;
   EXPECT_NEAR(r.center.x, 43.5, 1e-3);
   EXPECT_NEAR(r.center.y, 21.5, 1e-3);
-  EXPECT_NEAR(std::max(r.size.width, r.size.height), 8, 1e-3);
-  EXPECT_NEAR(std::min(r.size.width, r.size.height), 4, 1e-3);
+  const cv::Rect2f box = r.boundingRect2f();  // from the outer edges of its outermost pixels
+  EXPECT_NEAR(box.x, 39.5, 1e-3);
+  EXPECT_NEAR(box.y, 19.5, 1e-3);
+  EXPECT_NEAR(box.width, 8, 1e-3);
+  EXPECT_NEAR(box.height, 4, 1e-3);
   EXPECT_NEAR(clusters[0].centroid.x(), 43.5, 1e-9);
   EXPECT_NEAR(clusters[0].rho, 0.5, 1e-6);
+  EXPECT_NEAR(clusters[0].time, 1, 1e-6);  // its events are the window's last
 }
 
 TEST(Clusterer, RectangleFollowsASlantedObject) {
@@ -168,7 +174,17 @@ TEST(Clusterer, RectangleFollowsASlantedObject) {
   }
   const std::vector<Cluster> clusters = find(image, separate());
   ASSERT_EQ(clusters.size(), 1U);
-  EXPECT_NEAR(std::fmod(clusters[0].rectangle.angle + 90, 90), 45, 3);
+  cv::Point2f corners[4];
+  clusters[0].rectangle.points(corners);
+  double along_least = 1e9, along_most = -1e9, across_least = 1e9, across_most = -1e9;
+  for (const cv::Point2f& c : corners) {
+    const double along = (c.x + c.y) / std::numbers::sqrt2;  // down to the right
+    const double across = (c.y - c.x) / std::numbers::sqrt2;
+    along_least = std::min(along_least, along), along_most = std::max(along_most, along);
+    across_least = std::min(across_least, across), across_most = std::max(across_most, across);
+  }
+  EXPECT_NEAR(along_most - along_least, 41 / std::numbers::sqrt2 + 1, 0.5);
+  EXPECT_NEAR(across_most - across_least, 3 / std::numbers::sqrt2 + 1, 0.5);
 }
 
 TEST(Clusterer, MergesNearGroupsOfLikeRhoOnly) {

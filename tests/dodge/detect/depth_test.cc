@@ -154,6 +154,13 @@ TEST_F(DepthTest, MonoUncertaintyGrowsWithTheSquareOfTheDepth) {
   const auto near = locate(config, {square(160, 120, 60)}, {});
   const auto far = locate(config, {square(160, 120, 30)}, {});
   EXPECT_NEAR(far.at(0).depth_sigma_m / near.at(0).depth_sigma_m, 4, 1e-6);
+  // It is what the side's standard deviation makes of it.
+  const auto depth_of = [&](double side_px) {
+    return locate(config, {square(160, 120, side_px)}, {}).at(0).depth_m;
+  };
+  const double half = 0.5 * config.side_sigma_px;
+  EXPECT_NEAR(near.at(0).depth_sigma_m, depth_of(60 - half) - depth_of(60 + half),
+              2e-3 * near.at(0).depth_sigma_m);
 }
 
 TEST_F(DepthTest, DisparityMustBePositive) {

@@ -128,6 +128,12 @@ TEST(MinAreaRectangle, IsSmallerThanAnyOtherAroundThePoints) {
       least = std::min(least, (u1 - u0) * (v1 - v0));
     }
     EXPECT_LE(found.size.area(), least * (1 + 1e-6) + 1e-3);
+    cv::Point2f corners[4];
+    found.points(corners);
+    const std::vector<cv::Point2f> outline(corners, corners + 4);
+    for (const cv::Point2f& p : points) {
+      EXPECT_GT(cv::pointPolygonTest(outline, p, true), -0.01);
+    }
   }
 }
 

@@ -40,8 +40,10 @@ void update(Tracker& tracker, TimeUs now, std::vector<Detection> detections) {
 TEST(Tracker, FollowsTwoBallsThatCross) {
   Generator random(1);
   Tracker tracker({}, {}, kLifetimeS);
-  const std::array<Vector3d, 2> p = {Vector3d(3, 0.6, 0), Vector3d(3, -0.6, 0.5)};
-  const std::array<Vector3d, 2> v = {Vector3d(-6, -1.5, 0.3), Vector3d(-5, 1.5, -0.5)};
+  // At 0.2 s they are 0.2 m apart, well within the gate of each other.
+  const std::array<Vector3d, 2> p = {Vector3d(3, 0.3, 0), Vector3d(3, -0.3, 0.2)};
+  const std::array<Vector3d, 2> v = {Vector3d(-6, -1.5, 0), Vector3d(-6, 1.5, 0)};
+  std::array<int, 2> ids = {-1, -1};
   for (TimeUs t_us = 0; t_us <= 400000; t_us += 4000) {
     const double t = seconds(t_us);
     std::array<Detection, 2> detections;
@@ -52,11 +54,12 @@ TEST(Tracker, FollowsTwoBallsThatCross) {
       detections[i] = seen(t_us, p[ball] + v[ball] * t + 0.02 * random.normal_vector());
     }
     tracker.update(t_us + 3500, detections);
-    if (t_us == 0) continue;
     ASSERT_EQ(tracker.obstacles().size(), 2);
-    const int id_of_ball_0 = detections[first == 0 ? 0 : 1].obstacle_id;
-    const int id_of_ball_1 = detections[first == 0 ? 1 : 0].obstacle_id;
-    ASSERT_NE(id_of_ball_0, id_of_ball_1);
+    const std::array<int, 2> found = {detections[first == 0 ? 0 : 1].obstacle_id,
+                                      detections[first == 0 ? 1 : 0].obstacle_id};
+    if (t_us == 0) ids = found;
+    ASSERT_EQ(found, ids) << t_us;
+    ASSERT_NE(ids[0], ids[1]);
   }
   for (const TrackedObstacle& tracked : tracker.obstacles()) {
     const Obstacle& obstacle = tracked.obstacle;
@@ -203,6 +206,11 @@ TEST(Tracker, IsNotMovedByADetectionThatComesLate) {
   EXPECT_EQ(obstacle.detections, 20);
   EXPECT_NEAR(obstacle.p_WO.x(), 3, 1e-3);
   EXPECT_NEAR(obstacle.v_WO.x(), -10, 0.02);
+  // So late that the ball has left the place by more than the gate.
+  std::vector<Detection> late = {ball(40000, 1)};
+  tracker.update(101000, late);
+  EXPECT_EQ(late[0].obstacle_id, obstacle.id);
+  EXPECT_EQ(tracker.obstacles().size(), 1);
 }
 
 TEST(Tracker, IgnoresDetectionsThatAreNotFinite) {

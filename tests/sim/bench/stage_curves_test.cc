@@ -6,6 +6,8 @@
 #include <fstream>
 #include <string>
 
+#include "tests/sim/files/temporary_directory.h"
+
 namespace dodgesim {
 namespace {
 
@@ -31,8 +33,8 @@ TEST(StageCurves, HaveTheSlopesOfTheLoad) {
 }
 
 TEST(StageCurves, AreDrawnAndWritten) {
-  const fs::path out = fs::path(::testing::TempDir()) / "stage_curves";
-  fs::remove_all(out);
+  const testing::TemporaryDirectory directory;
+  const fs::path out = directory / "curves";
   write_stage_curves(out, windows());
   EXPECT_GT(fs::file_size(out / "ego_motion.png"), 1000u);
   EXPECT_GT(fs::file_size(out / "clustering.png"), 1000u);

@@ -38,6 +38,8 @@ struct Log {
   dodge::Goal goal;
   dodge::ImuSample last_imu;
   dodge::StateEstimate last_state;
+  dodge::Event last_event;
+  dodge::RangeReading last_range;
 };
 
 // Writes down what it is handed. Its command carries the cycle's start as a velocity.
@@ -47,6 +49,7 @@ class RecordingPilot : public dodge::Pilot {
 
   void add_events(int camera, std::span<const dodge::Event> events) override {
     for (const dodge::Event& e : events) new_events_.push_back({camera, e.t_us});
+    if (!events.empty()) log_.last_event = events.back();
   }
   void add_imu(const dodge::ImuSample& sample) override {
     new_imu_.push_back(sample.t_us);
@@ -58,6 +61,7 @@ class RecordingPilot : public dodge::Pilot {
   }
   void add_range(const dodge::RangeReading& reading) override {
     new_ranges_.push_back(reading.t_us);
+    log_.last_range = reading;
   }
   void set_goal(const dodge::Goal& goal) override { log_.goal = goal; }
 
@@ -278,7 +282,14 @@ TEST(OnboardComputer, HandsOverWhatTheSensorsSaid) {
   computer.send_imu({1000, {1, 2, 3}, {4, 5, 6}});
   const Eigen::Quaterniond q_W(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()));
   computer.send_state({1000, {1, 2, 3}, q_W, {4, 5, 6}, {7, 8, 9}});
+  computer.send_events(0, 1000, std::vector<Event>{{999, 3, 4, -1}});
+  computer.send_range({1000, 2.5});
   computer.run_cycle(4000);
+  EXPECT_EQ(log.last_event.t_us, 999);
+  EXPECT_EQ(log.last_event.x, 3);
+  EXPECT_EQ(log.last_event.y, 4);
+  EXPECT_EQ(log.last_event.polarity, -1);
+  EXPECT_EQ(log.last_range.range_m, 2.5);
   EXPECT_EQ(log.goal.p_WG, Eigen::Vector3d(7, 8, 9));
   EXPECT_EQ(log.goal.speed_mps, 1.25);
   EXPECT_EQ(log.last_imu.w_WB_B, Eigen::Vector3d(1, 2, 3));

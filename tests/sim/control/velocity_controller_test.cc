@@ -85,6 +85,52 @@ TEST(VelocityController, HoversLevelWithHoverThrustAtAnyHeading) {
   }
 }
 
+TEST(VelocityController, EachAxisOfThePositionLoopHasItsGains) {
+  const ControllerSpec spec;
+  VelocityController controller(spec, nominal_vehicle());
+  StateReading state;
+  controller.update(state, {Vector3d::Zero(), false});
+  state.t_us = 4000;
+  state.p_W = {0.1, -0.2, 0.05};
+  state.v_W = {0.3, 0.2, -0.1};
+  controller.update(state, {Vector3d::Zero(), false});
+  const double p_xy = spec.position_gain_xy_1ps2, v_xy = spec.velocity_gain_xy_1ps;
+  const Vector3d expected(
+      -0.1 * p_xy - 0.3 * v_xy, 0.2 * p_xy - 0.2 * v_xy,
+      kGravityMps2 - 0.05 * spec.position_gain_z_1ps2 + 0.1 * spec.velocity_gain_z_1ps);
+  EXPECT_TRUE(controller.desired_a_W().isApprox(expected, 1e-9))
+      << controller.desired_a_W().transpose() << ", not " << expected.transpose();
+}
+
+TEST(VelocityController, TurnsBackToItsHeadingWithTheYawGain) {
+  const ControllerSpec spec;
+  VelocityController controller(spec, nominal_vehicle());
+  StateReading state;
+  controller.update(state, {Vector3d::Zero(), false});
+  state.t_us = 4000;
+  state.q_W = Eigen::AngleAxisd(0.2, Vector3d::UnitZ());
+  const Vector3d w_B = controller.update(state, {Vector3d::Zero(), false}).w_B_radps;
+  EXPECT_NEAR(w_B.z(), -2 * spec.attitude_gain_z_1ps * std::sin(0.1), 1e-9);
+  EXPECT_NEAR(w_B.head<2>().norm(), 0, 1e-9);
+}
+
+TEST(VelocityController, MakesUpForTheRotorsDragUnlessItIsToldNotTo) {
+  const auto vehicle = nominal_vehicle();
+  StateReading state;
+  state.v_W = {4, 0, 0};
+  const VelocityReference as_it_flies = {state.v_W, true};
+  VelocityController controller(ControllerSpec(), vehicle);
+  // Thrust gained in horizontal flight is taken off, and the force against the flight added.
+  EXPECT_NEAR(controller.update(state, as_it_flies).thrust_mps2,
+              kGravityMps2 - vehicle.drag_kh_1pm * 16, 1e-12);
+  EXPECT_NEAR(controller.desired_a_W().x(), 4 * vehicle.drag_1ps.x(), 1e-12);
+  ControllerSpec off;
+  off.drag_compensation = false;
+  VelocityController plain(off, vehicle);
+  EXPECT_NEAR(plain.update(state, as_it_flies).thrust_mps2, kGravityMps2, 1e-12);
+  EXPECT_NEAR(plain.desired_a_W().x(), 0, 1e-12);
+}
+
 TEST(VelocityController, BodyRatesTurnTheShortWayTowardsTheDesiredAttitude) {
   VelocityController controller(ControllerSpec(), nominal_vehicle());
   StateReading state;

@@ -135,7 +135,9 @@ TEST(Readout, NoEventComesBeforeItsCauseHoweverStrongTheJitter) {
   Bench bench(spec);
   std::vector<Request> requests;
   for (std::uint64_t i = 0; i < 1000; ++i) requests.push_back({5000, i});
-  for (const Event& event : bench.serve(requests, 20000)) EXPECT_GE(event.t_us, 5000);
+  const auto events = bench.serve(requests, 20000);
+  EXPECT_EQ(events.size(), requests.size());
+  for (const Event& event : events) EXPECT_GE(event.t_us, 5000);
 }
 
 TEST(Readout, AFlashLeavesAtTheArbitersRateRowByRow) {

@@ -92,6 +92,7 @@ TEST(NpyHeader, WritesAnAlignedFrontThatReadsBack) {
       EXPECT_EQ(front.back(), '\n');
       const NpyHeader header = parse_npy_header(front.substr(10));
       EXPECT_EQ(header.dtype, "<f4");
+      EXPECT_FALSE(header.fortran_order);
       EXPECT_EQ(header.shape, shape);
     }
   }

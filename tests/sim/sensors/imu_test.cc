@@ -95,6 +95,42 @@ TEST(Imu, BiasWalksAwayFromItsInitialValueAsItsDensitySays) {
   EXPECT_NEAR(later / (0.02 * 0.02 + 9 * 0.01 * 0.01), 1, four_sigma);
 }
 
+TEST(Imu, TheAccelerometersBiasWalksToo) {
+  ImuSpec spec = noiseless_imu();
+  spec.accelerometer_initial_bias_mps2 = 0.2;
+  spec.accelerometer_walk_mps3_sqrthz = 0.1;
+  constexpr int kUnits = 2000;
+  double first = 0, later = 0;
+  for (int n = 0; n < kUnits; ++n) {
+    Imu imu(spec, 1, static_cast<std::uint64_t>(n));
+    Snapshot truth;
+    const auto error = [&] {
+      return (imu.sample(truth).f_B_mps2 - Vector3d(0, 0, kGravityMps2)).squaredNorm();
+    };
+    first += error() / (3 * kUnits);
+    truth.t_us = 9000000;
+    later += error() / (3 * kUnits);
+  }
+  const double four_sigma = 4 * std::sqrt(2.0 / (3 * kUnits));
+  EXPECT_NEAR(first / (0.2 * 0.2), 1, four_sigma);
+  EXPECT_NEAR(later / (0.2 * 0.2 + 9 * 0.1 * 0.1), 1, four_sigma);
+}
+
+TEST(Imu, TheAccelerometerVibratesAsSet) {
+  ImuSpec spec = noiseless_imu();
+  spec.accelerometer_vibration_mps2 = 0.5;
+  Imu imu(spec, 1, 0);
+  constexpr int kSamples = 10000;
+  double square = 0;
+  Snapshot truth;
+  for (int n = 0; n < kSamples; ++n, truth.t_us += 1000) {
+    const ImuReading reading = imu.sample(truth);
+    EXPECT_EQ(reading.w_B_radps, Vector3d::Zero());
+    square += (reading.f_B_mps2 - Vector3d(0, 0, kGravityMps2)).squaredNorm() / (3 * kSamples);
+  }
+  EXPECT_NEAR(square / 0.25, 1, 4 * std::sqrt(2.0 / (3 * kSamples)));
+}
+
 TEST(Imu, VibrationDominatesInFlight) {
   Imu imu(ImuSpec(), 1, 0);
   constexpr int kSamples = 5000;

@@ -24,8 +24,11 @@ TEST(RangeSensor, WithoutNoiseItTellsTheTruthInSteps) {
 
 TEST(RangeSensor, OutOfRangeGivesNoReading) {
   RangeSensor sensor(RangeSpec(), 1, 0);
-  EXPECT_FALSE(sensor.sample(0, 0.2));
-  EXPECT_FALSE(sensor.sample(0, 61));
+  const RangeSpec spec;
+  EXPECT_FALSE(sensor.sample(0, spec.min_range_m - 0.001));
+  EXPECT_TRUE(sensor.sample(0, spec.min_range_m));
+  EXPECT_TRUE(sensor.sample(0, spec.max_range_m));
+  EXPECT_FALSE(sensor.sample(0, spec.max_range_m + 0.001));
   EXPECT_FALSE(sensor.sample(0, std::numeric_limits<double>::infinity()));
   EXPECT_FALSE(sensor.sample(0, std::numeric_limits<double>::quiet_NaN()));
   EXPECT_TRUE(sensor.sample(0, 2));

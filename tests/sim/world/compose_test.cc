@@ -11,6 +11,7 @@
 
 #include "sim/base/error.h"
 #include "sim/world/mjcf.h"
+#include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/world/test_world.h"
 
 namespace dodgesim {
@@ -32,16 +33,12 @@ std::string message_of(const WorldSpec& spec) {
 class OwnModels : public ::testing::Test {
  protected:
   void SetUp() override {
-    directory_ = std::filesystem::path(::testing::TempDir()) /
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(directory_);
+    directory_ = own_.path() / "models";
     std::filesystem::copy(test_spec().models_dir, directory_,
                           std::filesystem::copy_options::recursive);
     spec_ = test_spec({{"own", 0.2}});
     spec_.models_dir = directory_.string();
   }
-  void TearDown() override { std::filesystem::remove_all(directory_); }
-
   void write_object(const std::string& text) {
     std::ofstream(directory_ / "objects" / "own.xml") << text;
   }
@@ -65,6 +62,7 @@ class OwnModels : public ::testing::Test {
     return "no error";
   }
 
+  testing::TemporaryDirectory own_;
   std::filesystem::path directory_;
   WorldSpec spec_;
 };

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sim/base/error.h"
+#include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/world/test_world.h"
 
 namespace dodgesim {
@@ -21,17 +22,12 @@ using ::testing::HasSubstr;
 class ModelTrial : public ::testing::Test {
  protected:
   ModelTrial() {
-    directory_ =
-        fs::path(::testing::TempDir()) /
-        (std::string("trial_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(directory_);
+    directory_ = own_.path() / "models";
     fs::copy(test_spec().models_dir, directory_, fs::copy_options::recursive);
     fs::create_directories(directory_ / "meshes");
     spec_ = test_spec({{"ball", 0.2}, {"own", 0.2}});
     spec_.models_dir = directory_.string();
   }
-  ~ModelTrial() override { fs::remove_all(directory_); }
-
   void write(const std::string& file, const std::string& text) const {
     std::ofstream(directory_ / file, std::ios::binary) << text;
   }
@@ -62,6 +58,7 @@ class ModelTrial : public ::testing::Test {
   }
 
   static constexpr const char* kBall = "<geom size='0.1' group='1' contype='4' conaffinity='7'/>";
+  testing::TemporaryDirectory own_;
   fs::path directory_;
   WorldSpec spec_;
 };

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/world/test_world.h"
 
 namespace dodgesim {
@@ -18,16 +19,13 @@ namespace fs = std::filesystem;
 class ModelsDigest : public ::testing::Test {
  protected:
   void SetUp() override {
-    directory_ = fs::path(::testing::TempDir()) /
-                 ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(directory_);
+    directory_ = own_.path() / "models";
     fs::copy(test_spec().models_dir, directory_, fs::copy_options::recursive);
     spec_ = test_spec({{"ball", 0.2}});
     spec_.room = "room";
     spec_.models_dir = directory_.string();
     before_ = models_digest(spec_);
   }
-  void TearDown() override { fs::remove_all(directory_); }
 
   std::string read(const std::string& file) const {
     std::stringstream text;
@@ -39,6 +37,7 @@ class ModelsDigest : public ::testing::Test {
   }
   std::uint64_t digest() const { return models_digest(spec_); }
 
+  testing::TemporaryDirectory own_;
   fs::path directory_;
   WorldSpec spec_;
   std::uint64_t before_ = 0;

@@ -58,7 +58,7 @@ TEST_P(ObjectModel, HasItsMassWhereItsPartsAre) {
   const World world(test_spec({{GetParam(), 0.3}}));
   const std::vector<Convex> parts = surface(world);
   RandomStream random(1, 0, "object");
-  Vector3d sum = Vector3d::Zero();
+  Vector3d sum = Vector3d::Zero(), squares = Vector3d::Zero();
   int inside = 0;
   for (int i = 0; i < 200000 && inside < 2000; ++i) {
     Vector3d p;
@@ -72,6 +72,7 @@ TEST_P(ObjectModel, HasItsMassWhereItsPartsAre) {
     });
     if (!in) continue;
     sum += p;
+    squares += p.cwiseProduct(p);
     ++inside;
   }
   ASSERT_GT(inside, 100);
@@ -81,6 +82,14 @@ TEST_P(ObjectModel, HasItsMassWhereItsPartsAre) {
   const Vector3d J = Eigen::Map<const Vector3d>(world.model().body_inertia + 3 * body);
   EXPECT_GT(J.minCoeff(), 0);
   EXPECT_LT(J.maxCoeff(), mass_kg * 0.15 * 0.15);
+  // Axes that are much apart in a solid of that shape are in that order.
+  const Vector3d solid = (Vector3d::Constant(squares.sum()) - squares) / inside;
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) {
+      if (solid[a] <= 1.3 * solid[b]) continue;
+      EXPECT_GT(J[a], J[b]);
+    }
+  }
   EXPECT_LE(J.maxCoeff(), J.sum() - J.maxCoeff() + 1e-9) << "no mass distribution has this inertia";
 }
 

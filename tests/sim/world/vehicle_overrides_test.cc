@@ -40,6 +40,7 @@ TEST(VehicleOverrides, DragStaysTheForceThatItIs) {
   overrides.mass_scale = 2;
   World heavy(with(overrides)), usual(with({}));
   EXPECT_TRUE((2 * heavy.vehicle().drag_1ps).isApprox(usual.vehicle().drag_1ps));
+  EXPECT_DOUBLE_EQ(2 * heavy.vehicle().drag_kh_1pm, usual.vehicle().drag_kh_1pm);
   const auto slowing = [](World& world) {
     world.reset({0, 0, 50}, 0, {4, 0, 0});
     world.step(hover(world));

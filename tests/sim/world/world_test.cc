@@ -240,12 +240,14 @@ TEST(WorldTest, AnObjectBouncesOffTheGround) {
   World world(test_spec());
   world.reset(kStart, 0, Vector3d::Zero());
   world.launch(0, thrown(Vector3d(5, 0, 1), Vector3d::Zero()));
-  double lowest_m = 1;
+  double lowest_m = 1, fastest_up_mps = 0;
   for (int i = 0; i < 2 * kTicksPerSecond; ++i) {
     world.step(hover(world));
     lowest_m = std::min(lowest_m, world.snapshot().objects[0].p_W.z());
+    fastest_up_mps = std::max(fastest_up_mps, world.snapshot().objects[0].v_W.z());
   }
   EXPECT_NEAR(lowest_m, 0.1, 0.05);
+  EXPECT_GT(fastest_up_mps, 0.5);
 }
 
 TEST(WorldTest, ManyObjectsMayLieOnTheGround) {
