@@ -43,6 +43,10 @@ double spread(const std::vector<double>& values) {
   return 0.5 * (quantile(values, kHighest) - quantile(values, kLowest));
 }
 
+int jitter_quantiles(const EventCameraSpec& spec) {
+  return spec.jitter_us > 0 ? kJitterQuantiles : 1;
+}
+
 // Latencies of equally likely pixels: of their thresholds, and of the jitter.
 std::vector<double> expected_latencies_us(const EventCameraSpec& spec, double lux) {
   const double step = step_of(spec, lux);
@@ -59,8 +63,8 @@ std::vector<double> expected_latencies_us(const EventCameraSpec& spec, double lu
         std::max(spec.threshold_min, spec.contrast_threshold_on + spec.mismatch_sigma * normal);
     const double late_us = 1e6 * step_time_s(threshold / step, a, b);
     if (!std::isfinite(late_us) || late_us > 1e6 * kFilmS) continue;
-    for (int j = 0; j < kJitterQuantiles; ++j) {
-      const double jitter = spec.jitter_us * normal_quantile((j + 0.5) / kJitterQuantiles);
+    for (int j = 0; j < jitter_quantiles(spec); ++j) {
+      const double jitter = spec.jitter_us * normal_quantile((j + 0.5) / jitter_quantiles(spec));
       latencies.push_back(late_us + std::max(0.0, static_cast<double>(spec.latency_us) + jitter));
     }
   }
@@ -146,7 +150,8 @@ Check judge(const std::vector<StepAnswer>& answers, const EventCameraSpec& expec
       continue;
     }
     const auto expected_us = expected_latencies_us(expected, answer.lux);
-    if (expected_us.size() < kThresholdQuantiles * kJitterQuantiles / 2) {
+    const auto all = static_cast<std::size_t>(kThresholdQuantiles * jitter_quantiles(expected));
+    if (expected_us.size() < all / 2) {
       check.off(name, "most pixels are slower than the film");
       continue;
     }
