@@ -8,6 +8,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/result_files.h"
+#include "sim/campaign/text_table.h"
 #include "sim/config/scenario_changes.h"
 #include "sim/files/staged_file.h"
 
@@ -37,9 +38,8 @@ bool holds_anything(const fs::path& out) {
 }
 
 [[noreturn]] void refuse_finished(const fs::path& out, const JournalIndex& index) {
-  const std::size_t n = index.throws.size();
-  throw ScenarioError(out.string() + " holds results of " + std::to_string(n) +
-                      (n == 1 ? " throw" : " throws") +
+  const auto n = static_cast<std::int64_t>(index.throws.size());
+  throw ScenarioError(out.string() + " holds results of " + count_text(n, "throw") +
                       "; run it with --resume to fly what is missing, or add --force to start "
                       "anew.");
 }

@@ -6,6 +6,7 @@
 #include "sim/campaign/axis.h"
 #include "sim/campaign/collision_cause.h"
 #include "sim/campaign/statistics_table.h"
+#include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
 
 namespace dodgesim {
@@ -13,10 +14,6 @@ namespace dodgesim {
 namespace {
 
 const std::vector<std::string> kKeys = {"size_m", "distance_m", "speed_mps"};
-
-std::string count_text(std::int64_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
 
 // Under which key the tables show a key of the grid: throw.size_m is size_m.
 std::string shown_key(const std::string& key) {

@@ -57,4 +57,8 @@ std::string with_interval(double value, const Interval& interval, int digits) {
          fixed_text(interval.hi, digits) + ")";
 }
 
+std::string count_text(std::int64_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 }  // namespace dodgesim

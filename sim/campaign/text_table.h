@@ -1,6 +1,7 @@
 // A table of texts for people, as Markdown ("|" escaped) and as CSV.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,5 +22,8 @@ std::string fixed_text(double value, int digits);
 
 // "0.073 (0.065 to 0.081)".
 std::string with_interval(double value, const Interval& interval, int digits);
+
+// "1 throw", "2 throws".
+std::string count_text(std::int64_t count, const std::string& what);
 
 }  // namespace dodgesim
