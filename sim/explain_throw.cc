@@ -111,18 +111,43 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
   return evidence;
 }
 
+// The object that was detected first.
+std::optional<std::size_t> first_detected(const Testimony& testimony) {
+  std::optional<std::size_t> first;
+  const auto output_us = [&](std::size_t i) {
+    return testimony.objects[i].detections.front().output_us;
+  };
+  for (std::size_t i = 0; i < testimony.objects.size(); ++i) {
+    if (testimony.objects[i].detections.empty()) continue;
+    if (!first || output_us(i) < output_us(*first)) first = i;
+  }
+  return first;
+}
+
+// When the object that was detected came into view; if none was, any.
+std::optional<TimeUs> first_in_view_us(const Testimony& testimony,
+                                       std::optional<std::size_t> detected) {
+  if (detected && testimony.objects[*detected].in_view_us) {
+    return testimony.objects[*detected].in_view_us;
+  }
+  std::optional<TimeUs> first_us;
+  for (const Testimony::Object& object : testimony.objects) {
+    if (!object.in_view_us) continue;
+    first_us = std::min(*object.in_view_us, first_us.value_or(*object.in_view_us));
+  }
+  return first_us;
+}
+
 }  // namespace
 
 void explain_throw(const FlightPlan& plan, const FlightRecord* none, const FlightRecord& flown,
                    ThrowResult& result) {
-  for (const Testimony::Object& object : flown.testimony.objects) {
-    if (!object.in_view_us) continue;
-    result.first_in_view_us =
-        std::min(*object.in_view_us, result.first_in_view_us.value_or(*object.in_view_us));
-  }
+  const std::optional<std::size_t> detected = first_detected(flown.testimony);
+  result.first_in_view_us = first_in_view_us(flown.testimony, detected);
   const std::optional<TimeUs> contact_us =
       result.none.hit_us ? result.none.hit_us : result.none.closest_us;
-  if (contact_us && result.first_detection_us) {
+  if (contact_us && result.first_detection_us && none && detected &&
+      none->verdict.nearest_object == static_cast<int>(*detected)) {
     result.time_to_contact_us = *contact_us - *result.first_detection_us;
   }
   result.false_alarm =

@@ -215,11 +215,13 @@ struct ThrowResult {
   FlightResult oracle;  // perfect perception, same avoidance and controller
 
   // Of the flown pilot.
-  std::optional<TimeUs> first_in_view_us;      // an object was in view of a camera, 1 px wide
+  // The object that was detected first (any, if none was) was in view of a camera, 1 px wide.
+  std::optional<TimeUs> first_in_view_us;
   std::optional<TimeUs> first_detection_us;    // output of the first detection of a true object
   std::optional<TimeUs> first_detection_t_us;  // the instant it speaks of
   std::optional<double> first_detection_distance_m;  // true distance object to camera then
   // From its output to the contact if nobody dodged (to the closest approach, if that is none).
+  // Empty if another object makes that contact.
   std::optional<TimeUs> time_to_contact_us;
   std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
   bool evaded = false;                     // any evasive command

@@ -131,6 +131,38 @@ TEST(ExplainThrow, WhereTheCommandsLeadDecidesWhetherTheyWereEnough) {
             "not enough thrust");
 }
 
+// Nobody flew this either: the first object is in view from 0.1 s on, the second from 0.3 s, and
+// is detected at 0.5 s. `hitter` would have hit after 1 s.
+ThrowResult two_objects(int hitter, bool second_detected, bool first_detected_later = false) {
+  FlightRecord none;
+  none.verdict.nearest_object = hitter;
+  FlightRecord flown = none;
+  flown.testimony.objects.resize(2);
+  flown.testimony.objects[0].in_view_us = 100000;
+  flown.testimony.objects[1].in_view_us = 300000;
+  if (first_detected_later) flown.testimony.objects[0].detections.push_back({600000, {}});
+  FlightPlan plan;
+  plan.pilot = "none";
+  ThrowResult result;
+  result.none.hit_us = 1000000;
+  if (second_detected) {
+    flown.testimony.objects[1].detections.push_back({500000, {}});
+    result.first_detection_us = 500000;
+  }
+  explain_throw(plan, &none, flown, result);
+  return result;
+}
+
+TEST(ExplainThrow, TheTimesOfADetectionAreThoseOfTheObjectThatWasDetectedFirst) {
+  EXPECT_EQ(two_objects(0, false).first_in_view_us, 100000);
+  EXPECT_FALSE(two_objects(0, false).time_to_contact_us);
+  for (const bool later : {false, true}) {
+    EXPECT_EQ(two_objects(1, true, later).first_in_view_us, 300000);
+    EXPECT_EQ(two_objects(1, true, later).time_to_contact_us, 500000);
+    EXPECT_FALSE(two_objects(0, true, later).time_to_contact_us);
+  }
+}
+
 TEST(ExplainThrow, ADodgeHasNoCause) {
   const ThrowResult result = fly_throw(head_on("oracle", "speed_mps: 4"), 0);
   ASSERT_TRUE(result.flown.unharmed());
