@@ -11,6 +11,8 @@ namespace dodgesim {
 
 namespace {
 
+using Function = void (*)(const Response&, double* values, std::size_t size);
+
 // Luminance in, response out.
 [[gnu::always_inline]] inline void respond(const Response& response, double* values,
                                            std::size_t size) {
@@ -23,8 +25,23 @@ DODGESIM_TARGET_AVX2 void respond_avx2(const Response& r, double* values, std::s
 DODGESIM_TARGET_AVX512 void respond_avx512(const Response& r, double* values, std::size_t n) {
   respond(r, values, n);
 }
-constexpr std::array<void (*)(const Response&, double*, std::size_t), kVectorLevels> kRespond = {
-    respond_portable, respond_avx2, respond_avx512};
+constexpr std::array<Function, kVectorLevels> kRespond = {respond_portable, respond_avx2,
+                                                          respond_avx512};
+
+// Response in, luminance out.
+[[gnu::always_inline]] inline void invert(const Response& response, double* values,
+                                          std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) values[i] = response.inverse(values[i]);
+}
+void invert_portable(const Response& r, double* values, std::size_t n) { invert(r, values, n); }
+DODGESIM_TARGET_AVX2 void invert_avx2(const Response& r, double* values, std::size_t n) {
+  invert(r, values, n);
+}
+DODGESIM_TARGET_AVX512 void invert_avx512(const Response& r, double* values, std::size_t n) {
+  invert(r, values, n);
+}
+constexpr std::array<Function, kVectorLevels> kInvert = {invert_portable, invert_avx2,
+                                                         invert_avx512};
 
 class ExactSignal : public PixelSignal {
  public:
@@ -64,11 +81,18 @@ class ExactSignal : public PixelSignal {
     }
   }
 
-  void set_bounds(std::size_t index, double low, double high) override {
-    bounds_.set(index, response_.inverse(low), response_.inverse(high));
+  void set_bounds(std::span<const SignalBounds> bounds) override {
+    static const auto invert = kInvert[static_cast<std::size_t>(widest_vector_level())];
+    limits_.resize(2 * bounds.size());
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      limits_[2 * i] = bounds[i].low;
+      limits_[2 * i + 1] = bounds[i].high;
+    }
+    invert(response_, limits_.data(), limits_.size());
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      bounds_.set(bounds[i].index, limits_[2 * i], limits_[2 * i + 1]);
+    }
   }
-
-  void set_held(std::size_t index) override { bounds_.set_empty(index); }
 
   double value(std::size_t index, double) const override { return response_.at(luminance_[index]); }
 
@@ -83,6 +107,7 @@ class ExactSignal : public PixelSignal {
   std::vector<float> luminance_;  // at each pixel's last sample
   LuminanceBounds bounds_;
   std::vector<double> values_;  // of the candidates: before and now
+  std::vector<double> limits_;  // of bounds that are set
 };
 
 }  // namespace

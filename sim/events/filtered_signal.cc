@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/events/photoreceptor.h"
 #include "sim/events/pixel_signal.h"
@@ -109,17 +108,16 @@ class FilteredSignal : public PixelSignal {
     knots.push_back({t1_us, candidate.s1});
   }
 
-  void set_bounds(std::size_t index, double low, double high) override {
-    // A dead pixel's bounds are infinite.
-    low_[index] =
-        static_cast<float>(std::isinf(low) ? low : low + kBoundMargin * (1 + std::abs(low)));
-    high_[index] =
-        static_cast<float>(std::isinf(high) ? high : high - kBoundMargin * (1 + std::abs(high)));
-  }
-
-  void set_held(std::size_t index) override {
-    low_[index] = std::numeric_limits<float>::infinity();
-    high_[index] = -std::numeric_limits<float>::infinity();
+  void set_bounds(std::span<const SignalBounds> bounds) override {
+    // What is never reached is infinite.
+    const auto rounded = [](double bound, double inward) {
+      const double margin = std::isinf(bound) ? 0 : kBoundMargin * (1 + std::abs(bound));
+      return static_cast<float>(bound + inward * margin);
+    };
+    for (const SignalBounds& b : bounds) {
+      low_[b.index] = rounded(b.low, 1);
+      high_[b.index] = rounded(b.high, -1);
+    }
   }
 
   double value(std::size_t index, double t_us) const override {

@@ -16,7 +16,6 @@ class LuminanceBounds {
 
   // Bounds on the response L of a pixel that is logarithmic in eps + I; low >= high: none holds.
   void set(std::size_t pixel, double low_luminance, double high_luminance);
-  void set_empty(std::size_t pixel) { low_[pixel] = high_[pixel] = 0; }
 
   // may_fire[i] = 1 where luminance[i], that of the pixel first + i, is not between its bounds or
   // is negative or no number. The same at every vector level.

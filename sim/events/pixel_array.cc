@@ -135,8 +135,8 @@ void PixelArray::reset(TimeUs t_us, const Picture& picture) {
     pixel.reference = signal_->value(i, 0) - leaked;
     pixel.held_until_us = kArmed;
     if (!leaking_us_.empty()) leaking_us_[i] = leaked > 0 ? -leaked / leak_per_us_ : 0;
-    set_bounds(i);
   }
+  set_all_bounds();
   show({0, 0, static_cast<int>(width_), static_cast<int>(row_keeps_times_.size())}, picture);
 }
 
@@ -232,6 +232,7 @@ void PixelArray::solve_crossings(double t1_us) {
 // piece by piece.
 void PixelArray::run_all(double t1_us, const Picture& picture, Run& run_state) {
   std::size_t next_second = 0;
+  bounds_.clear();
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
     const bool noisy = !run_state.noise.empty() && run_state.noise.front().pixel == candidate.index;
@@ -245,8 +246,9 @@ void PixelArray::run_all(double t1_us, const Picture& picture, Run& run_state) {
               take_crossing(candidate, second_, second, t1_us, picture, run_state);
     }
     if (!known) run(candidate, t1_us, cause_at(candidate.index, picture), run_state);
-    set_bounds(candidate.index);
+    bounds_.push_back(bounds_of(candidate.index));
   }
+  signal_->set_bounds(bounds_);
 }
 
 // The event of a pixel, if it has one, and what the pixel is after it or after the end of its
@@ -344,21 +346,27 @@ void PixelArray::emit(std::size_t index, TimeUs t_us, bool on, Cause cause, Run&
   if (!leaking_us_.empty()) leaking_us_[index] = static_cast<double>(t_us) + refractory_us_;
 }
 
-void PixelArray::set_bounds(std::size_t index) {
+// Of a held pixel none holds.
+SignalBounds PixelArray::bounds_of(std::size_t index) const {
   const Pixel& pixel = pixels_[index];
-  if (pixel.held_until_us != kArmed) {
-    signal_->set_held(index);
-  } else {
-    signal_->set_bounds(index, pixel.reference + pixel.change[0],
-                        pixel.reference + pixel.change[1]);
+  const bool held = pixel.held_until_us != kArmed;
+  return {static_cast<std::uint32_t>(index), held ? kNever : pixel.reference + pixel.change[0],
+          held ? -kNever : pixel.reference + pixel.change[1]};
+}
+
+void PixelArray::set_all_bounds() {
+  for (std::size_t first = 0; first < pixels_.size(); first += width_) {
+    bounds_.clear();
+    for (std::size_t i = first; i < first + width_; ++i) bounds_.push_back(bounds_of(i));
+    signal_->set_bounds(bounds_);
   }
 }
 
 void PixelArray::rebase(const Picture& picture) {
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     pixels_[i].reference += signal_->rebase(i, checked(picture.luminance[i]));
-    set_bounds(i);
   }
+  set_all_bounds();
   show({0, 0, static_cast<int>(width_), static_cast<int>(row_keeps_times_.size())}, picture);
 }
 

@@ -112,7 +112,8 @@ class PixelArray {
                       Run& run);
   void fire(std::size_t index, double crossing_us, double until_us, bool on, Cause cause, Run& run);
   void emit(std::size_t index, TimeUs t_us, bool on, Cause cause, Run& run);
-  void set_bounds(std::size_t index);
+  SignalBounds bounds_of(std::size_t index) const;
+  void set_all_bounds();
   void show(const Rect& region, const Picture& picture);
   Cause cause_at(std::size_t index, const Picture& picture) const;
 
@@ -140,6 +141,7 @@ class PixelArray {
   Crossings crossings_;  // of the candidates
   Crossings second_;     // of those with two
   std::vector<Knot> knots_;
+  std::vector<SignalBounds> bounds_;  // of candidates, anew
 };
 
 }  // namespace dodgesim

@@ -28,6 +28,12 @@ struct Knot {
   double s;
 };
 
+// A pixel makes no event while low < S < high. One with low > high is looked at at every sample.
+struct SignalBounds {
+  std::uint32_t index;
+  double low, high;
+};
+
 // Neighbouring pixels of a row at a new sample.
 struct RowPart {
   std::size_t first, size;
@@ -61,9 +67,7 @@ class PixelSignal {
   virtual void knots(const Candidate& /*candidate*/, double /*t1_us*/,
                      std::vector<Knot>& /*knots*/) const {}
 
-  // The pixel makes no event while low < S < high.
-  virtual void set_bounds(std::size_t index, double low, double high) = 0;
-  virtual void set_held(std::size_t index) = 0;  // to be looked at at every sample
+  virtual void set_bounds(std::span<const SignalBounds> bounds) = 0;
 
   // S at the pixel's last sample, of the instant t_us.
   virtual double value(std::size_t index, double t_us) const = 0;

@@ -1,8 +1,7 @@
 // How a pixel answers to light: logarithmically, or below a given luminance linearly.
 #pragma once
 
-#include <algorithm>
-
+#include "sim/base/branchless.h"
 #include "sim/events/logarithm.h"
 
 namespace dodgesim {
@@ -24,9 +23,10 @@ class Response {
   }
 
   // The luminance that gives `l`; may be negative.
-  double inverse(double l) const {
-    if (l < knee_ && linear_below_ > 0) return linear_below_ + (l - knee_) / slope_;
-    return natural_exp(std::clamp(l, -kMostLog, kMostLog)) - epsilon_;
+  [[gnu::always_inline]] double inverse(double l) const {
+    const double line = linear_below_ + (l - knee_) / slope_;
+    const double exp = natural_exp(smaller(larger(l, -kMostLog), kMostLog)) - epsilon_;
+    return (l < knee_) & (linear_below_ > 0) ? line : exp;
   }
 
   double epsilon() const { return epsilon_; }
