@@ -11,37 +11,30 @@ namespace dodgesim {
 
 namespace {
 
-using Function = void (*)(const Response&, double* values, std::size_t size);
+// In place.
+using Apply = void (*)(const Response&, double* values, std::size_t size);
 
-// Luminance in, response out.
-[[gnu::always_inline]] inline void respond(const Response& response, double* values,
-                                           std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) values[i] = response.at(values[i]);
+template <double (Response::*kFunction)(double) const>
+[[gnu::always_inline]] inline void apply(const Response& response, double* values,
+                                         std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i) values[i] = (response.*kFunction)(values[i]);
 }
-void respond_portable(const Response& r, double* values, std::size_t n) { respond(r, values, n); }
-DODGESIM_TARGET_AVX2 void respond_avx2(const Response& r, double* values, std::size_t n) {
-  respond(r, values, n);
+template <double (Response::*kFunction)(double) const>
+void apply_portable(const Response& response, double* values, std::size_t size) {
+  apply<kFunction>(response, values, size);
 }
-DODGESIM_TARGET_AVX512 void respond_avx512(const Response& r, double* values, std::size_t n) {
-  respond(r, values, n);
+template <double (Response::*kFunction)(double) const>
+DODGESIM_TARGET_AVX2 void apply_avx2(const Response& response, double* values, std::size_t size) {
+  apply<kFunction>(response, values, size);
 }
-constexpr std::array<Function, kVectorLevels> kRespond = {respond_portable, respond_avx2,
-                                                          respond_avx512};
-
-// Response in, luminance out.
-[[gnu::always_inline]] inline void invert(const Response& response, double* values,
-                                          std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i) values[i] = response.inverse(values[i]);
+template <double (Response::*kFunction)(double) const>
+DODGESIM_TARGET_AVX512 void apply_avx512(const Response& response, double* values,
+                                         std::size_t size) {
+  apply<kFunction>(response, values, size);
 }
-void invert_portable(const Response& r, double* values, std::size_t n) { invert(r, values, n); }
-DODGESIM_TARGET_AVX2 void invert_avx2(const Response& r, double* values, std::size_t n) {
-  invert(r, values, n);
-}
-DODGESIM_TARGET_AVX512 void invert_avx512(const Response& r, double* values, std::size_t n) {
-  invert(r, values, n);
-}
-constexpr std::array<Function, kVectorLevels> kInvert = {invert_portable, invert_avx2,
-                                                         invert_avx512};
+template <double (Response::*kFunction)(double) const>
+constexpr std::array<Apply, kVectorLevels> kApply = {
+    apply_portable<kFunction>, apply_avx2<kFunction>, apply_avx512<kFunction>};
 
 class ExactSignal : public PixelSignal {
  public:
@@ -73,7 +66,8 @@ class ExactSignal : public PixelSignal {
   }
 
   void finish(std::span<Candidate> candidates) override {
-    static const auto respond = kRespond[static_cast<std::size_t>(widest_vector_level())];
+    static const auto respond =
+        kApply<&Response::at>[static_cast<std::size_t>(widest_vector_level())];
     respond(response_, values_.data(), values_.size());
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       candidates[i].s0 = values_[2 * i];
@@ -82,7 +76,8 @@ class ExactSignal : public PixelSignal {
   }
 
   void set_bounds(std::span<const SignalBounds> bounds) override {
-    static const auto invert = kInvert[static_cast<std::size_t>(widest_vector_level())];
+    static const auto invert =
+        kApply<&Response::inverse>[static_cast<std::size_t>(widest_vector_level())];
     limits_.resize(2 * bounds.size());
     for (std::size_t i = 0; i < bounds.size(); ++i) {
       limits_[2 * i] = bounds[i].low;
