@@ -62,6 +62,17 @@ Vector3d path(Commands commands, TimeUs contact_us) {
   return path_W;
 }
 
+// See CollisionEvidence::turned.
+bool turned(Commands commands, const Encounter& undisturbed) {
+  const auto across_W = [&](const Testimony::Command& command) {
+    return undisturbed.across_flight(command.v_W - commands.front().vehicle_v_W);
+  };
+  const Vector3d first_W = across_W(commands.front());
+  return std::any_of(commands.begin(), commands.end(), [&](const Testimony::Command& command) {
+    return command.evading && across_W(command).dot(first_W) < 0;
+  });
+}
+
 // The pilot's answer to the detection of an object.
 void add_answer(const Testimony& testimony, const Testimony::Object& object, bool perceives,
                 CollisionEvidence& evidence) {
@@ -76,6 +87,7 @@ void add_answer(const Testimony& testimony, const Testimony::Object& object, boo
   if (evidence.undisturbed) commands = before(evidence.undisturbed->contact_us, commands);
   evidence.command_W = mean_evasion(commands);
   if (evidence.undisturbed) {
+    evidence.turned = turned(commands, *evidence.undisturbed);
     evidence.commanded_path_W = path(commands, evidence.undisturbed->contact_us);
     evidence.last_command_W = commands.back().v_W - commands.front().vehicle_v_W;
   }

@@ -244,18 +244,26 @@ void Flight::decide() {
   }
   if (const auto command = computer_.take_command(now_us())) {
     reference_ = {command->v_W, command->evading};
+    evasion_arrived_ = command->evading;
     if (command->landing && !record_.landing_us) record_.landing_us = now_us();
     if (observer_ != nullptr) observer_->on_velocity(now_us(), *command);
   }
   timing_.pilot_s += seconds_since(start);
 }
 
+// The controller acts at each state estimate, and at once when it is to evade.
 void Flight::control() {
   const TimeUs now = now_us();
+  const auto act = [&] {
+    rate_commands_.push(now, {controller_.update(*controller_state_, reference_), reference_});
+    evasion_arrived_ = false;
+  };
   controller_states_.deliver(now, [&](const StateReading& state) {
     if (mission_.update(state.p_W)) computer_.set_goal(mission_.goal());
-    rate_commands_.push(now, {controller_.update(state, reference_), reference_});
+    controller_state_ = state;
+    act();
   });
+  if (evasion_arrived_ && controller_state_) act();
   rate_commands_.deliver(now, [&](const SentCommand& sent) {
     rate_command_ = sent.command;
     const bool evading = sent.reference.evading;

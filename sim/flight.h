@@ -168,7 +168,9 @@ class Flight {
   Eigen::Vector3d gyro_B_radps_ = Eigen::Vector3d::Zero();
   DelayLine<StateReading> controller_states_;
   DelayLine<SentCommand> rate_commands_;
+  std::optional<StateReading> controller_state_;  // the last one
   VelocityReference reference_;
+  bool evasion_arrived_ = false;  // and the controller has not acted since
   RateThrustCommand rate_command_;
   std::deque<Snapshot> history_;  // for the truth at the instant of a detection
   FlightRecord record_;

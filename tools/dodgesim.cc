@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
@@ -120,6 +121,10 @@ int main(int argc, char** argv) {
     return kUsageError;
   } catch (const IoError& error) {
     std::cerr << error.what() << "\n";
+    return kIoError;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::cerr << error.path1().string() << " could not be used: " << error.code().message()
+              << ".\n";
     return kIoError;
   } catch (const std::bad_alloc&) {
     std::cerr << "dodgesim: there is not enough memory.\n";

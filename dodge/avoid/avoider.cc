@@ -19,9 +19,9 @@ Eigen::Vector3d heading(const Eigen::Quaterniond& q_WB) {
   return x.normalized();
 }
 
-bool is_finite(const TrackedObstacle& tracked) {
-  return tracked.obstacle.v_WO.allFinite() && tracked.ellipsoid.centre_W.allFinite() &&
-         tracked.ellipsoid.semi_axes_m.allFinite();
+bool acts(const TrackedObstacle& tracked) {
+  return tracked.confirmed && tracked.obstacle.v_WO.allFinite() &&
+         tracked.ellipsoid.centre_W.allFinite() && tracked.ellipsoid.semi_axes_m.allFinite();
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ Eigen::Vector3d Avoider::repulsion(TimeUs now, const VehicleMotion& vehicle,
                                    std::span<const TrackedObstacle> obstacles) const {
   Eigen::Vector3d repulsive_W = Eigen::Vector3d::Zero();
   for (const TrackedObstacle& tracked : obstacles) {
-    if (!tracked.confirmed || !is_finite(tracked)) continue;
+    if (!acts(tracked)) continue;
     const Obstacle& obstacle = tracked.obstacle;
     Ellipsoid ellipsoid = tracked.ellipsoid;
     ellipsoid.centre_W += seconds(now - obstacle.t_us) * obstacle.v_WO;

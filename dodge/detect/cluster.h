@@ -72,7 +72,8 @@ class Clusterer {
  public:
   Clusterer(const ClusterConfig& config, int width, int height);
 
-  // Clusters of the image's obstacle mask, in the order of the scan. Valid until the next call.
+  // Clusters of the image's obstacle mask, in the order of the scan; where max_groups leaves some
+  // out, those of most events first. Valid until the next call.
   const std::vector<Cluster>& find(const TimeImage& image, const OpticalFlow& flow);
 
   // Those of the last call.

@@ -30,7 +30,8 @@ struct StereoConfig {
       "Disparity of a matched pair: the shift at which the rho images of the two cameras agree "
       "best, starting from the disparity of the clusters' centres, or the latter alone. The two "
       "cameras see different parts of an object's outline move: centres alone err by 10 cm at 1 m "
-      "and match noise with noise, the correlation errs by 2 to 4 cm.");
+      "and match noise with noise, the correlation errs by 2 to 4 cm. The paper says no more than "
+      "'the cluster's disparity' and 'the cluster's centers'.");
     v("search_px", search_px, 0, 100,
       "How far from the centres' disparity the correlation looks: about the size of an object.");
     v("min_correlation", min_correlation, 0, 1, "A pair whose rho images agree less is no match.");

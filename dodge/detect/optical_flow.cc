@@ -55,8 +55,8 @@ Eigen::Vector2d OpticalFlow::velocity(const cv::Point& pixel) const {
 }
 
 Eigen::Vector2d OpticalFlow::mean_velocity(std::span<const cv::Point> pixels) const {
-  const std::size_t step =
-      std::max<std::size_t>(1, pixels.size() / static_cast<std::size_t>(config_.samples));
+  const auto samples = static_cast<std::size_t>(config_.samples);
+  const std::size_t step = std::max<std::size_t>(1, (pixels.size() + samples - 1) / samples);
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   int determined = 0;
   for (std::size_t i = step / 2; i < pixels.size(); i += step) {

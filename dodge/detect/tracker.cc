@@ -65,6 +65,7 @@ void Tracker::predict(TimeUs now) {
 }
 
 // One camera's detections at a time: it sees an obstacle once, another camera may see it again.
+// Those that are not finite take no track from the others.
 void Tracker::take_in(std::span<Detection> detections) {
   const TimeUs t_us = detections.front().t_us;
   predicted_.clear();
@@ -76,13 +77,15 @@ void Tracker::take_in(std::span<Detection> detections) {
   }
   measured_.clear();
   for (const Detection& detection : detections) {
+    if (!is_finite(detection)) continue;
     measured_.push_back({detection.centre_W, measurement_covariance(kalman_, detection)});
   }
   const std::span<const int> track_of = associator_.associate(measured_, predicted_);
-  for (std::size_t i = 0; i < detections.size(); ++i) {
-    Detection& detection = detections[i];
+  std::size_t next = 0;
+  for (Detection& detection : detections) {
     detection.obstacle_id = -1;
     if (!is_finite(detection)) continue;
+    const std::size_t i = next++;
     const Eigen::Matrix3d& R = measured_[i].R_W;
     if (track_of[i] < 0) {
       tracks_.push_back({next_id_++,

@@ -40,7 +40,8 @@ struct DelaySpec {
       "Later than that by this: a slow perception that is pipelined, so that the pilot's cycles "
       "stay as frequent. Not part of the paper's chain, but for experiments with latency.");
     v("command_us", command_us, 0, 100000,
-      "Serial link from the computer to the flight controller (3.0 ms measured by the authors).");
+      "Serial link from the computer to the flight controller (3.0 ms measured by the authors). "
+      "A command to evade takes it at once, others with the next state estimate.");
     v("flight_controller_us", flight_controller_us, 0, 100000,
       "From a received command to the rotor commands it causes (one 4 kHz cycle).");
   }

@@ -13,6 +13,16 @@
 
 namespace dodgesim {
 
+namespace {
+
+#if defined(__clang__)
+constexpr const char* kCompiler = "clang++ ";
+#else
+constexpr const char* kCompiler = "g++ ";
+#endif
+
+}  // namespace
+
 BuildInfo build_info() {
   BuildInfo info;
   info.commit = DODGESIM_COMMIT;
@@ -20,7 +30,7 @@ BuildInfo build_info() {
   info.sources = DODGESIM_SOURCES;
   info.version = DODGESIM_VERSION;
   info.build_type = DODGESIM_BUILD_TYPE;
-  info.compiler = std::string("g++ ") + __VERSION__;
+  info.compiler = std::string(kCompiler) + __VERSION__;
   info.mujoco = mj_versionString();
   info.opencv = CV_VERSION;
   info.eigen = std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) +

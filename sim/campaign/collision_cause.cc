@@ -27,6 +27,8 @@ std::string to_text(CollisionCause cause) {
       return "wrong position";
     case CollisionCause::kWrongDirection:
       return "wrong direction";
+    case CollisionCause::kDirectionTurned:
+      return "direction turned";
     case CollisionCause::kCommandedTooLittle:
       return "commanded too little";
     case CollisionCause::kNotEnoughThrust:
@@ -70,6 +72,7 @@ CollisionCause collision_cause(const Agility& agility, const CollisionEvidence& 
     return in_time(least_time_to_escape_s(agility, encounter, evidence.command_W));
   };
   if (led_away(*evidence.undisturbed)) {
+    if (evidence.turned) return CollisionCause::kDirectionTurned;
     return commanded_enough(evidence) ? CollisionCause::kNotEnoughThrust
                                       : CollisionCause::kCommandedTooLittle;
   }

@@ -10,6 +10,9 @@
 //                         would have been right had the object been where it was detected
 //   wrong direction       some manoeuvre was left, but none that led where the commands did; or
 //                         nothing would have happened without the evasion
+//   direction turned      the commanded direction was right and the command early enough, but a
+//                         later command before the object came led back, more than a right angle
+//                         from the first: what the vehicle had gained was taken back
 //   commanded too little  the commanded direction was right and the command early enough, but even
 //                         a vehicle that follows every command at once would not have got out of
 //                         the way: the pilot asked for too low a speed, or stopped too early
@@ -38,6 +41,7 @@ enum class CollisionCause {
   kSeenLate,
   kWrongPosition,
   kWrongDirection,
+  kDirectionTurned,
   kCommandedTooLittle,
   kNotEnoughThrust,
   kLanding,
@@ -45,17 +49,13 @@ enum class CollisionCause {
   kFlewIntoTheRoom,
 };
 
-inline constexpr std::array kCollisionCauses = {CollisionCause::kNotSeen,
-                                                CollisionCause::kNotDetected,
-                                                CollisionCause::kSecondObject,
-                                                CollisionCause::kSeenLate,
-                                                CollisionCause::kWrongPosition,
-                                                CollisionCause::kWrongDirection,
-                                                CollisionCause::kCommandedTooLittle,
-                                                CollisionCause::kNotEnoughThrust,
-                                                CollisionCause::kLanding,
-                                                CollisionCause::kFledIntoTheRoom,
-                                                CollisionCause::kFlewIntoTheRoom};
+inline constexpr std::array kCollisionCauses = {
+    CollisionCause::kNotSeen,         CollisionCause::kNotDetected,
+    CollisionCause::kSecondObject,    CollisionCause::kSeenLate,
+    CollisionCause::kWrongPosition,   CollisionCause::kWrongDirection,
+    CollisionCause::kDirectionTurned, CollisionCause::kCommandedTooLittle,
+    CollisionCause::kNotEnoughThrust, CollisionCause::kLanding,
+    CollisionCause::kFledIntoTheRoom, CollisionCause::kFlewIntoTheRoom};
 
 std::string to_text(CollisionCause cause);
 
@@ -74,6 +74,10 @@ struct CollisionEvidence {
   // Mean of the evasive commands until the contact of `undisturbed`, less the vehicle's velocity
   // when the first arrived.
   Eigen::Vector3d command_W = Eigen::Vector3d::Zero();
+  // Whether an evasive command before that contact led back: across the flight of `undisturbed`,
+  // more than a right angle from the first one. Both count from the vehicle's velocity when the
+  // first arrived.
+  bool turned = false;
   // How far the commands, evasive or not, lead from the course that the vehicle was on when that
   // one arrived: the integral of commanded velocity less the vehicle's velocity at the first
   // command, from then to the contact of `undisturbed`. Each command holds until the next, the last

@@ -7,15 +7,20 @@ set(modified false)
 if(failed)
   set(commit unknown)
 else()
+  # New sources are compiled although git does not know them yet.
   execute_process(COMMAND git -C ${SOURCE_DIR} status --porcelain --untracked-files=no
                   OUTPUT_VARIABLE changes ERROR_QUIET)
+  execute_process(COMMAND git -C ${SOURCE_DIR} ls-files --others --exclude-standard
+                          -- CMakeLists.txt dodge sim tools
+                  OUTPUT_VARIABLE new ERROR_QUIET)
+  string(APPEND changes "${new}")
   if(changes)
     set(modified true)
   endif()
 endif()
 set(digest "")
 if(failed OR modified)
-  file(GLOB_RECURSE sources ${SOURCE_DIR}/sim/* ${SOURCE_DIR}/dodge/*)
+  file(GLOB_RECURSE sources ${SOURCE_DIR}/sim/* ${SOURCE_DIR}/dodge/* ${SOURCE_DIR}/tools/*)
   list(SORT sources)
   set(digests "")
   foreach(source ${SOURCE_DIR}/CMakeLists.txt ${sources})

@@ -43,13 +43,14 @@ std::string manifest_json(const Scenario& scenario, const CampaignOptions& optio
                           {"errors", summary.errors},
                           {"command_line", options.command_line},
                           {"jobs", options.jobs}};
-  const double throws_per_minute =
-      summary.wall_s > 0 ? 60.0 * static_cast<double>(summary.results.size()) / summary.wall_s : 0;
   manifest["time"] = {{"started", started},
                       {"finished", utc_now()},
                       {"wall_s", summary.wall_s},
-                      {"throws_per_minute", throws_per_minute},
+                      {"throws_flown", summary.flown},
                       {"real_time_factor", summary.real_time_factor}};
+  if (summary.flown > 0 && summary.wall_s > 0) {
+    manifest["time"]["throws_per_minute"] = 60.0 * summary.flown / summary.wall_s;
+  }
   // A command line may hold bytes that are not UTF-8: replace them rather than fail.
   return manifest.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -29,12 +29,18 @@ Eigen::Matrix3d looking_forward() {
   return R_BC;
 }
 
-// A name is the title of tables.
-void check_name(const Scenario& scenario, ReadContext& context) {
+// A name is the title of tables; a description may have lines.
+void check_texts(const Scenario& scenario, ReadContext& context) {
   const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  if (std::none_of(scenario.name.begin(), scenario.name.end(), control)) return;
-  context.problems.add(position_of(context, "name"),
-                       "name has a line break, a tab or another control character.");
+  const auto odd = [&](unsigned char c) { return control(c) && c != '\n' && c != '\t'; };
+  if (std::any_of(scenario.name.begin(), scenario.name.end(), control)) {
+    context.problems.add(position_of(context, "name"),
+                         "name has a line break, a tab or another control character.");
+  }
+  if (std::any_of(scenario.description.begin(), scenario.description.end(), odd)) {
+    context.problems.add(position_of(context, "description"),
+                         "description has a control character other than line break and tab.");
+  }
 }
 
 // A key that one type of mission needs, and the others must not have.
@@ -222,7 +228,7 @@ void check_axis(const Scenario& scenario, const VariedKey& axis, bool in_grid,
 void check_scenario(const Scenario& scenario, ReadContext& context) {
   for (const VariedKey& axis : scenario.grid) check_axis(scenario, axis, true, context);
   for (const VariedKey& axis : scenario.sweep) check_axis(scenario, axis, false, context);
-  check_name(scenario, context);
+  check_texts(scenario, context);
   check_stop(scenario, context);
   context.problems.raise_if_any();
   if (!check_counts(scenario, context)) return;

@@ -59,6 +59,13 @@ void check_preset(const Preset& preset, const YamlNode& file, const YamlNode& ro
                            " itself. Put --set " + group + "=~ in front to take them away.");
 }
 
+// A campaign keeps its scenario with every value spelled out, and must be able to read it again.
+void check_resolved(const Scenario& scenario, const std::string& file) {
+  Problems problems(file + ", with every value spelled out");
+  parse_yaml(to_yaml(scenario), problems);
+  problems.raise_if_any();
+}
+
 Scenario read(const std::string& text, const std::string& file, const std::string& models_dir,
               const std::vector<Setting>& settings) {
   ReadContext context(file);
@@ -83,6 +90,7 @@ Scenario read(const std::string& text, const std::string& file, const std::strin
   context.problems.raise_if_any();
   for (const auto& [key, at] : context.where) scenario.places[key] = context.problems.place(at);
   if (scenario.name.empty()) scenario.name = std::filesystem::path(file).stem().string();
+  check_resolved(scenario, file);
   return scenario;
 }
 

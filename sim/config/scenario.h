@@ -90,7 +90,8 @@ struct MissionSpec {
     v("waypoint_radius_m", waypoint_radius_m, 0.05, 10,
       "How near its estimated position must come to a waypoint for the vehicle to go on.");
     v("speed_mps", speed_mps, 0.1, 10,
-      "Cruise speed towards the goal or a waypoint (1.5 in the paper).");
+      "Cruise speed towards the goal or a waypoint (1.5 in the paper), at most "
+      "dodger.velocity_limit.max_speed_mps.");
   }
 };
 
@@ -125,9 +126,10 @@ struct ThrowSpec {
       "for a viewer at the vehicle who looks at the thrower; a single distribution is drawn for "
       "each of the two.");
     v("spin_radps", spin_radps, -200, 200,
-      "Rotation of the object: a rate about a random axis, or [x, y, z] in the world.");
+      "Rotation of the object: a rate about a random axis, or [x, y, z] in the world. It leaves "
+      "the hand with its axes along the world's.");
     v("launch_height_m", launch_height_m, 0.05, 10,
-      "Height of the hand above the floor when it lets go.");
+      "Height of the hand (z of the world) when it lets go.");
     v("launch_s", launch_s, 0.1, 600, "Time of the launch after the start of the flight.");
     v("count", count, 1, 16,
       "How many of these are thrown in one flight, each with draws of its own.");

@@ -294,12 +294,14 @@ std::string to_text(const YamlNode& node) {
 }
 
 std::string read_scenario_text(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
     throw ScenarioError(path + ": There is no such file.");
   }
+  if (error) throw IoError(path + " could not be read: " + error.message() + ".");
   // To open a pipe may take for ever.
-  if (!std::filesystem::is_regular_file(path, ignored)) {
+  if (!std::filesystem::is_regular_file(status)) {
     throw ScenarioError(path + ": This is not a regular file; a scenario is a YAML file.");
   }
   std::ifstream file(path, std::ios::binary);

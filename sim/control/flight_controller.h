@@ -41,7 +41,8 @@ struct FlightControllerSpec {
       "Angular acceleration per error of the yaw rate; damped 0.9 with the motors' lag.");
     v("torque_gain_xy", torque_gain_xy, 0, 100,
       "Feedback of the estimated roll and pitch torque, which speeds up the motors' lag and damps "
-      "the loop to 0.7; Betaflight's D term amounts to 1.0.");
+      "the loop to 0.7 (0.6 with the gyroscope's filter and the delays); Betaflight's D term "
+      "amounts to 1.0.");
     v("torque_gain_z", torque_gain_z, 0, 100,
       "Feedback of the estimated yaw torque; none, as Betaflight has no D term on yaw.");
     v("motor_time_constant_s", motor_time_constant_s, 0.001, 1,

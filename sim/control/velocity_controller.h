@@ -85,8 +85,9 @@ struct ControllerSpec {
     v("max_rate_z_radps", max_rate_z_radps, 0.1, 100,
       "Limit of the commanded yaw rate: Betaflight's 400 deg/s.");
     v("max_tilt_deg", max_tilt_deg, 1, 85,
-      "Limit of the commanded tilt; 75 deg still allows the lateral 36 m/s^2 that the thrust can "
-      "give while keeping height.");
+      "Limit of the commanded tilt; 75 deg still allows the lateral 33 m/s^2 that "
+      "max_thrust_fraction "
+      "leaves while keeping height.");
     v("min_thrust_mps2", min_thrust_mps2, 0, 9, "Least collective thrust (rpg_quadrotor_control).");
     v("max_thrust_fraction", max_thrust_fraction, 0.3, 1,
       "Share of the four rotors' greatest thrust that may be commanded; the rest is left to turn "
@@ -118,7 +119,8 @@ class VelocityController {
  public:
   VelocityController(const ControllerSpec& spec, const VehicleParameters& vehicle);
 
-  // Call with each new estimate, in the order of their instants.
+  // Call with each new estimate, in the order of their instants; with the same one again when a
+  // reference that evades arrives in between.
   RateThrustCommand update(const StateReading& state, const VelocityReference& reference);
 
   // a_des within the limits of thrust and tilt, gravity included [m/s^2].

@@ -14,7 +14,7 @@ class LuminanceBounds {
  public:
   LuminanceBounds(std::size_t pixels, double log_epsilon);
 
-  // Bounds on the response L of a pixel that is logarithmic in eps + I; low >= high: none holds.
+  // Bounds on the luminance I; low >= high: none holds. They are packed as eps + I.
   void set(std::size_t pixel, double low_luminance, double high_luminance);
 
   // may_fire[i] = 1 where luminance[i], that of the pixel first + i, is not between its bounds or

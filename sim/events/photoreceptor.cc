@@ -76,7 +76,7 @@ template <class Number>
 }
 
 struct Constants {
-  float epsilon, linear_below, slope, knee;
+  ResponseOf<float> response;
   float rad_s, dark_rad_s, follower_rad_s;
 };
 
@@ -87,18 +87,17 @@ template <int kOrder, bool kOwnTime>
   constexpr float kMax = std::numeric_limits<float>::max();
 #pragma GCC ivdep
   for (std::size_t i = 0; i < row.size; ++i) {
-    const float light = row.luminance[i];
-    const float log = natural_log(c.epsilon + light);
-    const float line = c.knee + c.slope * (light - c.linear_below);
-    const float u1 = light < c.linear_below ? line : log;
-    const float u0 = row.u[i];
-    row.u1[i] = u1;
+    const float light_before = row.luminance_before[i], light = row.luminance[i];
+    const float u0 = c.response.at(light_before);
+    const float u1 = c.response.at(light);
     float least = u0 < u1 ? u0 : u1;
     float most = u0 < u1 ? u1 : u0;
-    if constexpr (kOrder > 0) {
+    if constexpr (kOrder == 0) {
+      row.y1[i] = u1;
+    } else {
       const float dt_s = kOwnTime ? row.dt_s[i] : row.same_dt_s;
       const float y0 = row.y[i];
-      const float x1 = (c.dark_rad_s + c.rad_s * light) * dt_s;
+      const float x1 = (c.dark_rad_s + c.rad_s * (0.5f * light_before + 0.5f * light)) * dt_s;
       const Decay<float> first = decay(x1);
       const float y1 = u1 + first.k * (y0 - u0) - first.m * (u1 - u0);
       row.y1[i] = y1;
@@ -207,11 +206,7 @@ void Photoreceptor::advance(const Row& row) const {
 }
 
 void Photoreceptor::advance(const Row& row, int vector_level) const {
-  const Constants constants = {static_cast<float>(response_.epsilon()),
-                               static_cast<float>(response_.linear_below()),
-                               static_cast<float>(response_.slope()),
-                               static_cast<float>(response_.knee()),
-                               static_cast<float>(rad_s_),
+  const Constants constants = {response_, static_cast<float>(rad_s_),
                                static_cast<float>(dark_rad_s_),
                                static_cast<float>(follower_rad_s_)};
   kernel_for(order_, row.dt_s != nullptr, vector_level)(constants, row);

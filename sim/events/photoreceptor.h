@@ -8,7 +8,7 @@
 // m = (1 - k)/x, over one interval:
 //   y1 = u1 + k (y0 - u0) - m (u1 - u0)
 // and, as y is a line plus (y0 - u0 + (u1 - u0)/x) exp(-t/tau), z1 follows likewise. tau is that of
-// the light at the interval's end.
+// the interval's light, the mean of its two samples'.
 #pragma once
 
 #include <cstddef>
@@ -31,13 +31,14 @@ class Photoreceptor {
   explicit Photoreceptor(const EventCameraSpec& spec);
 
   int order() const { return order_; }  // of the low-pass: 0, 1 or 2
-  const Response& response() const { return response_; }
+  // In single precision, as rows are.
+  float response(float luminance) const { return response_.at(luminance); }
 
   // Cut-off [1/s, angular] of the first, or only, low-pass at a luminance.
   double cutoff_rad_s(double luminance) const { return dark_rad_s_ + rad_s_ * luminance; }
 
-  // One pixel, t_s after a sample; at dt_s > 0 after it, it shows `luminance`, to which the
-  // response is u1.
+  // One pixel, t_s after a sample; at dt_s > 0 after it, the response is u1. `luminance` is the
+  // light in between.
   Charge at(const Charge& before, double luminance, double u1, double dt_s, double t_s) const;
 
   // Of a low-pass of second order: how long z may be taken to run straight from `now` on without
@@ -48,11 +49,11 @@ class Photoreceptor {
   // A row of pixels.
   struct Row {
     std::size_t size;
-    const float* luminance;
+    const float *luminance_before, *luminance;
     const float* dt_s;  // since each pixel's last sample; null: same_dt_s
     float same_dt_s;
-    const float *u, *y, *z;  // before; y and z as far as the order goes
-    float *u1, *y1, *z1;     // after
+    const float *y, *z;  // before, as far as the order goes
+    float *y1, *z1;      // after; y1 is the response if the order is 0
     // Bounds of z: a pixel whose z stays strictly between them makes no event.
     const float *low, *high;
     float leaked_before, leaked;  // what the leak has added to z before and after
@@ -63,7 +64,7 @@ class Photoreceptor {
   void advance(const Row& row, int vector_level) const;
 
  private:
-  Response response_;
+  ResponseOf<float> response_;
   int order_;
   double rad_s_, dark_rad_s_, follower_rad_s_;
 };

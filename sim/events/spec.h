@@ -51,7 +51,13 @@ template <class Visitor>
 void EventCameraSpec::visit(Visitor& v) {
   const std::string before = preset;
   v("preset", preset, {"sees1", "ideal", "noisy", "low_light"},
-    "The camera from which the keys that are not given take their values.");
+    "The camera from which the keys that are not given take their values. ideal: events are the "
+    "crossings of log luminance and nothing else (all that is below is off, mismatch 0). "
+    "low_light: "
+    "sees1 at 5 lux. noisy, a worn or badly biased camera: photoreceptor_hz 300, "
+    "photoreceptor_dark_hz 30, refractory_us 500 and shot noise of 2.5 Hz each (v2e), "
+    "hot_pixel_fraction 0.0012 (measured), mismatch_sigma 0.05, leak_hz 0.2, dead_pixel_fraction "
+    "0.001 and jitter_us 50 (assumed).");
   if (preset != before) *this = event_camera_preset(preset);
   v("contrast_threshold_on", contrast_threshold_on, 0.01, 10,
     "Change of log luminance that makes an ON event (v2e and vid2e: 0.2).");
@@ -68,12 +74,15 @@ void EventCameraSpec::visit(Visitor& v) {
     "there (v2e does so near black). 0: logarithmic everywhere.");
   v("illuminance_lux", illuminance_lux, 1e-3, 2e5,
     "Illuminance of the scene: a white surface under it has luminance 1 (500: a lit office; "
-    "assumed).");
+    "assumed). It decides on bandwidth and shot noise alone: the dark current that hides contrasts "
+    "below about a lux is not modelled.");
   v("photoreceptor_hz", photoreceptor_hz, 0, 1e6,
-    "Cut-off of the photoreceptor's low-pass where 1000 lux fall on white; it falls in proportion "
-    "to the light (assumed: some kHz, as the DVS of Lichtsteiner et al. 2008). 0: no limit.");
+    "Cut-off of the photoreceptor's low-pass where 1000 lux fall on white, in proportion to the "
+    "light, on top of photoreceptor_dark_hz (assumed: some kHz, as the DVS of Lichtsteiner et al. "
+    "2008). 0: no limit.");
   v("photoreceptor_dark_hz", photoreceptor_dark_hz, 0.01, 1e6,
-    "Cut-off that is left in the dark (assumed). Signals are kept in single precision: below about "
+    "Cut-off that is left in the dark, to which the light's is added (assumed). Signals are kept "
+    "in single precision: below about "
     "1 Hz what is sampled every few microseconds comes to rest too early.");
   v("follower_hz", follower_hz, 0, 1e6,
     "Cut-off of the source follower behind it, which does not depend on the light: both make "
@@ -82,7 +91,9 @@ void EventCameraSpec::visit(Visitor& v) {
     "Time a pixel is held in reset after an event (most simulators: 100 us, v2e: 500 us).");
   v("leak_hz", leak_hz, 0, 1000,
     "Mean rate of ON events of a pixel at rest, due to the leak of its reference (v2e: 0.1). Any "
-    "other event of the pixel, of noise too, starts its leak anew, so with shot noise fewer come.");
+    "other event of the pixel, of noise too, starts its leak anew, so with shot noise fewer come. "
+    "With any leak pixels start as after a long rest: their references lie evenly from the first "
+    "frame down to a threshold below it. With 0 the first frame is the reference.");
   v("shot_noise_on_hz", shot_noise_on_hz, 0, 1000,
     "Rate of ON events of every pixel in the dark, due to shot noise (measured on a DVXplorer).");
   v("shot_noise_off_hz", shot_noise_off_hz, 0, 1000,

@@ -91,7 +91,7 @@ double latency_without_pilot_s(const Scenario& scenario) {
   const DelaySpec& delays = scenario.delays;
   return seconds(scenario.sensors.events.latency_us + delays.transport_us + delays.command_us +
                  delays.flight_controller_us) +
-         0.5 * seconds(delays.cycle_us);
+         0.5 * seconds(delays.packet_us + delays.cycle_us);
 }
 
 }  // namespace dodgesim

@@ -24,13 +24,12 @@ void check_model_name(const std::string& name, const std::string& folder) {
   }
 }
 
-// Files that bring global settings would change the other models in the world.
-void check_elements(const std::vector<MjcfTag>& tags, const std::string& label) {
-  constexpr const char* kGlobal[] = {"option", "size", "default", "contact"};
+void refuse(const std::vector<MjcfTag>& tags, std::initializer_list<const char*> elements,
+            const std::string& what, const std::string& label) {
   for (const MjcfTag& tag : tags) {
-    if (std::find(std::begin(kGlobal), std::end(kGlobal), tag.name) != std::end(kGlobal)) {
-      throw ScenarioError(label + ":" + std::to_string(tag.line) +
-                          ": The model of an object must not use <" + tag.name + ">.");
+    if (std::find(elements.begin(), elements.end(), tag.name) != elements.end()) {
+      throw ScenarioError(label + ":" + std::to_string(tag.line) + ": The model of " + what +
+                          " must not use <" + tag.name + ">.");
     }
   }
 }
@@ -44,7 +43,8 @@ std::vector<MjcfTag> scaled_object(const std::string& models_dir, const ObjectSp
                         std::to_string(spec.size_m) + ".");
   }
   std::vector<MjcfTag> tags = read_model_file(models_dir, file);
-  check_elements(tags, label);
+  // Files that bring global settings would change the other models in the world.
+  refuse(tags, {"option", "size", "default", "contact"}, "an object", label);
   if (std::none_of(tags.begin(), tags.end(),
                    [](const MjcfTag& t) { return t.name == "inertial"; })) {
     throw ScenarioError(label + ": The body of an object must have an <inertial>, which is what " +
@@ -115,10 +115,15 @@ MjModelPtr compose_model(const WorldSpec& spec) {
   check_model_name(spec.room, "models/rooms");
   check_model_name(spec.vehicle, "models/vehicles");
   std::vector<Part> parts;
-  for (const std::string& file :
-       {"rooms/" + spec.room + ".xml", "vehicles/" + spec.vehicle + ".xml"}) {
-    parts.push_back(
-        {spec.models_dir + "/" + file, print_mjcf(read_model_file(spec.models_dir, file))});
+  const std::pair<std::string, std::string> files[] = {
+      {"rooms/" + spec.room + ".xml", "a room"},
+      {"vehicles/" + spec.vehicle + ".xml", "a vehicle"}};
+  for (const auto& [file, what] : files) {
+    const std::string label = spec.models_dir + "/" + file;
+    const std::vector<MjcfTag> tags = read_model_file(spec.models_dir, file);
+    // Gravity, air and the time step are known to the throws, the controller and the IMU, too.
+    refuse(tags, {"option"}, what, label);
+    parts.push_back({label, print_mjcf(tags)});
   }
   for (std::size_t i = 0; i < spec.objects.size(); ++i) {
     parts.push_back(

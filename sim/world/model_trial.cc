@@ -11,6 +11,16 @@
 #include "sim/world/referee.h"
 #include "sim/world/world.h"
 
+// Sanitizers reserve more addresses than any limit.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define DODGESIM_SANITIZED
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define DODGESIM_SANITIZED
+#endif
+
 namespace dodgesim {
 
 namespace {
@@ -61,7 +71,7 @@ std::string complaint_about(const WorldSpec& spec, const std::vector<VehicleStar
 }
 
 void limit_memory([[maybe_unused]] int memory_mb) {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if !defined(DODGESIM_SANITIZED)
   const auto bytes = static_cast<rlim_t>(memory_mb) << 20;
   const rlimit memory = {bytes, bytes};
   ::setrlimit(RLIMIT_AS, &memory);

@@ -131,6 +131,22 @@ TEST(ExplainThrow, WhereTheCommandsLeadDecidesWhetherTheyWereEnough) {
             "not enough thrust");
 }
 
+TEST(ExplainThrow, AnEscapeThatTurnsBackIsNoLackOfThrust) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), left = Eigen::Vector3d::UnitY(),
+                        still = Eigen::Vector3d::Zero();
+  EXPECT_EQ(cause_of({{500000, true, up, still}, {520000, true, left - 0.1 * up, up}}),
+            "direction turned");
+  EXPECT_EQ(cause_of({{500000, true, up, still}, {520000, true, left + 0.1 * up, up}}),
+            "not enough thrust");
+  EXPECT_EQ(cause_of({{500000, true, up, still}, {990000, true, left - 0.1 * up, up}}),
+            "direction turned");
+  // After the ball.
+  EXPECT_EQ(cause_of({{500000, true, up, still}, {1000000, true, -up, up}}), "not enough thrust");
+  // Not an evasive one; it only stops.
+  EXPECT_EQ(cause_of({{500000, true, up, still}, {620000, false, -0.01 * up, up}}),
+            "not enough thrust");
+}
+
 // Nobody flew this either: the first object is in view from 0.1 s on, the second from 0.3 s, and
 // is detected at 0.5 s. `hitter` would have hit after 1 s.
 ThrowResult two_objects(int hitter, bool second_detected, bool first_detected_later = false) {

@@ -102,12 +102,13 @@ void add_check_sensor_command(CLI::App& program, const std::string& command_line
                    "sees1, ideal, noisy, low_light or a YAML file with the keys of sensors.events")
       ->capture_default_str()
       ->type_name("CAMERA");
-  command
-      ->add_option(
-          "--out", arguments->out,
-          "Write a report with plots there, made when missing. Then also flies a throw of\n"
-          "scenarios/demo.yaml, for the time statistics of static and dynamic regions")
-      ->type_name("DIR");
+  CLI::Option* out =
+      command
+          ->add_option(
+              "--out", arguments->out,
+              "Write a report with plots there, made when missing. Then also flies a throw of\n"
+              "scenarios/demo.yaml, for the time statistics of static and dynamic regions")
+          ->type_name("DIR");
   command->add_option("--seed", arguments->seed, "Of the camera and of the scenes")
       ->check(whole_number_between(0, UINT64_MAX))
       ->capture_default_str();
@@ -116,6 +117,7 @@ void add_check_sensor_command(CLI::App& program, const std::string& command_line
                    "Instead: what the sampling of the rendered scene costs in accuracy, over this\n"
                    "many random throws, for several settings; some 10 s a throw")
       ->check(whole_number_between(1, 10000))
+      ->excludes(out)
       ->type_name("THROWS");
   add_models_option(*command, arguments->models_dir);
   command->footer(kFooter);

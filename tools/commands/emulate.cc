@@ -28,7 +28,9 @@ constexpr const char* kEmulateFooter =
   noisy      a worn or badly biased one
   low_light  sees1 at 5 lux instead of 500
   FILE.yaml  keys of a scenario's sensors.events at its root, "preset: ideal" among them
-I is the luminance; between frames L runs linearly. The first frame sets the references.
+I is the luminance; between frames L runs linearly. The first frame sets the references;
+with a leak (leak_hz above 0: all but ideal) they lie evenly from it down to a threshold
+below, as after a long rest, so that the first ON events come sooner and the first OFF later.
 
 Scale of I: 1 is a white surface under illuminance_lux (500 by default). ideal does not care
 about it beyond the 0.001; for the others it decides how slow the pixels are and how noisy.

@@ -228,6 +228,19 @@ TEST(Tracker, IgnoresDetectionsThatAreNotFinite) {
   for (const Detection& detection : detections) EXPECT_EQ(detection.obstacle_id, -1);
 }
 
+TEST(Tracker, DetectionsThatAreNotFiniteTakeNoTrackFromOthers) {
+  Tracker tracker({}, {}, kLifetimeS);
+  for (TimeUs t_us = 0; t_us < 50000; t_us += 10000) update(tracker, t_us, {seen(t_us, {2, 0, 0})});
+  ASSERT_EQ(tracker.obstacles().size(), 1);
+  Detection bad = seen(50000, {2, 0, 0});
+  bad.size_m = std::nan("");
+  std::vector<Detection> detections = {bad, seen(50000, {2, 0.02, 0})};
+  tracker.update(50000, detections);
+  EXPECT_EQ(detections[0].obstacle_id, -1);
+  EXPECT_EQ(detections[1].obstacle_id, tracker.obstacles()[0].obstacle.id);
+  EXPECT_EQ(tracker.obstacles().size(), 1);
+}
+
 TEST(Tracker, StaysFiniteWithDetectionsOfNoSizeAndOutOfOrder) {
   Generator random(2);
   Tracker tracker({}, {}, kLifetimeS);

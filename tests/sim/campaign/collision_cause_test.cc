@@ -113,6 +113,16 @@ TEST(CollisionCause, TheCommandedWayAlongTheFlightDoesNotCount) {
   EXPECT_EQ(cause(swerving), CollisionCause::kCommandedTooLittle);
 }
 
+TEST(CollisionCause, CommandsThatLeadBackAreTurned) {
+  CollisionEvidence turned = evidence(last_us(kLeft) - 2, kLeft);
+  turned.turned = true;
+  EXPECT_EQ(cause(turned), CollisionCause::kDirectionTurned);
+  turned.commanded_path_W.setZero();
+  EXPECT_EQ(cause(turned), CollisionCause::kDirectionTurned);
+  turned.command_us = last_us(kLeft) + 2;
+  EXPECT_EQ(cause(turned), CollisionCause::kWrongDirection);
+}
+
 TEST(CollisionCause, TooLateOrTheWrongWayIsNotTooLittle) {
   for (const TimeUs command_us : {last_us() + 2, last_us(kLeft) + 2}) {
     CollisionEvidence late = evidence(command_us, kLeft);

@@ -107,27 +107,28 @@ struct Pixels {
   Pixels(std::size_t size, std::uint64_t seed) {
     RandomStream random(seed, 0, "pixels");
     for (std::size_t i = 0; i < size; ++i) {
-      luminance.push_back(static_cast<float>(std::exp(random.uniform(-9, 3))));
+      for (std::vector<float>* light : {&luminance_before, &luminance}) {
+        light->push_back(static_cast<float>(std::exp(random.uniform(-9, 3))));
+      }
       dt_s.push_back(static_cast<float>(std::exp(random.uniform(-13, -3))));
-      for (std::vector<float>* charge : {&u, &y, &z}) {
+      for (std::vector<float>* charge : {&y, &z}) {
         charge->push_back(static_cast<float>(random.uniform(-7, 2)));
       }
       low.push_back(static_cast<float>(random.uniform(-8, 0)));
       high.push_back(low.back() + static_cast<float>(random.uniform(0, 6)));
     }
-    for (std::vector<float>* after : {&u1, &y1, &z1}) after->resize(size);
+    for (std::vector<float>* after : {&y1, &z1}) after->resize(size);
     may_fire.resize(size);
   }
 
   Photoreceptor::Row row(bool own_time) {
     return {luminance.size(),
+            luminance_before.data(),
             luminance.data(),
             own_time ? dt_s.data() : nullptr,
             1e-3f,
-            u.data(),
             y.data(),
             z.data(),
-            u1.data(),
             y1.data(),
             z1.data(),
             low.data(),
@@ -137,7 +138,15 @@ struct Pixels {
             may_fire.data()};
   }
 
-  std::vector<float> luminance, dt_s, u, y, z, u1, y1, z1, low, high;
+  // What the pixel held, and the light between the samples.
+  Charge before(const Photoreceptor& photoreceptor, std::size_t i) const {
+    return {photoreceptor.response(luminance_before[i]), y[i], z[i]};
+  }
+  double light(std::size_t i) const {
+    return 0.5 * (static_cast<double>(luminance_before[i]) + luminance[i]);
+  }
+
+  std::vector<float> luminance_before, luminance, dt_s, y, z, y1, z1, low, high;
   std::vector<unsigned char> may_fire;
 };
 
@@ -151,18 +160,15 @@ TEST(Photoreceptor, RowsAgreeWithSinglePixels) {
       Pixels p(999, 4);
       photoreceptor.advance(p.row(own_time));
       for (std::size_t i = 0; i < 999; ++i) {
-        const double u1 = photoreceptor.response().at(p.luminance[i]);
+        const double u1 = Response(spec.log_epsilon, spec.linear_below).at(p.luminance[i]);
         const double dt_s = own_time ? p.dt_s[i] : 1e-3f;
-        const Charge after =
-            photoreceptor.at({p.u[i], p.y[i], p.z[i]}, p.luminance[i], u1, dt_s, dt_s);
-        EXPECT_NEAR(p.u1[i], after.u, 2e-6);
+        const Charge before = p.before(photoreceptor, i);
+        const Charge after = photoreceptor.at(before, p.light(i), u1, dt_s, dt_s);
         // Single precision and a short series for the exponential.
-        const double swing = std::abs(p.u[i] - u1) + std::abs(p.u[i] - p.y[i]);
-        if (photoreceptor.order() > 0) {
-          EXPECT_NEAR(p.y1[i], after.y, 5e-4 * swing + 2e-6);
-        }
+        const double swing = std::abs(before.u - u1) + std::abs(before.u - before.y);
+        EXPECT_NEAR(p.y1[i], after.y, 5e-4 * swing + 2e-6);
         if (photoreceptor.order() > 1) {
-          EXPECT_NEAR(p.z1[i], after.z, 6e-3 * (swing + std::abs(p.u[i] - p.z[i])) + 2e-6);
+          EXPECT_NEAR(p.z1[i], after.z, 6e-3 * (swing + std::abs(before.u - before.z)) + 2e-6);
         }
       }
     }
@@ -177,11 +183,11 @@ TEST(Photoreceptor, RowsFlagEveryPixelWhoseOutputMayLeaveItsBounds) {
   for (std::size_t i = 0; i < p.luminance.size(); ++i) {
     if (p.may_fire[i] != 0) continue;
     ++quiet;
-    const double u1 = photoreceptor.response().at(p.luminance[i]);
+    const double u1 = photoreceptor.response(p.luminance[i]);
     for (int part = 0; part <= 20; ++part) {
       const double t_s = static_cast<double>(p.dt_s[i]) * part / 20;
       const Charge then =
-          photoreceptor.at({p.u[i], p.y[i], p.z[i]}, p.luminance[i], u1, p.dt_s[i], t_s);
+          photoreceptor.at(p.before(photoreceptor, i), p.light(i), u1, p.dt_s[i], t_s);
       EXPECT_GT(then.z + 0.01, p.low[i]);
       EXPECT_LT(then.z + 0.02, p.high[i]);
     }
@@ -228,7 +234,6 @@ TEST(Photoreceptor, RowsAreTheSameBytesAtEveryVectorLevel) {
         }
         for (int level = kAvx2; level <= widest_vector_level(); ++level) {
           photoreceptor.advance(wide.row(own_time), level);
-          EXPECT_TRUE(same(portable.u1, wide.u1));
           EXPECT_TRUE(same(portable.y1, wide.y1));
           EXPECT_TRUE(same(portable.z1, wide.z1));
           EXPECT_EQ(portable.may_fire, wide.may_fire);
@@ -277,19 +282,18 @@ TEST(Photoreceptor, AnswersToNothingWithinAMicrosecondHoweverDarkItIs) {
     spec.follower_hz = 1000;
     spec.photoreceptor_dark_hz = dark_hz;
     const Photoreceptor photoreceptor(spec);
-    const auto before = static_cast<float>(photoreceptor.response().at(0.4));
-    const float black = 0;
-    float u1 = 0, y1 = 0, z1 = 0;
+    const float grey = 0.4f, black = 0;
+    const float before = photoreceptor.response(grey);
+    float y1 = 0, z1 = 0;
     unsigned char may_fire = 0;
     const float low = -100, high = 100;
     photoreceptor.advance({.size = 1,
+                           .luminance_before = &grey,
                            .luminance = &black,
                            .dt_s = nullptr,
                            .same_dt_s = 1e-6f,
-                           .u = &before,
                            .y = &before,
                            .z = &before,
-                           .u1 = &u1,
                            .y1 = &y1,
                            .z1 = &z1,
                            .low = &low,
