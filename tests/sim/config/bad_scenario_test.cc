@@ -56,6 +56,8 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:1:10: repeats is 1000001, but must be between 1 and 1000000."},
     {"NameOfTwoLines", "seed: 1\nname: \"a\\nb\"\n",
      "bad.yaml:2:7: name has a line break, a tab or another control character."},
+    {"DescriptionWithABell", "description: \"a\\ab\"\n",
+     "bad.yaml:1:14: description has a control character other than line break and tab."},
     {"NegativeSeed", "seed: -1\n",
      "bad.yaml:1:7: seed is -1, but must be between 0 and 18446744073709551615."},
     {"SeedBeyond64Bits", "seed: 18446744073709551616\n",
@@ -336,6 +338,19 @@ TEST(BadScenario, ALongListOfProblemsIsCut) {
   std::string yaml;
   for (int i = 0; i < 200; ++i) yaml += "nonsense_" + std::to_string(i) + ": 1\n";
   EXPECT_THAT(error_of(yaml), HasSubstr("bad.yaml: and 180 more problems."));
+}
+
+// What a campaign keeps has every value spelled out, and must be readable.
+TEST(BadScenario, MoreValuesThanCanBeReadAgainAreRefused) {
+  const auto speeds = [](int count) {
+    std::string values = "!uniform [1, 8]";
+    for (int i = 1; i < count; ++i) values += ", !uniform [1, 8." + std::to_string(i) + "]";
+    return "throw: {}\ngrid: {speed_mps: [" + values + "]}\n";
+  };
+  EXPECT_EQ(error_of(speeds(200)), "no error");
+  EXPECT_THAT(error_of(speeds(1640)),
+              ::testing::AllOf(HasSubstr("bad.yaml, with every value spelled out"),
+                               HasSubstr("5000 values")));
 }
 
 TEST(BadScenario, AnAliasBombIsRefusedWithoutBeingExpanded) {

@@ -141,6 +141,25 @@ TEST_F(OwnModels, ObjectsMustNotChangeTheWorldAroundThem) {
   }
 }
 
+// Throws, controller and IMU know of gravity, too.
+TEST_F(OwnModels, RoomsAndVehiclesMustNotChangeGravityAndAir) {
+  write_object(object("<geom size='0.1'/>"));
+  for (const std::string& file :
+       {"rooms/" + spec_.room + ".xml", "vehicles/" + spec_.vehicle + ".xml"}) {
+    const std::filesystem::path path = directory_ / file;
+    std::stringstream text;
+    text << std::ifstream(path).rdbuf();
+    std::string moon = text.str();
+    moon.insert(moon.rfind("</mujoco>"), "<option gravity='0 0 -1.62'/>");
+    std::filesystem::remove(path);
+    std::ofstream(path) << moon;
+    EXPECT_THAT(message_of(spec_), AllOf(HasSubstr(file), HasSubstr("must not use <option>")));
+    std::filesystem::remove(path);
+    std::ofstream(path) << text.str();
+  }
+  EXPECT_EQ(message_of(spec_), "no error");
+}
+
 TEST_F(OwnModels, BrokenFilesGiveOneSentenceWithTheFile) {
   const std::vector<std::string> broken = {
       "",
