@@ -1,6 +1,8 @@
 #include "dodge/avoid/avoider.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "dodge/check_ranges.h"
 
@@ -20,8 +22,11 @@ Eigen::Vector3d heading(const Eigen::Quaterniond& q_WB) {
 }
 
 bool acts(const TrackedObstacle& tracked) {
-  return tracked.confirmed && tracked.obstacle.v_WO.allFinite() &&
-         tracked.ellipsoid.centre_W.allFinite() && tracked.ellipsoid.semi_axes_m.allFinite();
+  const Obstacle& obstacle = tracked.obstacle;
+  return tracked.confirmed && obstacle.p_WO.allFinite() && obstacle.v_WO.allFinite() &&
+         std::isfinite(obstacle.size_m) && tracked.covariance.allFinite() &&
+         tracked.ellipsoid.centre_W.allFinite() && tracked.ellipsoid.axes_W.allFinite() &&
+         tracked.ellipsoid.semi_axes_m.allFinite();
 }
 
 }  // namespace
@@ -35,6 +40,7 @@ Avoider::Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attra
       predicts_(escape.law == "closest_approach") {
   check_ranges(attractive, "attractive.");
   check_ranges(limit, "velocity_limit.");
+  acting_.reserve(Tracker::kUsualObstacles);
 }
 
 VelocityCommand Avoider::command(TimeUs now, const StateEstimate& state, const Goal& goal,
@@ -46,21 +52,21 @@ VelocityCommand Avoider::command(TimeUs now, const StateEstimate& state, const G
 
   const Eigen::Vector3d attractive_W =
       attractive_force(attractive_, goal.speed_mps, goal.p_WG - vehicle.p_W);
+  acting_.clear();
+  std::copy_if(obstacles.begin(), obstacles.end(), std::back_inserter(acting_), acts);
   if (!predicts_) {
-    return velocity_command(limit_, now, repulsion(now, vehicle, obstacles), attractive_W);
+    return velocity_command(limit_, now, repulsion(now, vehicle), attractive_W);
   }
   const Want want{attractive_W, goal.p_WG};
-  if (const auto escape_W = escape_.escape(now, vehicle, want, obstacles)) {
+  if (const auto escape_W = escape_.escape(now, vehicle, want, acting_)) {
     return velocity_command(limit_, now, *escape_W, Eigen::Vector3d::Zero());
   }
   return velocity_command(limit_, now, Eigen::Vector3d::Zero(), attractive_W);
 }
 
-Eigen::Vector3d Avoider::repulsion(TimeUs now, const VehicleMotion& vehicle,
-                                   std::span<const TrackedObstacle> obstacles) const {
+Eigen::Vector3d Avoider::repulsion(TimeUs now, const VehicleMotion& vehicle) const {
   Eigen::Vector3d repulsive_W = Eigen::Vector3d::Zero();
-  for (const TrackedObstacle& tracked : obstacles) {
-    if (!acts(tracked)) continue;
+  for (const TrackedObstacle& tracked : acting_) {
     const Obstacle& obstacle = tracked.obstacle;
     Ellipsoid ellipsoid = tracked.ellipsoid;
     ellipsoid.centre_W += seconds(now - obstacle.t_us) * obstacle.v_WO;

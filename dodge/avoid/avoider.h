@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "dodge/avoid/attractive_field.h"
 #include "dodge/avoid/escape.h"
@@ -26,14 +27,14 @@ class Avoider {
                           std::span<const TrackedObstacle> obstacles);
 
  private:
-  Eigen::Vector3d repulsion(TimeUs now, const VehicleMotion& vehicle,
-                            std::span<const TrackedObstacle> obstacles) const;
+  Eigen::Vector3d repulsion(TimeUs now, const VehicleMotion& vehicle) const;
 
   RepulsiveField repulsive_;
   AttractiveConfig attractive_;
   VelocityLimitConfig limit_;
   EscapePlanner escape_;
   bool predicts_;
+  std::vector<TrackedObstacle> acting_;  // those of the last command that act
 };
 
 }  // namespace dodge

@@ -21,26 +21,29 @@ class FilteredSignal : public PixelSignal {
         order_(photoreceptor_.order()),
         leak_per_us_(leak_per_s * kSecondsPerUs),
         tolerance_(tolerance),
-        light_(pixels),
+        u_(pixels),
+        light_(order_ > 0 ? pixels : 0),
         y_(order_ > 0 ? pixels : 0),
         z_(order_ > 1 ? pixels : 0),
         low_(pixels),
         high_(pixels) {}
 
   void reset(const float* luminance) override {
+    for (std::size_t i = 0; i < u_.size(); ++i) u_[i] = photoreceptor_.response(luminance[i]);
     std::copy_n(luminance, light_.size(), light_.begin());
-    for (std::size_t i = 0; i < y_.size(); ++i) y_[i] = photoreceptor_.response(luminance[i]);
-    if (order_ > 1) z_ = y_;
+    if (order_ > 0) y_ = u_;
+    if (order_ > 1) z_ = u_;
   }
 
   void begin() override { curves_.clear(); }
 
   void scan(const RowPart& part, unsigned char* may_fire) override {
+    new_u_.resize(part.size);
     new_y_.resize(part.size);
     new_z_.resize(part.size);
     Photoreceptor::Row row{};
     row.size = part.size;
-    row.luminance_before = light_.data() + part.first;
+    row.luminance_before = order_ > 0 ? light_.data() + part.first : nullptr;
     row.luminance = part.luminance;
     double earliest_us = part.same_last_us;
     if (part.last_us != nullptr) {
@@ -51,8 +54,10 @@ class FilteredSignal : public PixelSignal {
     } else {
       row.same_dt_s = interval_s(part, 0);
     }
+    row.u = u_.data() + part.first;
     row.y = order_ > 0 ? y_.data() + part.first : nullptr;
     row.z = order_ > 1 ? z_.data() + part.first : nullptr;
+    row.u1 = new_u_.data();
     row.y1 = new_y_.data();
     row.z1 = new_z_.data();
     row.low = low_.data() + part.first;
@@ -66,7 +71,7 @@ class FilteredSignal : public PixelSignal {
 
   void take(const RowPart& part, std::span<const std::uint32_t> places,
             std::vector<Candidate>& candidates) override {
-    const std::vector<float>& now = order_ > 1 ? new_z_ : new_y_;
+    const std::vector<float>& now = order_ > 1 ? new_z_ : (order_ > 0 ? new_y_ : new_u_);
     for (const std::uint32_t i : places) {
       const std::size_t index = part.first + i;
       const double dt_s = kSecondsPerUs * (part.t_us - part.last_sample_us(i));
@@ -77,16 +82,17 @@ class FilteredSignal : public PixelSignal {
       candidate.t0_us = part.last_sample_us(i);
       candidate.s0 = before.z + leak_per_us_ * candidate.t0_us;
       candidate.s1 = static_cast<double>(now[i]) + leak_per_us_ * part.t_us;
-      const double u1 = photoreceptor_.response(part.luminance[i]);
-      const double slope_1s = (u1 - before.u) / dt_s;
-      const double light = 0.5 * (static_cast<double>(light_[index]) + part.luminance[i]);
+      const double slope_1s = (static_cast<double>(new_u_[i]) - before.u) / dt_s;
+      const double light =
+          order_ > 0 ? 0.5 * (static_cast<double>(light_[index]) + part.luminance[i]) : 0;
       candidate.rise_per_us = kSecondsPerUs * slope_1s + leak_per_us_;
       candidate.decay_per_us = decay_per_us(light);
       candidates.push_back(candidate);
-      if (order_ > 1) curves_.push_back({before, light, u1, dt_s, slope_1s});
+      if (order_ > 1) curves_.push_back({before, light, new_u_[i], dt_s, slope_1s});
     }
     const auto first = static_cast<std::ptrdiff_t>(part.first);
-    std::copy_n(part.luminance, part.size, light_.begin() + first);
+    std::copy_n(new_u_.begin(), part.size, u_.begin() + first);
+    if (order_ > 0) std::copy_n(part.luminance, part.size, light_.begin() + first);
     if (order_ > 0) std::copy_n(new_y_.begin(), part.size, y_.begin() + first);
     if (order_ > 1) std::copy_n(new_z_.begin(), part.size, z_.begin() + first);
   }
@@ -123,10 +129,11 @@ class FilteredSignal : public PixelSignal {
   }
 
   double rebase(std::size_t index, float luminance) override {
-    const float change =
-        photoreceptor_.response(luminance) - photoreceptor_.response(light_[index]);
+    const float u = photoreceptor_.response(luminance);
+    const float change = u - u_[index];
     const double before = charge(index).z;
-    light_[index] = luminance;
+    u_[index] = u;
+    if (order_ > 0) light_[index] = luminance;
     if (order_ > 0) y_[index] += change;
     if (order_ > 1) z_[index] += change;
     return charge(index).z - before;
@@ -147,7 +154,7 @@ class FilteredSignal : public PixelSignal {
 
   Charge charge(std::size_t index) const {
     Charge out;
-    out.u = photoreceptor_.response(light_[index]);
+    out.u = u_[index];
     out.y = order_ > 0 ? y_[index] : out.u;
     out.z = order_ > 1 ? z_[index] : out.y;
     return out;
@@ -161,11 +168,11 @@ class FilteredSignal : public PixelSignal {
   int order_;
   double leak_per_us_;
   double tolerance_;
-  // At each pixel's last sample; y_, z_ as far as the order goes.
-  std::vector<float> light_, y_, z_;
+  // At each pixel's last sample; y_, z_ as far as the order goes, light_ if there is a low-pass.
+  std::vector<float> u_, light_, y_, z_;
   std::vector<float> low_, high_;
   std::vector<float> dt_s_;
-  std::vector<float> new_y_, new_z_;  // of the part that was scanned last
+  std::vector<float> new_u_, new_y_, new_z_;  // of the part that was scanned last
   std::vector<Curve> curves_;
 };
 

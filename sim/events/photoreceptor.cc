@@ -87,17 +87,17 @@ template <int kOrder, bool kOwnTime>
   constexpr float kMax = std::numeric_limits<float>::max();
 #pragma GCC ivdep
   for (std::size_t i = 0; i < row.size; ++i) {
-    const float light_before = row.luminance_before[i], light = row.luminance[i];
-    const float u0 = c.response.at(light_before);
+    const float light = row.luminance[i];
+    const float u0 = row.u[i];  // not from the light before: a logarithm costs more than to read it
     const float u1 = c.response.at(light);
+    row.u1[i] = u1;
     float least = u0 < u1 ? u0 : u1;
     float most = u0 < u1 ? u1 : u0;
-    if constexpr (kOrder == 0) {
-      row.y1[i] = u1;
-    } else {
+    if constexpr (kOrder > 0) {
       const float dt_s = kOwnTime ? row.dt_s[i] : row.same_dt_s;
       const float y0 = row.y[i];
-      const float x1 = (c.dark_rad_s + c.rad_s * (0.5f * light_before + 0.5f * light)) * dt_s;
+      const float x1 =
+          (c.dark_rad_s + c.rad_s * (0.5f * row.luminance_before[i] + 0.5f * light)) * dt_s;
       const Decay<float> first = decay(x1);
       const float y1 = u1 + first.k * (y0 - u0) - first.m * (u1 - u0);
       row.y1[i] = y1;

@@ -52,8 +52,8 @@ class Photoreceptor {
     const float *luminance_before, *luminance;
     const float* dt_s;  // since each pixel's last sample; null: same_dt_s
     float same_dt_s;
-    const float *y, *z;  // before, as far as the order goes
-    float *y1, *z1;      // after; y1 is the response if the order is 0
+    const float *u, *y, *z;  // before; y and z as far as the order goes
+    float *u1, *y1, *z1;     // after
     // Bounds of z: a pixel whose z stays strictly between them makes no event.
     const float *low, *high;
     float leaked_before, leaked;  // what the leak has added to z before and after

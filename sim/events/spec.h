@@ -53,8 +53,7 @@ void EventCameraSpec::visit(Visitor& v) {
   v("preset", preset, {"sees1", "ideal", "noisy", "low_light"},
     "The camera from which the keys that are not given take their values. ideal: events are the "
     "crossings of log luminance and nothing else (all that is below is off, mismatch 0). "
-    "low_light: "
-    "sees1 at 5 lux. noisy, a worn or badly biased camera: photoreceptor_hz 300, "
+    "low_light: sees1 at 5 lux. noisy, a worn or badly biased camera: photoreceptor_hz 300, "
     "photoreceptor_dark_hz 30, refractory_us 500 and shot noise of 2.5 Hz each (v2e), "
     "hot_pixel_fraction 0.0012 (measured), mismatch_sigma 0.05, leak_hz 0.2, dead_pixel_fraction "
     "0.001 and jitter_us 50 (assumed).");
@@ -82,8 +81,8 @@ void EventCameraSpec::visit(Visitor& v) {
     "2008). 0: no limit.");
   v("photoreceptor_dark_hz", photoreceptor_dark_hz, 0.01, 1e6,
     "Cut-off that is left in the dark, to which the light's is added (assumed). Signals are kept "
-    "in single precision: below about "
-    "1 Hz what is sampled every few microseconds comes to rest too early.");
+    "in single precision: below about 1 Hz what is sampled every few microseconds comes to rest "
+    "too early.");
   v("follower_hz", follower_hz, 0, 1e6,
     "Cut-off of the source follower behind it, which does not depend on the light: both make "
     "the response second-order. 0: no follower.");

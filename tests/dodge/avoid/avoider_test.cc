@@ -37,6 +37,12 @@ VelocityCommand command_for(const RepulsiveConfig& config, const StateEstimate& 
   return Avoider(config, {}, {}, {}).command(state.t_us, state, goal, obstacles);
 }
 
+EscapeConfig by_law(const char* law) {
+  EscapeConfig config;
+  config.law = law;
+  return config;
+}
+
 struct Flight {
   double clearance_m = 0;          // least distance between the centres
   double clearance_without_m = 0;  // had the vehicle stayed where it was
@@ -134,10 +140,12 @@ TEST_P(EveryEscape, StaysFiniteAndWithinTheLimitForAnyInput) {
     }
     Goal goal;
     goal.p_WG = vector();
+    // The second law costs a hundred times as much.
+    const char* law = k % 20 == 0 ? "closest_approach" : "potential_field";
     const VelocityCommand command =
-        Avoider(config, {}, {}, {})
+        Avoider(config, {}, {}, by_law(law))
             .command(static_cast<TimeUs>(random.bits() % 1000000), state, goal, obstacles);
-    ASSERT_TRUE(command.v_W.allFinite()) << k;
+    ASSERT_TRUE(command.v_W.allFinite()) << k << " " << law;
     ASSERT_LE(command.v_W.norm(), 5 + 1e-9);
   }
 }
@@ -145,18 +153,25 @@ TEST_P(EveryEscape, StaysFiniteAndWithinTheLimitForAnyInput) {
 TEST_P(EveryEscape, ObstaclesThatAreNotFiniteDoNotAct) {
   Goal goal;
   goal.p_WG = {5, 0, 0};
-  Avoider with(GetParam(), {}, {}, {}), without(GetParam(), {}, {}, {});
-  const Vector3d expected = without.command(0, {}, goal, {}).v_W;
-  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-    for (int k = 0; k < 3; ++k) {
-      std::array<TrackedObstacle, 1> obstacles = {
-          known_obstacle(0, 0, {3, 0.1, 0}, {-6, 0, 0}, 0.2)};
-      if (k == 0) obstacles[0].obstacle.v_WO.y() = bad;
-      if (k == 1) obstacles[0].obstacle.p_WO.y() = obstacles[0].ellipsoid.centre_W.y() = bad;
-      if (k == 2) obstacles[0].ellipsoid.semi_axes_m.y() = bad;
-      const VelocityCommand command = with.command(0, {}, goal, obstacles);
-      EXPECT_EQ(command.v_W, expected) << k;
-      EXPECT_FALSE(command.evading) << k;
+  for (const char* law : {"potential_field", "closest_approach"}) {
+    const auto command = [&](const std::vector<TrackedObstacle>& obstacles) {
+      return Avoider(GetParam(), {}, {}, by_law(law)).command(0, {}, goal, obstacles);
+    };
+    const TrackedObstacle good = known_obstacle(0, 0, {2, 0.1, 0}, {-6, 0, 1.6}, 0.2);
+    const Vector3d alone = command({}).v_W, escape = command({good}).v_W;
+    ASSERT_TRUE(command({good}).evading) << law;
+    for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+      for (int k = 0; k < 5; ++k) {
+        TrackedObstacle tracked = good;
+        if (k == 0) tracked.obstacle.v_WO.y() = bad;
+        if (k == 1) tracked.obstacle.p_WO.y() = tracked.ellipsoid.centre_W.y() = bad;
+        if (k == 2) tracked.ellipsoid.semi_axes_m.y() = bad;
+        if (k == 3) tracked.covariance(0, 0) = bad;
+        if (k == 4) tracked.obstacle.size_m = bad;
+        EXPECT_EQ(command({tracked}).v_W, alone) << law << " " << k;
+        EXPECT_FALSE(command({tracked}).evading) << law << " " << k;
+        EXPECT_EQ(command({tracked, good}).v_W, escape) << law << " " << k;
+      }
     }
   }
 }
