@@ -331,6 +331,7 @@ void Flight::add_truth(const Snapshot& truth, const dodge::Detection& detection,
     record_.first_detection_us = row.output_us;
     record_.first_detection_t_us = row.t_us;
     record_.first_detection_distance_m = distance_m;
+    if (observer_ != nullptr) observer_->on_first_detection();
   }
   Sighting& sighting = record_.sightings[object];
   if (!sighting.first_us) sighting = {row.output_us, distance_m};

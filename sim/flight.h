@@ -52,6 +52,8 @@ class FlightObserver {
   virtual void on_state(const StateReading& /*reading*/) {}
   virtual void on_range(const RangeReading& /*reading*/) {}
   virtual void on_events(int /*camera*/, const Packet& /*packet*/) {}
+  // The cycle that on_cycle() tells of next is the first to detect a true object.
+  virtual void on_first_detection() {}
   virtual void on_cycle(TimeUs /*now_us*/, const dodge::Pilot& /*pilot*/) {}
   // A command of the pilot arrives at the controller.
   virtual void on_velocity(TimeUs /*now_us*/, const dodge::VelocityCommand& /*command*/) {}

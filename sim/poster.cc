@@ -82,8 +82,8 @@ void Poster::draw_scene(const World& world) {
 
 void Poster::on_cycle(TimeUs /*now_us*/, const dodge::Pilot& pilot) {
   const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);
-  if (dodger == nullptr || world_ == nullptr || detected_ || trail_.empty()) return;
-  detected_ = !pilot.detections().empty();
+  if (dodger == nullptr || world_ == nullptr || looked_last_ || trail_.empty()) return;
+  looked_last_ = detected_;
   if (!detected_ && nearest_m_ > kNearer * looked_at_m_) return;
   looked_at_m_ = nearest_m_;
   stages_ = stage_panels(*dodger, 0);

@@ -19,6 +19,7 @@ class Poster : public FlightObserver {
 
   void on_start(dodge::Pilot& pilot) override;
   void on_tick(const World& world) override;
+  void on_first_detection() override { detected_ = true; }
   void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
 
   // Throws IoError if the file cannot be written, ScenarioError if nothing was thrown. Of a pilot
@@ -34,7 +35,8 @@ class Poster : public FlightObserver {
   const World* world_ = nullptr;  // of the running flight
   double nearest_m_ = 1e9;        // of the object so far
   double looked_at_m_ = 1e9;      // the same when the pilot was looked at last
-  bool detected_ = false;
+  bool detected_ = false;         // a true object
+  bool looked_last_ = false;      // at the pilot, of what it has detected
   cv::Mat3b scene_;               // at the closest approach
   cv::Mat3b luminance_, stages_;  // at the first detection; without one, near the closest approach
 };

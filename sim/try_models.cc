@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <vector>
 
 #include "sim/base/error.h"
@@ -15,6 +16,7 @@
 #include "sim/config/expand.h"
 #include "sim/config/numbers.h"
 #include "sim/config/pilot.h"
+#include "sim/flight.h"
 #include "sim/render/scene_geometry.h"
 #include "sim/world/model_trial.h"
 #include "sim/world/models_digest.h"
@@ -29,8 +31,10 @@ constexpr double kTrialSizeM = 0.2;
 struct Trial {
   WorldSpec world;
   std::vector<VehicleStart> starts;
-  double min_thrust_n = 0;  // the greatest idle thrust of a rotor
-  bool seen = false;        // by a pilot's cameras
+  double min_thrust_n = 0;         // the greatest idle thrust of a rotor
+  bool seen = false;               // by a pilot's cameras
+  bool stereo = false;             // both of which it needs
+  double max_thrust_fraction = 1;  // the least
 };
 
 // The same for worlds that the same trial serves.
@@ -47,7 +51,8 @@ std::string description(const WorldSpec& world) {
 std::string description(const Trial& trial) {
   std::ostringstream text;
   text.precision(17);
-  text << description(trial.world) << ' ' << trial.min_thrust_n << ' ' << trial.seen;
+  text << description(trial.world) << ' ' << trial.min_thrust_n << ' ' << trial.seen << ' '
+       << trial.stereo << ' ' << trial.max_thrust_fraction;
   for (const VehicleStart& start : trial.starts) {
     text << ' ' << start.p_W.transpose() << ' ' << start.heading_rad;
   }
@@ -78,7 +83,11 @@ std::vector<Trial> trials_of(const Scenario& campaign) {
       Trial& trial = trials.try_emplace(description(world), Trial{world, {}}).first->second;
       add_start(scenario.mission, trial.starts);
       trial.min_thrust_n = std::max(trial.min_thrust_n, scenario.motors.min_thrust_n);
-      trial.seen |= perceives(scenario.pilot);
+      const bool seen = perceives(scenario.pilot);
+      trial.seen |= seen;
+      trial.stereo |= seen && scenario.dodger.position.depth == "stereo";
+      trial.max_thrust_fraction =
+          std::min(trial.max_thrust_fraction, scenario.controller.max_thrust_fraction);
       for (const ThrowSpec& spec : scenario.throw_specs()) {
         kinds.insert(spec.object.names.begin(), spec.object.names.end());
       }
@@ -91,6 +100,21 @@ std::vector<Trial> trials_of(const Scenario& campaign) {
     all.push_back(trial);
   }
   return all;
+}
+
+// Whether the flight core can use the cameras.
+void check_stereo(const World& world, const Trial& trial) {
+  Scenario scenario;
+  scenario.vehicle_overrides = trial.world.vehicle_overrides;
+  dodge::Config config;
+  config.position.depth = "stereo";
+  config.cameras = camera_models(scenario, world.vehicle());
+  try {
+    dodge::validate(config);
+  } catch (const std::invalid_argument& error) {
+    throw ScenarioError(trial.world.models_dir + "/vehicles/" + trial.world.vehicle +
+                        ".xml: " + error.what());
+  }
 }
 
 void check_world(const World& world, const Trial& trial) {
@@ -106,6 +130,14 @@ void check_world(const World& world, const Trial& trial) {
                         ", but must be less than a quarter of the vehicle's weight, which is " +
                         to_text(weight_n / 4) + " N: idling rotors would lift it.");
   }
+  const double lift = 4 * trial.max_thrust_fraction * most_n / weight_n;
+  if (lift < kLeastLift) {
+    throw ScenarioError("controller.max_thrust_fraction is " + to_text(trial.max_thrust_fraction) +
+                        ", with which the rotors lift only " + std::to_string(lift) +
+                        " times the vehicle's weight; it needs at least " + to_text(kLeastLift) +
+                        " to fly (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
+  }
+  if (trial.stereo) check_stereo(world, trial);
   if (!trial.seen) return;
   collect_scene(world.model(), world.object_bodies(), false);
 }

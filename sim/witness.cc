@@ -48,11 +48,7 @@ bool Witness::in_view(const World& world, std::size_t object) const {
     const Eigen::Isometry3d& X_BC = world.vehicle().X_BC[static_cast<std::size_t>(camera)];
     const Eigen::Vector3d p_C = (now.vehicle.pose() * X_BC).inverse() * now.objects[object].p_W;
     if (p_C.z() <= 0 || setup_.intrinsics.f * diameter_m < p_C.z()) continue;
-    const Eigen::Vector2d pixel = setup_.intrinsics.project(p_C);
-    if (pixel.x() >= -0.5 && pixel.x() < setup_.intrinsics.width - 0.5 && pixel.y() >= -0.5 &&
-        pixel.y() < setup_.intrinsics.height - 0.5) {
-      return true;
-    }
+    if (setup_.intrinsics.contains(setup_.intrinsics.project(p_C))) return true;
   }
   return false;
 }

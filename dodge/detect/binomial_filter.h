@@ -1,5 +1,5 @@
 // Averaging of an image by a square binomial kernel: a row of Pascal's triangle, normalised, along
-// x and along y.
+// x and along y. Not cv::GaussianBlur, which allocates in every call.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -1,5 +1,5 @@
 // The smallest rectangle around points in the image: convex hull by monotone chains (Andrew 1979),
-// then rotating calipers (Toussaint 1983).
+// then rotating calipers (Toussaint 1983). Not cv::minAreaRect, which allocates in every call.
 #pragma once
 
 #include <algorithm>

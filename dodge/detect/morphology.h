@@ -1,4 +1,5 @@
-// Erosion and dilation of an image by a square, for masks that are nearly empty.
+// Erosion and dilation of an image by a square, for masks that are nearly empty. Not cv::erode and
+// cv::dilate, which allocate in every call.
 #pragma once
 
 #include <cstdint>

@@ -27,10 +27,7 @@ bool TruthPilot::sees(const Snapshot& truth, std::size_t object) const {
   const OracleSpec& oracle = setup_.oracle;
   if (oracle.range_cap_m > 0 && p_C.norm() > oracle.range_cap_m) return false;
   if (!oracle.field_of_view) return true;
-  if (p_C.z() <= 0) return false;
-  const Eigen::Vector2d pixel = setup_.intrinsics.project(p_C);
-  return pixel.x() >= -0.5 && pixel.x() < setup_.intrinsics.width - 0.5 && pixel.y() >= -0.5 &&
-         pixel.y() < setup_.intrinsics.height - 0.5;
+  return p_C.z() > 0 && setup_.intrinsics.contains(setup_.intrinsics.project(p_C));
 }
 
 void TruthPilot::see(const Snapshot& truth) {

@@ -213,6 +213,14 @@ Json section_of(const Part& part, const ReportAxes& axes) {
           {"detected", rate_of(all.detected)}, {"false_alarms", rate_of(all.false_alarms)}};
 }
 
+// What flies a throw again, but for its number. A campaign that was read back does not say where
+// its models are.
+std::string replay_line(const std::string& directory, const std::string& models_dir) {
+  std::string line = "dodgesim replay " + shell_quoted(directory);
+  if (!models_dir.empty()) line += " --models " + shell_quoted(models_dir);
+  return line + " --throw ";
+}
+
 Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
   const Scenario& scenario = campaign.scenario;
   const std::vector<ThrowResult>& results = campaign.results;
@@ -242,7 +250,7 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
           {"program", "dodgesim " + campaign.program},
           {"wanted", campaign.wanted()},
           {"stop", campaign.stop ? campaign.stop->text() : ""},
-          {"replay", "dodgesim replay " + shell_quoted(directory) + " --throw "},
+          {"replay", replay_line(directory, scenario.models_dir)},
           {"real_time_factor", computing_s > 0 ? simulated_s / computing_s : 0.0},
           {"heat", std::move(heat)},
           {"cells", {{"keys", std::move(grid_keys)}, {"values", axes.cells}}},

@@ -16,9 +16,9 @@ namespace {
 
 constexpr double kReferenceFiner = 8;
 constexpr double kLeastEvents = 300;  // of a throw, to be judged by itself
-// How exact the events of an object must be, and those of the room, which the defaults sample more
-// coarsely for the sake of speed.
-constexpr double kObjectCountLimit = 0.01, kObjectStampLimitUs = 50;
+// How exact events are meant to be, as those of an object must. Those of the room, which the
+// defaults sample more coarsely for the sake of speed, may miss that by so much.
+constexpr double kTargetCount = 0.01, kTargetStampUs = 50;
 constexpr double kSceneCountLimit = 0.025, kSceneStampLimitUs = 125;
 constexpr const char* kRoom = "room";
 constexpr const char* kVehicle = "qav_rxl";
@@ -89,6 +89,11 @@ SamplingVariant changed(const std::string& name, const std::function<void(Sampli
   SamplingVariant variant{name, {}, {}};
   f(variant);
   return variant;
+}
+
+// Behind the limit of the last line: the target, and whether it is met.
+void say_target(Check& check, bool met, const std::string& target) {
+  check.lines.back().expected += "; target " + target + (met ? ": met" : ": missed");
 }
 
 std::string number(const char* format, double value) {
@@ -213,16 +218,20 @@ Check judge(const std::vector<SamplingResult>& results) {
       "Random throws in the room with a vehicle that moves and turns as it is told, half of "
       "them at 5 rad/s, half of the balls entering the view from the side. Events against "
       "those of a camera that is sampled eight times finer and for which every picture is "
-      "drawn anew. Noise and jitter are off.",
+      "drawn anew. Counts are to be within 1 % and stamps within 50 us; the limits of the scene, "
+      "which is sampled more coarsely for the sake of speed, are wider than that target. Noise and "
+      "jitter are off.",
       {},
       {}};
   const SamplingAccuracy& object = results.front().object;
   const SamplingAccuracy& scene = results.front().scene;
-  check.within("sampling.object.count", object.count_ratio(), 1, kObjectCountLimit, "of reference",
-               4);
-  check.between("sampling.object.stamps", object.median_us, 0, kObjectStampLimitUs, "us", 1);
+  check.within("sampling.object.count", object.count_ratio(), 1, kTargetCount, "of reference", 4);
+  check.between("sampling.object.stamps", object.median_us, 0, kTargetStampUs, "us", 1);
   check.within("sampling.scene.count", scene.count_ratio(), 1, kSceneCountLimit, "of reference", 4);
+  say_target(check, std::abs(scene.count_ratio() - 1) <= kTargetCount,
+             "+- " + quantity_text(kTargetCount, 4, ""));
   check.between("sampling.scene.stamps", scene.median_us, 0, kSceneStampLimitUs, "us", 1);
+  say_target(check, scene.median_us <= kTargetStampUs, quantity_text(kTargetStampUs, 1, "us"));
   return check;
 }
 

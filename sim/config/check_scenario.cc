@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "sim/base/time.h"
+#include "sim/base/utf8.h"
 #include "sim/config/expand.h"
 #include "sim/config/numbers.h"
 #include "sim/sensors/sample_clock.h"
@@ -29,18 +30,30 @@ Eigen::Matrix3d looking_forward() {
   return R_BC;
 }
 
+// Adds the complaint if a text has a control character, of ASCII or of Latin-1 (U+0080 to U+009F),
+// that is not allowed.
+void check_text(const std::string& key, const std::string& text, std::string_view allowed,
+                const std::string& complaint, ReadContext& context) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < text.size(); i += length) {
+    length = utf8_length(std::string_view(text).substr(i));
+    if (length == 0) {
+      return context.problems.add(position_of(context, key), key + " is not UTF-8 text.");
+    }
+    const bool control =
+        byte(i) < 0x20 || byte(i) == 0x7f || (length == 2 && byte(i) == 0xc2 && byte(i + 1) < 0xa0);
+    if (!control || allowed.find(text[i]) != std::string_view::npos) continue;
+    return context.problems.add(position_of(context, key), key + complaint);
+  }
+}
+
 // A name is the title of tables; a description may have lines.
 void check_texts(const Scenario& scenario, ReadContext& context) {
-  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  const auto odd = [&](unsigned char c) { return control(c) && c != '\n' && c != '\t'; };
-  if (std::any_of(scenario.name.begin(), scenario.name.end(), control)) {
-    context.problems.add(position_of(context, "name"),
-                         "name has a line break, a tab or another control character.");
-  }
-  if (std::any_of(scenario.description.begin(), scenario.description.end(), odd)) {
-    context.problems.add(position_of(context, "description"),
-                         "description has a control character other than line break and tab.");
-  }
+  check_text("name", scenario.name, "", " has a line break, a tab or another control character.",
+             context);
+  check_text("description", scenario.description, "\n\t",
+             " has a control character other than line break and tab.", context);
 }
 
 // A key that one type of mission needs, and the others must not have.

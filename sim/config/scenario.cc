@@ -86,10 +86,10 @@ Scenario read(const std::string& text, const std::string& file, const std::strin
     for (const Preset& preset : kPresets) check_preset(preset, alone, root, context);
   }
   context.problems.raise_if_any();
+  if (scenario.name.empty()) scenario.name = std::filesystem::path(file).stem().string();
   check_scenario(scenario, context);
   context.problems.raise_if_any();
   for (const auto& [key, at] : context.where) scenario.places[key] = context.problems.place(at);
-  if (scenario.name.empty()) scenario.name = std::filesystem::path(file).stem().string();
   check_resolved(scenario, file);
   return scenario;
 }

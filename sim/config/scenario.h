@@ -127,7 +127,7 @@ struct ThrowSpec {
       "each of the two.");
     v("spin_radps", spin_radps, -200, 200,
       "Rotation of the object: a rate about a random axis, or [x, y, z] in the world. It leaves "
-      "the hand with its axes along the world's.");
+      "the hand with its axes along the world's, whatever the bearing.");
     v("launch_height_m", launch_height_m, 0.05, 10,
       "Height of the hand (z of the world) when it lets go.");
     v("launch_s", launch_s, 0.1, 600, "Time of the launch after the start of the flight.");

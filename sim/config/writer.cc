@@ -1,5 +1,8 @@
 #include "sim/config/writer.h"
 
+#include <array>
+#include <cstdio>
+
 #include "sim/config/numbers.h"
 
 namespace dodgesim {
@@ -28,6 +31,15 @@ std::string name_text(const std::string& name) {
   return letter && !null ? name : in_quotes(name);
 }
 
+// A character within quotes; one of the control characters as \x07.
+std::string quoted_character(char c) {
+  const bool control = (c >= 0 && c < 0x20) || c == 0x7f;
+  if (!control) return {c};
+  std::array<char, 5> text{};
+  std::snprintf(text.data(), text.size(), "\\x%02x", static_cast<unsigned>(c));
+  return text.data();
+}
+
 }  // namespace
 
 std::string in_quotes(const std::string& text) {
@@ -49,7 +61,7 @@ std::string in_quotes(const std::string& text) {
         quoted += "\\t";
         break;
       default:
-        quoted += c;
+        quoted += quoted_character(c);
     }
   }
   return quoted + "\"";

@@ -40,7 +40,7 @@ EventCameraSpec noisy() {
 
 EventCameraSpec low_light() {
   EventCameraSpec spec;
-  spec.illuminance_lux = 5;  // a street at night; a hundredth of an office
+  spec.illuminance_lux = 5;  // assumed: a street at night; a hundredth of an office
   return spec;
 }
 

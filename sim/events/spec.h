@@ -51,12 +51,16 @@ template <class Visitor>
 void EventCameraSpec::visit(Visitor& v) {
   const std::string before = preset;
   v("preset", preset, {"sees1", "ideal", "noisy", "low_light"},
-    "The camera from which the keys that are not given take their values. ideal: events are the "
-    "crossings of log luminance and nothing else (all that is below is off, mismatch 0). "
-    "low_light: sees1 at 5 lux. noisy, a worn or badly biased camera: photoreceptor_hz 300, "
-    "photoreceptor_dark_hz 30, refractory_us 500 and shot noise of 2.5 Hz each (v2e), "
-    "hot_pixel_fraction 0.0012 (measured), mismatch_sigma 0.05, leak_hz 0.2, dead_pixel_fraction "
-    "0.001 and jitter_us 50 (assumed).");
+    "The camera from which the keys that are not given take their values. sees1: the defaults of "
+    "these keys; the others are as sees1 but for what is named. ideal: events are the crossings of "
+    "log luminance and nothing else, with mismatch_sigma 0, photoreceptor_hz 0, refractory_us 0, "
+    "leak_hz 0, shot_noise_on_hz 0, shot_noise_off_hz 0, hot_pixel_fraction 0, "
+    "dead_pixel_fraction 0, latency_us 0, jitter_us 0 and readout_max_hz 0. low_light: "
+    "illuminance_lux 5 (a street at night; assumed). noisy, a worn or badly biased camera: "
+    "photoreceptor_hz 300 (v2e's clean camera; its noisy one has 30 to 70), photoreceptor_dark_hz "
+    "30, refractory_us 500, shot_noise_on_hz 2.5 and shot_noise_off_hz 2.5 (v2e), "
+    "hot_pixel_fraction 0.0012 (measured on a VGA-lite sensor), mismatch_sigma 0.05, leak_hz 0.2, "
+    "dead_pixel_fraction 0.001 and jitter_us 50 (assumed).");
   if (preset != before) *this = event_camera_preset(preset);
   v("contrast_threshold_on", contrast_threshold_on, 0.01, 10,
     "Change of log luminance that makes an ON event (v2e and vid2e: 0.2).");
@@ -73,12 +77,13 @@ void EventCameraSpec::visit(Visitor& v) {
     "there (v2e does so near black). 0: logarithmic everywhere.");
   v("illuminance_lux", illuminance_lux, 1e-3, 2e5,
     "Illuminance of the scene: a white surface under it has luminance 1 (500: a lit office; "
-    "assumed). It decides on bandwidth and shot noise alone: the dark current that hides contrasts "
-    "below about a lux is not modelled.");
+    "assumed). It acts by the bandwidth and the rates of shot noise alone. The dark current, the "
+    "loss of contrast due to it and the shot noise of the few photons below about a lux are not "
+    "modelled: results below some lux mean little.");
   v("photoreceptor_hz", photoreceptor_hz, 0, 1e6,
-    "Cut-off of the photoreceptor's low-pass where 1000 lux fall on white, in proportion to the "
-    "light, on top of photoreceptor_dark_hz (assumed: some kHz, as the DVS of Lichtsteiner et al. "
-    "2008). 0: no limit.");
+    "What the cut-off of the photoreceptor's low-pass grows by where 1000 lux fall on white, in "
+    "proportion to the light; photoreceptor_dark_hz is added (assumed: some kHz, as the DVS of "
+    "Lichtsteiner et al. 2008). 0: no such low-pass, whatever photoreceptor_dark_hz is.");
   v("photoreceptor_dark_hz", photoreceptor_dark_hz, 0.01, 1e6,
     "Cut-off that is left in the dark, to which the light's is added (assumed). Signals are kept "
     "in single precision: below about 1 Hz what is sampled every few microseconds comes to rest "
@@ -91,8 +96,9 @@ void EventCameraSpec::visit(Visitor& v) {
   v("leak_hz", leak_hz, 0, 1000,
     "Mean rate of ON events of a pixel at rest, due to the leak of its reference (v2e: 0.1). Any "
     "other event of the pixel, of noise too, starts its leak anew, so with shot noise fewer come. "
-    "With any leak pixels start as after a long rest: their references lie evenly from the first "
-    "frame down to a threshold below it. With 0 the first frame is the reference.");
+    "With 0 the first frame sets the references. With any leak, however small, each starts below "
+    "it, by a random share, anywhere from 0 to 1, of the pixel's ON threshold, as after a long "
+    "rest: the first events, and with them those of a short film, are not those without a leak.");
   v("shot_noise_on_hz", shot_noise_on_hz, 0, 1000,
     "Rate of ON events of every pixel in the dark, due to shot noise (measured on a DVXplorer).");
   v("shot_noise_off_hz", shot_noise_off_hz, 0, 1000,

@@ -19,6 +19,11 @@ struct Intrinsics {
   Eigen::Vector2d project(const Eigen::Vector3d& p_C) const {
     return {f * p_C.x() / p_C.z() + cx(), f * p_C.y() / p_C.z() + cy()};
   }
+
+  // Whether a point of the image plane [px] is on a pixel.
+  bool contains(const Eigen::Vector2d& p) const {
+    return p.x() >= -0.5 && p.x() < width - 0.5 && p.y() >= -0.5 && p.y() < height - 0.5;
+  }
 };
 
 // Focal length for a horizontal field of view [deg] over `width` pixels.

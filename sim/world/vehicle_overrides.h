@@ -33,7 +33,7 @@ struct VehicleOverrides {
       "lift at least 1.2 times the weight.");
     v("stereo_baseline_m", stereo_baseline_m, 0, 1,
       "Distance between the two cameras, each moved as far from their middle, which stays; the "
-      "pilot's calibration has it, too. 0: as in the model.");
+      "pilot's calibration has it, too. The hull stays as it is. 0: as in the model.");
     v("lower_camera_turn_deg", lower_camera_turn_deg, -5, 5,
       "An error of calibration: the lower camera is turned about its own axes (right, down, "
       "ahead), "

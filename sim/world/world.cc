@@ -171,7 +171,6 @@ void World::read_vehicle(const VehicleOverrides& overrides) {
   }
   vehicle_.drag_kh_1pm = numeric("rotor_drag_kh_1pm", 0, 1) / overrides.mass_scale;
   vehicle_.drag_1ps /= overrides.mass_scale;  // accelerations by the same forces
-  constexpr double kLeastLift = 1.2;
   const double lift = 4 * vehicle_.max_thrust_n / (vehicle_.mass_kg * kGravityMps2);
   if (lift < kLeastLift) {
     throw ScenarioError(label_ + ": the rotors lift only " + std::to_string(lift) +

@@ -20,6 +20,8 @@
 
 namespace dodgesim {
 
+// What the rotors must lift at least to fly, in weights of the vehicle.
+inline constexpr double kLeastLift = 1.2;
 inline constexpr double kAirDensityKgpm3 = 1.2;  // dry air at 20 degrees C, 1013 hPa
 
 // A thrown object's constants at its size.

@@ -45,6 +45,10 @@ TEST(CheckSensorCommand, RefusesWhatItCannotDo) {
   EXPECT_EQ(dodgesim("check-sensor --camera none").exit_code, 2);
   const std::string wrong = put(directory / "camera.yaml", "contrast: 1\n");
   EXPECT_EQ(dodgesim("check-sensor --camera " + wrong).exit_code, 2);
+  const Outcome both =
+      dodgesim("check-sensor --sampling 1 --out " + (directory / "report").string());
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.output, HasSubstr("excludes"));
   const std::string file = put(directory / "file", "");
   const Outcome outcome = dodgesim("check-sensor --camera ideal --out " + file);
   EXPECT_EQ(outcome.exit_code, 4) << outcome.output;

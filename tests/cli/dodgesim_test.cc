@@ -19,6 +19,7 @@ using dodgesim::testing::contents;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 const fs::path kSource = DODGESIM_SOURCE_DIR;
 
@@ -197,6 +198,20 @@ TEST_F(DodgesimTest, ReportsOutputThatCannotBeWritten) {
   EXPECT_EQ(no_directory.exit_code, 4) << no_directory.output;
   EXPECT_THAT(no_directory.output, HasSubstr("/dev/null/x could not be created"));
   EXPECT_EQ(dodgesim("replay " + root_.string() + " --throw 0").exit_code, 2);
+}
+
+TEST_F(DodgesimTest, ReportsPathsThatCannotBeUsed) {
+  const std::string loop = (root_ / "loop").string();
+  fs::create_symlink(loop, loop);
+  const std::string scenario = file("pilot: none\n");
+  for (const std::string& command :
+       {"compare " + loop + " " + loop,
+        "gate " + scenario + " --baseline " + loop + " --out " + (root_ / "out").string()}) {
+    const Outcome outcome = dodgesim(command);
+    EXPECT_EQ(outcome.exit_code, 4) << command << "\n" << outcome.output;
+    EXPECT_THAT(outcome.output, StartsWith(loop)) << command;
+    EXPECT_THAT(outcome.output, HasSubstr("could not be used: Too many levels of symbolic links."));
+  }
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ using dodgesim::testing::npy_array;
 using dodgesim::testing::Outcome;
 using dodgesim::testing::put;
 using dodgesim::testing::random_film;
+using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -246,6 +247,75 @@ TEST_F(EmulateTest, EveryEventIsWrittenLostOrNotYetOut) {
         << summary;
   }
   EXPECT_GT(all, 1000);
+}
+
+TEST_F(EmulateTest, SaysWhyEventsHappened) {
+  const std::string camera =
+      put(root_ / "camera.yaml",
+          "leak_hz: 100\nshot_noise_on_hz: 200\nhot_pixel_fraction: 0.2\nhot_pixel_hz: 1000\n");
+  const auto written = [&](const std::string& options, const std::string& file) {
+    const std::string out = (root_ / file).string();
+    const Outcome outcome = emulate("--camera " + options + " --out " + out);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("video: 100 frames of 19 x 7 px"));
+    return contents(out);
+  };
+  std::istringstream with(written(camera + " --causes", "with.txt"));
+  std::istringstream without(written(camera, "without.txt"));
+  std::map<int, int> causes;
+  std::string bytes;
+  for (std::string line, expected; std::getline(with, line);) {
+    const std::size_t last = line.rfind(' ');
+    ASSERT_TRUE(std::getline(without, expected));
+    ASSERT_EQ(line.substr(0, last), expected);
+    const int cause = std::stoi(line.substr(last));
+    ++causes[cause];
+    bytes += static_cast<char>(cause);
+  }
+  EXPECT_FALSE(std::getline(without, out_));
+  for (const int cause : {0, 253, 254, 255}) EXPECT_GT(causes[cause], 100) << cause;
+  EXPECT_EQ(causes.size(), 4u);
+
+  const std::string npy = written(camera + " --causes", "with.npy");
+  EXPECT_THAT(npy, HasSubstr("('cause', '|u1')"));
+  constexpr std::size_t kRecord = 14;
+  const std::size_t front = npy.size() - kRecord * bytes.size();
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    ASSERT_EQ(npy.at(front + kRecord * i + kRecord - 1), bytes[i]) << i;
+  }
+  EXPECT_THAT(written(camera, "without.npy"), Not(HasSubstr("cause")));
+  EXPECT_THAT(written(camera + " --causes", "with.h5"), HasSubstr("cause"));
+  EXPECT_THAT(written(camera, "without.h5"), Not(HasSubstr("cause")));
+
+  std::istringstream ideal(written("ideal --causes", "ideal.txt"));
+  for (std::string line; std::getline(ideal, line);) ASSERT_THAT(line, EndsWith(" 0"));
+  EXPECT_THAT(dodgesim::testing::dodgesim("emulate --help").output,
+              AllOf(HasSubstr("--causes"), HasSubstr("253 the leak"), HasSubstr("events/cause")));
+}
+
+// Half a threshold up makes an ON event where the reference starts in the lower half, and a
+// threshold down makes no OFF event where it starts below.
+TEST_F(EmulateTest, AnyLeakPutsTheFirstReferencesAnywhereUpToAThresholdBelowTheFirstFrame) {
+  const auto events = [this](double step, const std::string& leak_hz) {
+    std::vector<float> luminance(2 * kPixels, 0.5f);
+    std::fill(luminance.begin() + kPixels, luminance.end(),
+              static_cast<float>(0.501 * std::exp(step) - 0.001));
+    put(root_ / "f.npy", npy_array("<f4", luminance, kHeight, kWidth));
+    put(root_ / "t.npy", npy_array("<i8", std::vector<std::int64_t>{0, 1000}));
+    const std::string camera =
+        put(root_ / "camera.yaml", "preset: ideal\nleak_hz: " + leak_hz + "\n");
+    EXPECT_EQ(emulate("--camera " + camera + " --out " + out_).exit_code, 0);
+    const std::string text = contents(out_);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  constexpr auto kAll = static_cast<double>(kPixels);
+  EXPECT_EQ(events(0.1, "0"), 0);
+  EXPECT_NEAR(static_cast<double>(events(0.1, "1e-6")), 0.5 * kAll, 0.15 * kAll);
+  EXPECT_EQ(events(-0.21, "0"), kPixels);
+  EXPECT_LT(static_cast<double>(events(-0.21, "1e-6")), 0.15 * kAll);
+  for (const char* text : {"emulate --help", "explain sensors.events.leak_hz"}) {
+    EXPECT_THAT(dodgesim::testing::dodgesim(text).output, HasSubstr("random share")) << text;
+  }
 }
 
 TEST_F(EmulateTest, WritesValidFilesWithoutEvents) {

@@ -65,7 +65,9 @@ TEST_F(ReportCommandTest, APageOpensWithoutErrorsAndShowsChartsAndAThrow) {
   EXPECT_THAT(dom, HasSubstr("class=\"band\""));                  // a curve with its band
   EXPECT_THAT(dom, HasSubstr("class=\"bar\""));                   // a histogram
   EXPECT_THAT(dom, HasSubstr("<h2 id=\"throw-title\">Throw 2</h2>"));
-  EXPECT_THAT(dom, HasSubstr("dodgesim replay " + path("out") + " --throw 2 --video throw2.mp4"));
+  EXPECT_THAT(dom,
+              HasSubstr("dodgesim replay " + path("out") +
+                        " --models " DODGESIM_SOURCE_DIR "/models --throw 2 --video throw2.mp4"));
   EXPECT_THAT(dom, HasSubstr(">launch 0.300 s</button>"));
 }
 
@@ -121,6 +123,19 @@ TEST_F(ReportCommandTest, APilotWithoutCamerasHasNoEventsToReplay) {
   EXPECT_EQ(outcome.output, "--events " + path("events.h5") +
                                 ": the pilot of throw 1 is oracle, which flies without cameras.\n");
   EXPECT_FALSE(fs::exists(root_ / "events.h5"));
+}
+
+TEST_F(ReportCommandTest, AReplayWithOtherModelsIsRefused) {
+  const fs::path models = root_ / "models";
+  fs::copy(DODGESIM_SOURCE_DIR "/models", models, fs::copy_options::recursive);
+  const std::string replay = "replay " + path("out") + " --throw 1 --models " + models.string();
+  EXPECT_EQ(dodgesim(replay).exit_code, 0) << "they are the same";
+  std::string ball = contents(models / "objects/ball.xml");
+  ball.insert(ball.find("mass=\"") + 6, "1");
+  std::ofstream(models / "objects/ball.xml") << ball;
+  const Outcome outcome = dodgesim(replay);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr(path("out") + " holds results of other models"));
 }
 
 int count_of(const std::string& text, const std::string& part) {

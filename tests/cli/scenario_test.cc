@@ -186,11 +186,43 @@ TEST_F(ScenarioCommandTest, RoomsThatNoCameraCanSeeAndRotorsThatAreTooWeakAreUsa
   EXPECT_THAT(lifted.output, HasSubstr("a quarter of the vehicle's weight, which is 2.45"));
 }
 
+TEST_F(ScenarioCommandTest, CamerasThatStereoCannotUseAreUsageErrors) {
+  fs::copy(DODGESIM_SOURCE_DIR "/models", root_ / "models", fs::copy_options::recursive);
+  const std::string upright = contents("models/vehicles/qav_rxl.xml");
+  const std::string oblique =
+      std::regex_replace(upright, std::regex("\"top\" pos=\"0.12 0 "), "\"top\" pos=\"0.12 0.05 ");
+  ASSERT_NE(oblique, upright);
+  write("models/vehicles/qav_rxl.xml", oblique);
+  const auto command = [&](const std::string& name, const std::string& settings) {
+    return dodgesim(name + " " + path("s.yaml") + " --models " + path("models") + settings);
+  };
+  EXPECT_EQ(command("validate", "").exit_code, 0) << "nobody looks through them";
+  const std::string mono = " --set pilot=dodgesim --set dodger.position.depth=mono";
+  EXPECT_EQ(command("validate", mono).exit_code, 0);
+  for (const std::string name : {"validate", "run --out x"}) {
+    const Outcome refused = command(name, " --set pilot=dodgesim");
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.output,
+                ::testing::StartsWith(path("models/vehicles/qav_rxl.xml: Stereo needs the second "
+                                           "camera straight below the first")));
+  }
+  EXPECT_FALSE(fs::exists("x"));
+}
+
 TEST_F(ScenarioCommandTest, AVehicleThatCannotFlyIsRefusedBeforeTheCampaign) {
   const Outcome refused =
       dodgesim("validate " + path("s.yaml") + " --set vehicle_overrides.mass_scale=9");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.output, HasSubstr("times the vehicle's weight"));
+
+  const std::string held = "validate " + path("s.yaml") +
+                           " --set vehicle_overrides.mass_scale=2.5"
+                           " --set controller.max_thrust_fraction=";
+  EXPECT_EQ(dodgesim(held + "0.9").exit_code, 0);
+  const Outcome weak = dodgesim(held + "0.7");
+  EXPECT_EQ(weak.exit_code, 2);
+  EXPECT_THAT(weak.output, HasSubstr("=0.7: controller.max_thrust_fraction is 0.7, with which the "
+                                     "rotors lift only 1.08"));
 }
 
 }  // namespace

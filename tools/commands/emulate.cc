@@ -28,9 +28,11 @@ constexpr const char* kEmulateFooter =
   noisy      a worn or badly biased one
   low_light  sees1 at 5 lux instead of 500
   FILE.yaml  keys of a scenario's sensors.events at its root, "preset: ideal" among them
-I is the luminance; between frames L runs linearly. The first frame sets the references;
-with a leak (leak_hz above 0: all but ideal) they lie evenly from it down to a threshold
-below, as after a long rest, so that the first ON events come sooner and the first OFF later.
+I is the luminance; between frames L runs linearly. The first frame sets the references. With
+a leak (leak_hz above 0: all but ideal) each starts below it, by a random share, anywhere from
+0 to 1, of the pixel's ON threshold, as after a long rest: the first ON events come sooner and
+the first OFF later. So with any leak, however small, the first events, and with them those of
+a short video, are not those of a camera without.
 
 Scale of I: 1 is a white surface under illuminance_lux (500 by default). ideal does not care
 about it beyond the 0.001; for the others it decides how slow the pixels are and how noisy.
@@ -41,12 +43,14 @@ EVENTS:
         time stamp of T.npy, from which t counts); p 1 or 0; up to 71.6 minutes
   .npy  records t <i8, x <u2, y <u2, p |i1; p +1 or -1
   .txt  a line "t x y p" an event, t in whole microseconds, p 1 or 0
+  --causes adds events/cause, u8 (.h5), a field cause |u1 (.npy), a fifth column (.txt)
 t of .npy and .txt is of the clock of T.npy. The recording ends with the last frame: what latency
 or the readout would stamp later is not in it. The file appears when it is whole.
 
 Frames have up to 4096 rows and columns, and are at most 1073 s apart. Memory holds one of them
 and the events up to the next, however long the video is. The speeds printed are of the
-emulation alone, beside cv::log of the same frames in the same run, on one thread.
+emulation alone, beside cv::log of the same frames in the same run, on one thread; with --causes
+none are printed.
 
 Examples:
   dodgesim emulate video.npy --timestamps t.npy --camera ideal --out events.h5
@@ -58,6 +62,7 @@ struct EmulateArguments {
   std::string camera;
   std::string out;
   std::uint64_t seed = 1;
+  bool causes = false;
 };
 
 struct Counts {
@@ -65,22 +70,30 @@ struct Counts {
   std::int64_t off = 0;
 };
 
-// Emulates the whole video. What it returns about time stands in `timed`.
-Counts emulate(Video& video, EventCamera& camera, TimedEmulation& timed, EventWriter& writer) {
+// Emulates the whole video, and writes the causes of its events or else measures in `timed` how
+// long it takes.
+Counts emulate(Video& video, EventCamera& camera, bool causes, TimedEmulation& timed,
+               EventWriter& writer) {
   Counts counts;
   Progress progress(video.frame_count(), ::isatty(STDERR_FILENO) == 1, "frames");
   TimeUs t_us = 0;
   std::vector<float> luminance;
   video.next(t_us, luminance);
-  camera.reset(t_us, luminance.data());
+  const std::vector<Cause> shown(luminance.size(), kCauseScene);
+  camera.reset(t_us, {luminance.data(), shown.data()});
   std::vector<Event> events;
+  std::int64_t frames = 0;
   while (video.next(t_us, luminance)) {
     if (asked_to_stop()) throw std::runtime_error("The emulation was stopped; nothing is written.");
     events.clear();
-    timed.update(t_us, luminance, events);
+    if (causes) {
+      camera.update(t_us, {luminance.data(), shown.data()}, events);
+    } else {
+      timed.update(t_us, luminance, events);
+    }
     for (const Event& event : events) ++(event.polarity > 0 ? counts.on : counts.off);
-    writer.add(events);
-    progress.show(timed.frames());
+    writer.add(events, camera.causes());
+    progress.show(++frames);
   }
   progress.finish();
   return counts;
@@ -88,7 +101,6 @@ Counts emulate(Video& video, EventCamera& camera, TimedEmulation& timed, EventWr
 
 void report(const Video& video, const EventCamera& camera, const Counts& counts,
             const TimedEmulation& timed) {
-  const auto frames = static_cast<double>(timed.frames());
   const long long on = counts.on, off = counts.off;
   std::printf("events: %lld (%lld ON, %lld OFF)\n", on + off, on, off);
   if (camera.lost() > 0) {
@@ -102,6 +114,8 @@ void report(const Video& video, const EventCamera& camera, const Counts& counts,
   std::printf("video: %lld frames of %d x %d px, %.6f s\n",
               static_cast<long long>(video.frame_count()), video.width(), video.height(),
               seconds(video.duration_us()));
+  if (timed.frames() == 0) return;  // nothing was measured
+  const auto frames = static_cast<double>(timed.frames());
   std::printf("emulation: %.0f frames/s, %.2f Mev/s\n", frames / timed.emulation_s(),
               1e-6 * static_cast<double>(timed.events()) / timed.emulation_s());
   std::printf("cv::log: %.0f frames/s\n", frames / timed.log_s());
@@ -126,10 +140,12 @@ void emulate(const EmulateArguments& arguments) {
   refuse_same_file(arguments.out, arguments.frames);
   refuse_same_file(arguments.out, arguments.times);
   const auto writer = make_event_writer(
-      arguments.out, {video.width(), video.height(), video.first_us(), video.duration_us()});
-  EventCamera camera(spec, video.width(), video.height(), arguments.seed, 0, "emulate");
+      arguments.out,
+      {video.width(), video.height(), video.first_us(), video.duration_us(), arguments.causes});
+  EventCamera camera(spec, video.width(), video.height(), arguments.seed, 0, "emulate",
+                     arguments.causes);
   TimedEmulation timed(camera, spec.log_epsilon);
-  const Counts counts = emulate(video, camera, timed, *writer);
+  const Counts counts = emulate(video, camera, arguments.causes, timed, *writer);
   writer->finish();
   report(video, camera, counts, timed);
 }
@@ -158,6 +174,11 @@ void add_emulate_command(CLI::App& program, int& exit_code) {
   command->add_option("--seed", arguments->seed, "Of mismatch and noise")
       ->check(whole_number_between(0, UINT64_MAX))
       ->capture_default_str();
+  command->add_flag(
+      "--causes", arguments->causes,
+      "Write the cause of each event, too: 0 a change of the light; 253 the leak, if\n"
+      "more than half of the threshold is due to it; 254 shot noise; 255 a hot pixel.\n"
+      "The events are the same");
   command->footer(kEmulateFooter);
   command->callback([arguments, &exit_code] {
     emulate(*arguments);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/base/error.h"
+#include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/csv.h"
 #include "sim/campaign/journal.h"
 #include "sim/campaign/result_files.h"
@@ -67,6 +68,9 @@ class Observers : public FlightObserver {
   void on_events(int camera, const Packet& packet) override {
     for (FlightObserver* o : observers_) o->on_events(camera, packet);
   }
+  void on_first_detection() override {
+    for (FlightObserver* o : observers_) o->on_first_detection();
+  }
   void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override {
     for (FlightObserver* o : observers_) o->on_cycle(now_us, pilot);
   }
@@ -101,16 +105,25 @@ class EventRecorder : public FlightObserver {
   std::size_t count_ = 0;
 };
 
+// With other models it would be another throw.
+void expect_models(const Scenario& campaign, const std::string& directory,
+                   const JournalIndex& index) {
+  CampaignIdentity now = index.identity;
+  now.models = digest_of_models(campaign);
+  if (now == index.identity) return;
+  throw ScenarioError(directory + " holds results " + difference(index.identity, now) +
+                      "; --models says where those are that it was flown with.");
+}
+
 // The row of throws.csv of this throw, from the journal, which also a campaign under way has.
-std::string recorded_row(const std::filesystem::path& directory, int throw_index) {
-  const std::filesystem::path journal = directory / kJournalFile;
-  const JournalIndex index = read_journal(journal);
+std::string recorded_row(const std::filesystem::path& directory, const JournalIndex& index,
+                         int throw_index) {
   const auto record = index.throws.find(throw_index);
   if (record == index.throws.end()) {
     throw ScenarioError(directory.string() + " has no result of throw " +
                         std::to_string(throw_index) + ".");
   }
-  const ThrowResult result = read_result(journal, record->second);
+  const ThrowResult result = read_result(directory / kJournalFile, record->second);
   if (result.lost()) {
     throw ScenarioError("Throw " + std::to_string(throw_index) +
                         " was lost, there is nothing to compare with: " + result.flown.error +
@@ -218,10 +231,12 @@ int replay(const ReplayArguments& arguments) {
   if (arguments.throw_index >= throw_count(campaign)) {
     throw ScenarioError(directory + " has no throw " + std::to_string(arguments.throw_index) + ".");
   }
+  const JournalIndex index = read_journal(std::filesystem::path(directory) / kJournalFile);
+  expect_models(campaign, directory, index);
   try_models({campaign});
   const Scenario scenario = case_of(campaign, arguments.throw_index).scenario;
   expect_cameras(scenario, arguments);
-  const std::string recorded = recorded_row(directory, arguments.throw_index);
+  const std::string recorded = recorded_row(directory, index, arguments.throw_index);
 
   watch_stop_signals();
   Onlookers onlookers(scenario, arguments);

@@ -108,6 +108,86 @@ flight ends when one hits. `objects.csv` has a row for each; in `throws.csv` the
 those of the first, and hit, closest approach and detection those of all. A grid over a key of throw
 sets it for all of them.
 
+## What a campaign writes
+
+| file | what it holds |
+|---|---|
+| `table.md`, `table.csv`, `report.html` | rates, and the report |
+| `throws.csv` | a row for each throw |
+| `objects.csv` | a row for each object of each throw |
+| `detections.csv` | a row for each detection of the scenario's pilot, false ones too |
+| `truth.csv` | with `--truth`: events and found events by cycle of the pilot |
+| `timing.csv` | simulated and computing time of each throw; differs from run to run |
+| `manifest.json`, `scenario.resolved.yaml` | commit, versions, machine; every value of the scenario |
+| `results.bin` | all results, from which the tables are made |
+
+Times that end in `_us` are simulated microseconds since the start of the flight, flags are 0 or 1,
+and a cell is empty where there is nothing to tell. `throw` is the same number in all files, and the
+one that `dodgesim replay --throw` takes.
+
+`throws.csv`:
+
+| column | meaning |
+|---|---|
+| `throw`, `cell`, `sweep` | its number, cell of the grid and number of the sweep value; a column for every key of both follows |
+| `objects`, `object` | how many are thrown; the model of the first (empty: nobody threw) |
+| `size_m`, `speed_mps`, `distance_m`, `bearing_deg`, `aim_offset_m_0`, `_1`, `spin_radps_0` to `_2`, `launch_height_m`, `launch_us` | as drawn, of the first object |
+| `flown_status` | of the scenario's pilot: `ok`, `error`, `lost` (with its worker) or `not flown` |
+| `flown_error` | why, after `error` or `lost` |
+| `flown_hit`, `flown_crashed` | an object touched the vehicle; the vehicle touched the room |
+| `flown_hit_us`, `flown_closest_us` | the first contact with an object; the closest approach (after a hit the same) |
+| `flown_clearance_m` | least distance between the surfaces of vehicle and objects until the flight ended, 0 after a hit |
+| `none_*`, `oracle_*` | the same seven of these pilots |
+| `first_in_view_us` | the object that was detected first (any, if none was) had its centre in a camera's image and was a pixel wide |
+| `first_detection_us`, `first_detection_t_us` | the first detection within 0.5 m of an object: when the pilot gave it out, and the instant it speaks of |
+| `first_detection_distance_m` | true distance from the top camera to the object at that instant |
+| `time_to_contact_us` | from `first_detection_us` to the contact of `none` (without one, to its closest approach); empty if that is with another object |
+| `first_command_us`, `evaded` | the flight controller's first command to evade; whether there was one |
+| `false_alarm` | evaded before `first_detection_us`, or without any; never of `oracle` |
+| `landing_us`, `landed_us` | the first command to land in an emergency; a gentle touch-down |
+| `cause` | of a hit or crash: `sim/campaign/collision_cause.h` |
+| `escape_left_s`, `escape_needed_s` | from the command to evade to the contact that it should avoid; the least time in which a manoeuvre would have avoided it (empty: none within 1 s) |
+| `detections` | number of rows in `detections.csv` |
+| `events_0`, `_1`, `events_lost_0`, `_1` | of the top and the bottom camera; lost in a saturated readout |
+| `events_hash` | of all events in order |
+| `duration_us` | length of the flight of the scenario's pilot |
+
+`objects.csv`:
+
+| column | meaning |
+|---|---|
+| `throw`, `object` | its throw, and its number in it from 0 |
+| `kind`, `size_m`, `speed_mps`, `distance_m`, `bearing_deg`, `aim_offset_m_0`, `_1`, `spin_radps_0` to `_2`, `launch_height_m`, `launch_us` | its model and numbers, as drawn |
+| `hit`, `hit_us`, `closest_us`, `clearance_m` | as in `throws.csv`, of this object with the scenario's pilot |
+| `first_detection_us`, `first_detection_distance_m` | likewise |
+| `none_hit` | it touched the vehicle that `none` flew |
+
+`detections.csv`:
+
+| column | meaning |
+|---|---|
+| `throw` | its throw |
+| `t_us`, `output_us` | the instant it speaks of; when the pilot gave it out |
+| `obstacle_id` | the pilot's track that took it, -1: none |
+| `p_W_0` to `_2`, `size_m` | estimated centre in the world and size |
+| `depth_m`, `depth_sigma_m` | along the optical axis, and its standard deviation as the pilot believes |
+| `object` | the object nearest to the estimate at `t_us`, of those launched by then (empty: none) |
+| `true_p_W_0` to `_2`, `true_depth_m` | its centre, and that along the top camera's axis |
+| `position_error_m` | from the estimate to that centre |
+
+What is easily misread:
+
+- A flight whose status is not `ok` has 0 for hit and crashed, which says nothing. `none` and `oracle`
+  are `not flown` when nobody threw or the throw was impossible, `oracle` also with `fly_oracle: false`.
+- A throw is dodged if `none_status` and `flown_status` are `ok`, `none_hit` is 1, `flown_hit` and
+  `flown_crashed` are 0, and `landing_us` is empty or not before `none_hit_us`.
+- A flight ends at the first hit, crash or touch-down. Of several objects only the first to touch has
+  `hit` or `none_hit`, and the others' closest approach is that until then.
+- `object` in `detections.csv` is the nearest one even if the detection is false, which it is from a
+  `position_error_m` of 0.5 on.
+- `first_detection_us` and what follows from it are what the pilot says it has detected. `none` and
+  `oracle` have no cameras: no detections, and no events.
+
 ## Keys
 
 This part is made from the program's own list of parameters (`dodgesim explain --markdown`).

@@ -86,5 +86,23 @@ TEST(OpticalFlow, AveragesOverThePixelsOfAGroup) {
   EXPECT_EQ(flow.mean_velocity({}), Eigen::Vector2d::Zero());
 }
 
+TEST(OpticalFlow, AveragesOverNoMoreThanTheSetNumberOfPixels) {
+  const cv::Mat1f before = blob(40, 30), now = blob(40.4, 29.7);
+  OpticalFlow flow({.samples = 16});
+  flow.set_images(before, now, 1);
+  // 31 pixels: every second one, from the middle of the first two.
+  std::vector<cv::Point> pixels;
+  Eigen::Vector2d of_all = Eigen::Vector2d::Zero(), of_every_second = Eigen::Vector2d::Zero();
+  for (int i = 0; i < 31; ++i) {
+    pixels.emplace_back(36 + i % 8, 28 + i / 8);
+    const Eigen::Vector2d v = flow.velocity(pixels.back());
+    ASSERT_FALSE(v.isZero(0));
+    of_all += v / 31;
+    if (i % 2 == 1) of_every_second += v / 15;
+  }
+  EXPECT_GT((of_all - of_every_second).norm(), 1e-6);
+  EXPECT_TRUE(flow.mean_velocity(pixels).isApprox(of_every_second, 1e-12));
+}
+
 }  // namespace
 }  // namespace dodge

@@ -8,6 +8,7 @@ namespace dodgesim {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class MergeTest : public CampaignTest {
  protected:
@@ -47,6 +48,7 @@ TEST_F(MergeTest, IsWhatOneProcessWouldHaveWritten) {
     for (const char* file : kReproducible) {
       EXPECT_EQ(read(root_ / "whole" / file), read(root_ / out / file)) << file;
     }
+    EXPECT_THAT(read(root_ / out / "manifest.json"), Not(HasSubstr("throws_per_minute")));
   }
 }
 

@@ -94,6 +94,10 @@ TEST(ReportPage, ReplayLinesSurviveAnyNameOfADirectory) {
   EXPECT_EQ(data_of(report_html(campaign(1), "out/x"))["replay"], "dodgesim replay out/x --throw ");
   EXPECT_EQ(data_of(report_html(campaign(1), "it's mine"))["replay"],
             "dodgesim replay 'it'\\''s mine' --throw ");
+  LoadedCampaign own = campaign(1);
+  own.scenario.models_dir = "my models";
+  EXPECT_EQ(data_of(report_html(own, "out/x"))["replay"],
+            "dodgesim replay out/x --models 'my models' --throw ");
 }
 
 TEST(ReportPage, ChartsShowTheCountsOfTheTables) {

@@ -15,7 +15,9 @@ namespace dodgesim {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::ThrowsMessage;
 
 [[noreturn]] void hang() {
@@ -76,6 +78,8 @@ TEST_F(ResumeTest, AFinishedCampaignFliesNothingMore) {
       run_campaign(scenario_, resuming("a"), [](int) -> ThrowResult { ::_exit(1); });
   EXPECT_EQ(again.flown, 0);
   EXPECT_EQ(again.errors, 0);
+  EXPECT_THAT(read(root_ / "a/manifest.json"),
+              AllOf(HasSubstr("\"throws_flown\": 0"), Not(HasSubstr("throws_per_minute"))));
   EXPECT_EQ(again.results.size(), 12u);
 }
 

@@ -62,6 +62,24 @@ TEST(SamplingStudy, FailsBeyondItsLimits) {
   EXPECT_TRUE(fails([](SamplingResult& r) { r.scene.median_us = 126; }));
 }
 
+TEST(SamplingStudy, SaysBesideTheWiderLimitsOfTheSceneWhetherItMeetsTheTarget) {
+  const auto expected = [](const SamplingResult& result) {
+    std::vector<std::string> texts;
+    for (const CheckLine& line : judge({result}).lines) texts.push_back(line.expected);
+    return texts;
+  };
+  SamplingResult result = good_result();
+  EXPECT_EQ(expected(result),
+            (std::vector<std::string>{"1.0000 +- 0.0100 of reference", "0.0 to 50.0 us",
+                                      "1.0000 +- 0.0250 of reference; target +- 0.0100: met",
+                                      "0.0 to 125.0 us; target 50.0 us: met"}));
+  result.scene.events = 0.98 * result.scene.reference_events;
+  result.scene.median_us = 100;
+  EXPECT_FALSE(judge({result}).failed());
+  EXPECT_EQ(expected(result).at(2), "1.0000 +- 0.0250 of reference; target +- 0.0100: missed");
+  EXPECT_EQ(expected(result).at(3), "0.0 to 125.0 us; target 50.0 us: missed");
+}
+
 TEST(PrescribedThrow, MovesAsItsVelocitiesSay) {
   const World world({kModels, "room", "qav_rxl", {}});
   const auto toss = PrescribedThrow::random(3, 5, world.vehicle().X_BC.front());

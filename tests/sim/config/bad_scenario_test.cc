@@ -58,6 +58,13 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:2:7: name has a line break, a tab or another control character."},
     {"DescriptionWithABell", "description: \"a\\ab\"\n",
      "bad.yaml:1:14: description has a control character other than line break and tab."},
+    {"NameWithATerminalsEscape", "name: \"a\\x9b31m\"\n",
+     "bad.yaml:1:7: name has a line break, a tab or another control character."},
+    {"DescriptionWithATerminalsEscape", "description: \"a\\x9b31m\"\n",
+     "bad.yaml:1:14: description has a control character other than line break and tab."},
+    // yaml-cpp makes a byte of Latin-1 of it.
+    {"DescriptionThatBecomesLatin1", "description: \"a\\Nb\"\n",
+     "bad.yaml:1:14: description is not UTF-8 text."},
     {"NegativeSeed", "seed: -1\n",
      "bad.yaml:1:7: seed is -1, but must be between 0 and 18446744073709551615."},
     {"SeedBeyond64Bits", "seed: 18446744073709551616\n",
@@ -353,6 +360,23 @@ TEST(BadScenario, MoreValuesThanCanBeReadAgainAreRefused) {
                                HasSubstr("5000 values")));
 }
 
+// The name that a scenario has without one, that of its file, is one of its texts, too.
+TEST(BadScenario, AFileMustHaveANameThatACampaignCanHave) {
+  const auto error_of_file = [](const std::string& file) -> std::string {
+    try {
+      parse_scenario("seed: 1\n", file, "");
+    } catch (const ScenarioError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error_of_file("b\xc3\xa4"
+                          "d.yaml"),
+            "no error");
+  EXPECT_THAT(error_of_file("a\nb.yaml"), HasSubstr("name has a line break"));
+  EXPECT_THAT(error_of_file("a\xff.yaml"), HasSubstr("name is not UTF-8 text."));
+}
+
 TEST(BadScenario, AnAliasBombIsRefusedWithoutBeingExpanded) {
   std::string yaml = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 12; ++i) {
@@ -379,6 +403,18 @@ TEST(BadScenario, AMissingFileAndWhatIsNoFileAreRefused) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_THROW(load_scenario(pipe, ""), ScenarioError);
   ::unlink(pipe.c_str());
+}
+
+TEST(BadScenario, AFileThatCannotBeReachedIsNotSaidToBeMissing) {
+  const std::string loop = ::testing::TempDir() + "dodgesim_loop_" + std::to_string(::getpid());
+  ASSERT_EQ(::symlink(loop.c_str(), loop.c_str()), 0);
+  try {
+    load_scenario(loop, "");
+    FAIL();
+  } catch (const IoError& error) {
+    EXPECT_EQ(error.what(), loop + " could not be read: Too many levels of symbolic links.");
+  }
+  ::unlink(loop.c_str());
 }
 
 }  // namespace
