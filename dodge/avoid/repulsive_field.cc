@@ -42,6 +42,7 @@ RepulsiveField::RepulsiveField(const RepulsiveConfig& config)
       khosla_(config.field == "khosla"),
       relative_(config.obstacle_velocity == "relative"),
       cross_(config.direction == "cross"),
+      gradient_(config.direction == "gradient"),
       steep_sine_(std::sin(config.steep_deg * std::numbers::pi / 180)) {
   validate(config);
 }
@@ -64,7 +65,7 @@ double RepulsiveField::magnitude(double eta_m, double k_r) const {
 Eigen::Vector3d RepulsiveField::direction(const Eigen::Vector3d& grad_eta_W,
                                           const Eigen::Vector3d& v_W,
                                           const Eigen::Vector3d& heading_W) const {
-  if (khosla_) return grad_eta_W;
+  if (gradient_) return grad_eta_W;
   const double speed = v_W.norm();
   if (speed < kNoDirection) return Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d along = v_W / speed;

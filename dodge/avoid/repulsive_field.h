@@ -29,7 +29,9 @@ struct RepulsiveConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v("field", field, {"falanga", "khosla"},
-      "Magnitude and direction of the repulsive force: (28) to (31), or the classic field (27).");
+      "Magnitude of the repulsive force: (28), or that of the classic field (27). The whole "
+      "classic "
+      "field is khosla with direction gradient.");
     v("k_r0", k_r0, 0.0, 1000.0,
       "Repulsive constant at a detection (33). With |v| of (32) the force is in units of (m/s) per "
       "(m/s). Not given by the paper; first value from the authors' group's open code.");
@@ -48,9 +50,10 @@ struct RepulsiveConfig {
     v("obstacle_velocity", obstacle_velocity, {"world", "relative"},
       "Velocity in (29) and (32): the obstacle's in the world as the paper writes, or relative to "
       "the vehicle.");
-    v("direction", direction, {"cross", "away"},
-      "Escape direction of the falanga field: the cross product (29), or away from the obstacle's "
-      "line of flight, within the plane of approach.");
+    v("direction", direction, {"cross", "away", "gradient"},
+      "Escape direction: the cross product (29); away from the obstacle's line of flight, within "
+      "the "
+      "plane of approach; or the gradient of the distance to the obstacle, as (27) has it.");
     v("upward", upward,
       "Whether the z component of each obstacle's force is replaced by its absolute value, as the "
       "paper does because a quadrotor accelerates upward best.");
@@ -95,12 +98,12 @@ class RepulsiveField {
   double magnitude(double eta_m, double k_r) const;
 
   // Unit escape direction for the gradient of the distance (unit, away from the obstacle) and the
-  // velocity that counts. Falanga: (29), (30), orthogonal to the heading and made a unit vector
+  // velocity that counts. Cross: (29), (30), orthogonal to the heading and made a unit vector
   // again, so that (28) alone sets the magnitude: as printed, an obstacle that crosses from the
   // side would hardly push. Where (29) or (30) vanish (head-on), the escape is upward, or sideways
   // if the obstacle flies steeply: to the left, or to the right if the left would go down; in all
-  // cases without the components along the obstacle's velocity and along the heading. Khosla: away
-  // from the obstacle.
+  // cases without the components along the obstacle's velocity and along the heading. Away: the
+  // same with the gradient's part across the velocity in place of (29). Gradient: the gradient.
   Eigen::Vector3d direction(const Eigen::Vector3d& grad_eta_W, const Eigen::Vector3d& v_W,
                             const Eigen::Vector3d& heading_W) const;
 
@@ -114,7 +117,7 @@ class RepulsiveField {
                                  const Eigen::Vector3d& heading_W) const;
 
   RepulsiveConfig config_;
-  bool khosla_, relative_, cross_;
+  bool khosla_, relative_, cross_, gradient_;
   double steep_sine_;
 };
 

@@ -152,6 +152,7 @@ void Writer::operator()(const char* key, const std::vector<Eigen::Vector3d>& val
                         const char*) {
   if (value.empty()) return;
   std::vector<std::string> items;
+  items.reserve(value.size());
   for (const Eigen::Vector3d& vector : value) items.push_back(to_yaml(vector));
   line(key, list(items));
 }

@@ -246,7 +246,9 @@ PaperExperiment indoor_experiment() {
 
 PaperExperiment outdoor_experiment() {
   return {"outdoor", "Avoidance outdoors: hovering, flying to a goal, several balls",
-          flights_of_both({"outdoor_hover", "outdoor_goal", "outdoor_several"}), by_speed};
+          flights_of_both(
+              {"outdoor_hover", "outdoor_goal", "outdoor_simultaneous", "outdoor_consecutive"}),
+          by_speed};
 }
 
 PaperExperiment shapes_experiment() {

@@ -18,6 +18,9 @@ struct AvoidanceBound {
   double greatest_latency_s(double speed_mps) const {
     return range_m / speed_mps - escape_s(speed_mps);
   }
+  double least_range_m(double speed_mps, double latency_s) const {
+    return speed_mps * (latency_s + escape_s(speed_mps));
+  }
   // To within 1 mm/s and what t_a is known to, at most 100 m/s.
   double greatest_speed_mps(double latency_s) const;
 };

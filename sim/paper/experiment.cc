@@ -29,10 +29,10 @@ std::vector<PaperFlight> flights_of(const std::string& prefix, const std::string
 
 const std::vector<PaperExperiment>& paper_experiments() {
   static const std::vector<PaperExperiment> all = {
-      table1_experiment(),    table2_experiment(),      indoor_experiment(),  outdoor_experiment(),
-      shapes_experiment(),    more_throws_experiment(), drift_experiment(),   latency_experiment(),
-      speed_experiment(),     range_experiment(),       physics_experiment(), field_experiment(),
-      threshold_experiment(), translation_experiment()};
+      table1_experiment(),  table2_experiment(),    table3_experiment(),      indoor_experiment(),
+      outdoor_experiment(), shapes_experiment(),    more_throws_experiment(), drift_experiment(),
+      latency_experiment(), speed_experiment(),     range_experiment(),       physics_experiment(),
+      field_experiment(),   threshold_experiment(), translation_experiment()};
   return all;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/bench/bench_case.h"
 #include "sim/campaign/load_campaign.h"
 #include "sim/config/scenario_tree.h"
 #include "sim/plot/plot.h"
@@ -42,6 +43,9 @@ struct PaperExperiment {
   // The tables of the flown campaigns, in the order of `flights`; their results have all rows of
   // detections and trajectories. The same tables for the same campaigns.
   PaperTables (*analyse)(const std::vector<LoadedCampaign>& campaigns);
+  // In place of flights and analyse: what is timed on this machine. Its pictures go into the
+  // directory of `options.plots_dir`.
+  PaperTables (*measure)(const BenchOptions& options) = nullptr;
 };
 
 // A change to a scenario whose throws stay the same.
@@ -58,6 +62,7 @@ const std::vector<PaperExperiment>& paper_experiments();
 
 PaperExperiment table1_experiment();
 PaperExperiment table2_experiment();
+PaperExperiment table3_experiment();
 PaperExperiment indoor_experiment();
 PaperExperiment outdoor_experiment();
 PaperExperiment shapes_experiment();

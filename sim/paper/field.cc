@@ -12,7 +12,15 @@ const std::vector<PaperVariant>& variants() {
   const auto set = paper_setting;
   static const std::vector<PaperVariant> all = {
       {"faithful", "as in the paper", {}},
-      {"classic", "the classic field (26), (27)", {set("dodger.repulsive.field", "khosla")}},
+      {"classic",
+       "the classic field (26), (27)",
+       {set("dodger.repulsive.field", "khosla"), set("dodger.repulsive.direction", "gradient")}},
+      {"classic_magnitude",
+       "(27) instead of (28), the direction (29)",
+       {set("dodger.repulsive.field", "khosla")}},
+      {"gradient",
+       "the gradient's direction, as in (27), instead of (29)",
+       {set("dodger.repulsive.direction", "gradient")}},
       {"no_speed",
        "without |v| of (32), the same k_r0 (4)",
        {set("dodger.repulsive.scale_by_speed", "false")}},

@@ -1,4 +1,7 @@
 // The claim behind event cameras: how late perception may be, by the speed of the object.
+#include <algorithm>
+#include <sstream>
+
 #include "sim/base/error.h"
 #include "sim/paper/avoidance_bound.h"
 #include "sim/paper/experiment.h"
@@ -24,11 +27,13 @@ constexpr const char* kLatencyProtocol = R"(How the claim is read:
   vehicle's centre. *point*: t_a = sqrt(2 r / u) of a vehicle that accelerates to the side at once
   with all its thrust but what keeps its height. *rotors*: by the best of many manoeuvres at the
   limits of its rotors, with their lag, until the ball touches the hull.
+  The ticks in the plots are that of the rotors; those beyond a plot's right end are left out.
 - *oracle*: told of the true object within s, avoids it like falanga2020, over the open field, where
   no wall ends an escape. Intervals: 95 %, Wilson.
 )";
 
 constexpr double kPaperLatencyMs = 3.5, kFrameLatencyMs = 60;
+constexpr double kPaperRangeM = 1.5, kFarRangeM = 3;
 
 // Success of a pilot at each speed (rows) and latency (columns).
 struct LatencyCurves {
@@ -66,15 +71,33 @@ std::vector<Part> within(const std::string& range_m, const LoadedCampaign& campa
   return parts;
 }
 
-PaperPlot plot_of(const LatencyCurves& curves) {
+// At each speed [ms]; negative if there is no time at all.
+std::vector<double> bounds_ms(const AvoidanceBound& bound, const LoadedCampaign& campaign) {
+  const Axis speeds("speed_mps", campaign.results);
+  std::vector<double> bounds;
+  for (const double speed_mps : speeds.middles()) {
+    bounds.push_back(
+        1e3 * (bound.greatest_latency_s(speed_mps) - latency_without_pilot_s(campaign.scenario)));
+  }
+  return bounds;
+}
+
+// The bound of the fastest objects is always within the plot.
+PaperPlot plot_of(const LatencyCurves& curves, double range_m, const LoadedCampaign& campaign) {
+  const std::vector<double> bounds = bounds_ms(rotors_bound(campaign.scenario, range_m), campaign);
+  const double least_ms = *std::min_element(bounds.begin(), bounds.end());
   Plot plot;
   plot.title = curves.pilot + ": throws dodged by latency of perception";
-  plot.x = {"latency of perception [ms]", 0, 1.05 * curves.latency_ms.back(), false};
+  plot.x = {"latency of perception [ms]", 0, 1.05 * std::max(curves.latency_ms.back(), least_ms),
+            false};
   plot.y = dodged_axis();
   for (std::size_t i = 0; i < curves.grid.rows.size(); ++i) {
     add_curve(curves.grid.rows[i], static_cast<int>(i), curves.latency_ms, curves.grid.rates[i],
               plot);
   }
+  std::ostringstream range;
+  range << range_m;
+  add_bounds("ticks: bound, " + range.str() + " m", bounds, plot);
   add_mark("3.5 ms and 60 ms", kPaperLatencyMs, plot);
   add_mark("", kFrameLatencyMs, plot);
   return {curves.file, plot};
@@ -89,18 +112,11 @@ std::string lost_text(const LatencyCurves& curves, std::size_t speed) {
   return fixed_text(at[*last], *last == 0 ? 1 : 0) + " to " + fixed_text(at[*last + 1], 0);
 }
 
-// By the bound, of perception alone [ms].
-std::string bound_text(const AvoidanceBound& bound, double speed_mps, const Scenario& scenario) {
-  const double latency_s = bound.greatest_latency_s(speed_mps) - latency_without_pilot_s(scenario);
-  return latency_s > 0 ? fixed_text(1e3 * latency_s, 0) : "none";
-}
-
 TextTable lost_table(const std::vector<LatencyCurves>& all, const LoadedCampaign& campaign) {
-  const Scenario& scenario = campaign.scenario;
-  std::vector<AvoidanceBound> bounds;
-  for (const double range_m : {1.5, 3.0}) {
-    bounds.push_back(point_bound(scenario, range_m));
-    bounds.push_back(rotors_bound(scenario, range_m));
+  std::vector<std::vector<double>> bounds;
+  for (const double range_m : {kPaperRangeM, kFarRangeM}) {
+    bounds.push_back(bounds_ms(point_bound(campaign.scenario, range_m), campaign));
+    bounds.push_back(bounds_ms(rotors_bound(campaign.scenario, range_m), campaign));
   }
   TextTable table;
   table.head = {"lost at [ms]", "bound 1.5 m, point", "bound 1.5 m, rotors", "bound 3 m, point",
@@ -110,8 +126,8 @@ TextTable lost_table(const std::vector<LatencyCurves>& all, const LoadedCampaign
   for (std::size_t i = 0; i < speeds.values().size(); ++i) {
     std::vector<std::string>& row = table.rows.emplace_back();
     row.push_back(speeds.values()[i] + " m/s");
-    for (const AvoidanceBound& bound : bounds) {
-      row.push_back(bound_text(bound, speeds.middles()[i], scenario));
+    for (const std::vector<double>& bound_ms : bounds) {
+      row.push_back(bound_ms[i] > 0 ? fixed_text(bound_ms[i], 0) : "none");
     }
     for (const LatencyCurves& curves : all) row.push_back(lost_text(curves, i));
   }
@@ -129,7 +145,8 @@ PaperTables analyse_latency(const std::vector<LoadedCampaign>& campaigns) {
   std::vector<RateGrid> grids;
   tables.markdown = lost_table(all, oracle).to_markdown() + "\n";
   for (const LatencyCurves& curves : all) {
-    tables.plots.push_back(plot_of(curves));
+    const double range_m = &curves == &all.front() ? kPaperRangeM : kFarRangeM;
+    tables.plots.push_back(plot_of(curves, range_m, oracle));
     tables.markdown += curves.grid.table().to_markdown() + "\n";
     grids.push_back(curves.grid);
   }

@@ -35,6 +35,7 @@ constexpr const char* kRangeProtocol = R"(How the claim is read:
 - *Bound*: the fastest ball of 20 cm by "How fast is too fast" (Falanga et al. 2019),
   s / (tau + t_a), with the delays of this chain; t_a of a point (sqrt(2 r / u)) and of the
   vehicle's rotors, by the best of many manoeuvres at their limits, until the ball touches the hull.
+  The ticks in the plots are the least range for each speed by the rotors'.
 - Intervals: 95 %, Wilson.
 )";
 
@@ -105,7 +106,7 @@ RangeRows rows_of(const std::string& pilot, const std::string& key,
   return rows;
 }
 
-PaperPlot plot_of(const RangeRows& rows, const std::string& file) {
+PaperPlot plot_of(const RangeRows& rows, const std::string& file, const LoadedCampaign& campaign) {
   Plot plot;
   plot.title = rows.grid.name + ": throws dodged by the range from which on they are believed";
   plot.x = {"range [m]", 0, 3.2, false};
@@ -114,6 +115,13 @@ PaperPlot plot_of(const RangeRows& rows, const std::string& file) {
   for (std::size_t i = 0; i < by_speed.rows.size(); ++i) {
     add_curve(by_speed.rows[i], static_cast<int>(i), rows.range_m, by_speed.rates[i], plot);
   }
+  const AvoidanceBound bound = rotors_bound(campaign.scenario, 0);
+  const Axis speeds("speed_mps", campaign.results);
+  std::vector<double> least_m;
+  for (const double speed_mps : speeds.middles()) {
+    least_m.push_back(bound.least_range_m(speed_mps, latency_s(campaign.scenario)));
+  }
+  add_bounds("ticks: bound", least_m, plot);
   add_mark("1.5 m", 1.5, plot);
   return {file, plot};
 }
@@ -134,12 +142,12 @@ TextTable bound_table(const std::vector<double>& range_m, const Scenario& scenar
 PaperTables analyse_range(const std::vector<LoadedCampaign>& campaigns) {
   const RangeRows faithful = rows_of("falanga2020", "dodger.position.max_range_m", campaigns[0]);
   const RangeRows oracle = rows_of("oracle", "oracle.range_cap_m", campaigns[1]);
-  return {faithful.grid.with_sum().table().to_markdown() + "\n" +
-              oracle.grid.with_sum().table().to_markdown() + "\n" +
-              bound_table(oracle.range_m, campaigns[1].scenario).to_markdown() + "\n" +
-              kRangeProtocol,
-          rates_csv({faithful.grid, oracle.grid}),
-          {plot_of(faithful, "falanga2020"), plot_of(oracle, "oracle")}};
+  return {
+      faithful.grid.with_sum().table().to_markdown() + "\n" +
+          oracle.grid.with_sum().table().to_markdown() + "\n" +
+          bound_table(oracle.range_m, campaigns[1].scenario).to_markdown() + "\n" + kRangeProtocol,
+      rates_csv({faithful.grid, oracle.grid}),
+      {plot_of(faithful, "falanga2020", campaigns[0]), plot_of(oracle, "oracle", campaigns[1])}};
 }
 
 }  // namespace

@@ -126,8 +126,8 @@ PaperTables analyse_more_throws(const std::vector<LoadedCampaign>& campaigns) {
 
 std::vector<PaperFlight> flights_of_more_throws() {
   std::vector<PaperFlight> flights;
-  for (const char* name :
-       {"outdoor_hover", "outdoor_goal", "outdoor_several", "outdoor_scattered"}) {
+  for (const char* name : {"outdoor_hover", "outdoor_goal", "outdoor_simultaneous",
+                           "outdoor_consecutive", "outdoor_scattered"}) {
     const std::string scenario = std::string(name) + ".yaml";
     flights.push_back({name + std::string("_falanga2020"), scenario, {}});
     flights.push_back(

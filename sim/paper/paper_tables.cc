@@ -36,7 +36,8 @@ std::string names_of(const std::vector<PaperExperiment>& experiments) {
 
 std::string flown_markdown(const PaperExperiment& experiment,
                            const std::vector<LoadedCampaign>& campaigns) {
-  std::string text = "Flown:\n\n";
+  if (campaigns.empty()) return "";
+  std::string text = "\nFlown:\n\n";
   for (std::size_t i = 0; i < campaigns.size(); ++i) {
     const auto& results = campaigns[i].results;
     const auto failed = std::count_if(results.begin(), results.end(),
@@ -62,6 +63,16 @@ std::string write_plots(const fs::path& out, const std::string& experiment,
     text += "![" + plot.plot.title + "](" + file + ")\n";
   }
   return text.empty() ? text : text + "\n";
+}
+
+PaperTables tables_of(const fs::path& out, const PaperExperiment& experiment,
+                      const PaperSources& sources, const std::vector<LoadedCampaign>& campaigns) {
+  if (!experiment.measure) return experiment.analyse(campaigns);
+  BenchOptions options;
+  options.models_dir = sources.models_dir;
+  options.scenarios_dir = sources.scenarios_dir;
+  options.plots_dir = out;
+  return experiment.measure(options);
 }
 
 }  // namespace
@@ -101,7 +112,7 @@ fs::path flight_directory(const fs::path& out, const PaperFlight& flight) {
 }
 
 std::string write_paper_tables(const fs::path& out, const std::vector<PaperExperiment>& experiments,
-                               const std::string& models_dir, const std::string& command) {
+                               const PaperSources& sources, const std::string& command) {
   make_directory(out);
   const std::string program = build_info().name();
   std::string shown;
@@ -110,12 +121,12 @@ std::string write_paper_tables(const fs::path& out, const std::vector<PaperExper
   for (const PaperExperiment& experiment : experiments) {
     std::vector<LoadedCampaign> campaigns;
     for (const PaperFlight& flight : experiment.flights) {
-      campaigns.push_back(load_with_rows(flight_directory(out, flight), models_dir));
+      campaigns.push_back(load_with_rows(flight_directory(out, flight), sources.models_dir));
     }
-    const PaperTables tables = experiment.analyse(campaigns);
+    const PaperTables tables = tables_of(out, experiment, sources, campaigns);
     const std::string text = "# " + experiment.title + "\n\nMade by `" + command + "`, dodgesim " +
                              program + ".\n\n" + write_plots(out, experiment.name, tables.plots) +
-                             tables.markdown + "\n" + flown_markdown(experiment, campaigns);
+                             tables.markdown + flown_markdown(experiment, campaigns);
     write_file(out / (experiment.name + ".md"), text);
     write_file(out / (experiment.name + ".csv"), tables.csv);
     readme += "| " + experiment.title + " | [" + experiment.name + ".md](" + experiment.name +

@@ -18,11 +18,17 @@ std::vector<PaperFlight> flights_of(const std::vector<PaperExperiment>& experime
 // The directory of a campaign below that of the tables.
 std::filesystem::path flight_directory(const std::filesystem::path& out, const PaperFlight& flight);
 
-// Reads the campaigns and writes NAME.md and NAME.csv for each experiment into `out`, and README.md
-// with `command`, the line that made them. Returns the tables for people. The same bytes for the
-// same campaigns, program and command. Throws IoError.
+// Where models, and the scenarios of what is timed, are found.
+struct PaperSources {
+  std::string models_dir, scenarios_dir;
+};
+
+// Reads the campaigns, times what is to be timed, and writes NAME.md and NAME.csv for each
+// experiment into `out`, and README.md with `command`, the line that made them. Returns the tables
+// for people. But for times, the same bytes for the same campaigns, program and command. Throws
+// IoError.
 std::string write_paper_tables(const std::filesystem::path& out,
                                const std::vector<PaperExperiment>& experiments,
-                               const std::string& models_dir, const std::string& command);
+                               const PaperSources& sources, const std::string& command);
 
 }  // namespace dodgesim

@@ -133,6 +133,18 @@ void add_mark(const std::string& name, double at, Plot& plot) {
   plot.series.push_back({name, Series::Kind::kLine, kGrey, {at, at}, {0, 1}, {}});
 }
 
+void add_bounds(const std::string& name, const std::vector<double>& at, Plot& plot) {
+  constexpr double kHalfTick = 0.08;
+  std::string legend = name;  // once
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (!(at[i] >= plot.x.from && at[i] <= plot.x.to)) continue;
+    Series tick{legend, Series::Kind::kLine, static_cast<int>(i), {at[i], at[i]}, {}, {}};
+    tick.y = {0.5 - kHalfTick, 0.5 + kHalfTick};
+    plot.series.push_back(tick);
+    legend.clear();
+  }
+}
+
 std::optional<std::size_t> last_half(const std::vector<Rate>& rates) {
   for (std::size_t i = rates.size(); i-- > 0;) {
     if (rates[i].of > 0 && 2 * rates[i].count >= rates[i].of) return i;

@@ -55,6 +55,10 @@ void add_curve(const std::string& name, int colour, const std::vector<double>& a
 // A grey vertical line.
 void add_mark(const std::string& name, double at, Plot& plot);
 
+// Short ticks at one half of the curves that add_curve() has drawn with the colours from 0 on:
+// where a bound says that they are lost. Those beyond the x axis are left out.
+void add_bounds(const std::string& name, const std::vector<double>& at, Plot& plot);
+
 // The last of the rates that is at least one half; empty if none is. Rates without trials do not
 // count.
 std::optional<std::size_t> last_half(const std::vector<Rate>& rates);

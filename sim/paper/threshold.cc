@@ -1,4 +1,6 @@
 // The detector's threshold a |w| + b (5), and what it costs that only rotation is compensated.
+#include <algorithm>
+
 #include "dodge/presets.h"
 #include "sim/flight.h"
 #include "sim/paper/experiment.h"
@@ -13,7 +15,8 @@ constexpr const char* kThresholdProtocol = R"(How to read it:
 - falanga2020 with detections up to 3 m; bold: this pilot's values of a and b (the paper gives none).
 - *Recall*: of the events that a ball made, those in a cluster; *false*: of the events in clusters,
   those that no ball made. *Before*: until the first evasive command; *evading*: after it, when the
-  camera turns fast.
+  camera turns fast. In brackets the least and the greatest of the single throws: there are too few
+  for an interval of another kind.
 - *False alarms*: evasions before any detection of a ball. Intervals: 95 %, Wilson.
 )";
 
@@ -35,6 +38,7 @@ struct Perception {
   Rate false_alarms;
   Measured distance_m;  // of the first detection
   EventTruthSums events;
+  std::vector<EventTruthSums> throws;  // of each alone
 };
 
 Perception perception_of(const Results& results) {
@@ -44,17 +48,33 @@ Perception perception_of(const Results& results) {
     sum.false_alarms.add(result->false_alarm);
     sum.distance_m.add(result->first_detection_distance_m);
     sum.events.add(result->truth_rows);
+    sum.throws.emplace_back().add(result->truth_rows);
   }
   return sum;
 }
 
-std::string percent(const std::optional<double>& share) {
-  return share ? fixed_text(100 * *share, 1) + " %" : "-";
+using Share = std::optional<double>;
+
+Share recall(const EventTruthCounts& counts) { return counts.recall(); }
+
+Share false_share(const EventTruthCounts& counts) {
+  const Share precision = counts.precision();
+  return precision ? Share(1 - *precision) : std::nullopt;
 }
 
-std::string false_percent(const EventTruthCounts& counts) {
-  const std::optional<double> precision = counts.precision();
-  return percent(precision ? std::optional(1 - *precision) : std::nullopt);
+// "11.7 % (8.2 to 15.0)": of all events, and of the throws with the least and the most.
+std::string percent(const Perception& sum, EventTruthCounts EventTruthSums::*when,
+                    Share (*share_of)(const EventTruthCounts&)) {
+  const Share whole = share_of(sum.events.*when);
+  if (!whole) return "-";
+  double least = *whole, most = *whole;
+  for (const EventTruthSums& one : sum.throws) {
+    const double share = share_of(one.*when).value_or(*whole);
+    least = std::min(least, share);
+    most = std::max(most, share);
+  }
+  return fixed_text(100 * *whole, 1) + " % (" + fixed_text(100 * least, 1) + " to " +
+         fixed_text(100 * most, 1) + ")";
 }
 
 const std::vector<std::string>& perception_head() {
@@ -65,10 +85,11 @@ const std::vector<std::string>& perception_head() {
 }
 
 std::vector<std::string> perception_cells(const Perception& sum) {
-  return {short_rate_text(sum.tally.success()), median_text(sum.distance_m, 2),
-          short_rate_text(sum.false_alarms),    percent(sum.events.before.recall()),
-          percent(sum.events.after.recall()),   false_percent(sum.events.before),
-          false_percent(sum.events.after)};
+  using Sums = EventTruthSums;
+  return {short_rate_text(sum.tally.success()),   median_text(sum.distance_m, 2),
+          short_rate_text(sum.false_alarms),      percent(sum, &Sums::before, recall),
+          percent(sum, &Sums::after, recall),     percent(sum, &Sums::before, false_share),
+          percent(sum, &Sums::after, false_share)};
 }
 
 TextTable table_with(const std::vector<std::string>& first) {

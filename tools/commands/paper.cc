@@ -1,4 +1,5 @@
 // dodgesim paper: the experiments of Falanga et al. 2020.
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -104,7 +105,13 @@ int paper(const PaperArguments& arguments) {
         std::to_string(flown.campaigns) + " of " + std::to_string(flights.size()) + " campaigns",
         arguments.options);
   }
-  std::cout << write_paper_tables(arguments.options.out, experiments, arguments.models_dir,
+  if (std::any_of(experiments.begin(), experiments.end(), [](const PaperExperiment& experiment) {
+        return experiment.measure != nullptr;
+      })) {
+    std::cerr << "Timing the stages of the flight core\n";
+  }
+  std::cout << write_paper_tables(arguments.options.out, experiments,
+                                  {arguments.models_dir, DODGESIM_SCENARIOS_DIR},
                                   table_command(arguments));
   if (flown.errors == 0) return kOk;
   std::cerr << count_of_throws(flown.errors) << " could not be flown; see the tables in "

@@ -226,9 +226,23 @@ TEST(RepulsiveForce, OfAnObstacleThatHasPassedStaysByDefaultAndEndsWhereAsked) {
 
 TEST(RepulsiveForce, OfTheClassicFieldPointsAwayFromTheObstacle) {
   RepulsiveConfig config = config_with(2, "khosla");
+  config.direction = "gradient";
   config.scale_by_speed = false;
   const Vector3d force = force_of_ball(config, {0, 1.25, 0}, {0, -5, 0});  // eta = 1
   EXPECT_TRUE(force.isApprox(Vector3d(0, -16.0 / 9, 0), 1e-9));
+}
+
+TEST(RepulsiveForce, HasItsMagnitudeAndItsDirectionApart) {
+  RepulsiveConfig falanga = config_with(2, "falanga"), khosla = config_with(2, "khosla");
+  for (const char* direction : {"cross", "away", "gradient"}) {
+    falanga.direction = khosla.direction = direction;
+    const auto force = [](const RepulsiveConfig& config) {
+      return force_of_ball(config, {0.3, 1.25, 0.2}, {0.5, -5, 1});
+    };
+    EXPECT_TRUE(force(falanga).normalized().isApprox(force(khosla).normalized(), 1e-9))
+        << direction;
+    EXPECT_GT(force(falanga).norm(), 1.2 * force(khosla).norm()) << direction;
+  }
 }
 
 TEST(RepulsiveField, RefusesWhatHasNoMeaning) {

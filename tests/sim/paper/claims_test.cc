@@ -4,12 +4,15 @@
 
 #include <functional>
 
+#include "sim/paper/avoidance_bound.h"
 #include "sim/paper/experiment.h"
 #include "tests/sim/paper/synthetic_campaign.h"
 
 namespace dodgesim {
 namespace {
 
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 // Two throws, one of 4 and one of 8 m/s, for each value of a sweep; all that `hit` says hit.
@@ -26,6 +29,18 @@ LoadedCampaign swept(const std::vector<std::vector<AxisValue>>& sweep,
     }
   }
   return campaign(std::move(results));
+}
+
+// Of a plot's series, those with exactly two points on one vertical line about one half: their x.
+std::vector<double> ticks_of(const Plot& plot) {
+  std::vector<double> ticks;
+  for (const Series& series : plot.series) {
+    const bool vertical = series.x.size() == 2 && series.x[0] == series.x[1];
+    if (vertical && series.y[0] > 0 && series.y[0] + series.y[1] == 1) {
+      ticks.push_back(series.x[0]);
+    }
+  }
+  return ticks;
 }
 
 TEST(LatencyClaim, SaysAtWhichLatencyEachSpeedIsLost) {
@@ -49,7 +64,10 @@ TEST(LatencyClaim, SaysAtWhichLatencyEachSpeedIsLost) {
   EXPECT_THAT(tables.markdown,
               HasSubstr("| 8 m/s | 59 | 50 | 247 | 238 | > 60 | > 60 | 30 to 60 | < 3.5 |"));
   EXPECT_THAT(tables.csv, HasSubstr("\"falanga2020, 3 m\",8 m/s,60.0 ms,0,1,0.0000,"));
-  EXPECT_EQ(tables.plots.size(), 4u);
+  ASSERT_EQ(tables.plots.size(), 4u);
+  // The ticks are the table's bounds of the rotors; for 3 m, 622 ms is beyond the plot.
+  EXPECT_THAT(ticks_of(tables.plots[0].plot), ElementsAre(DoubleNear(50, 0.5)));
+  EXPECT_THAT(ticks_of(tables.plots[1].plot), ElementsAre(DoubleNear(238, 0.5)));
 }
 
 TEST(ThresholdClaim, TellsFalseEventsFromMissedOnes) {
@@ -61,9 +79,22 @@ TEST(ThresholdClaim, TellsFalseEventsFromMissedOnes) {
   a.results[0].truth_rows = {{0, 0, false, {1000, 200, 100, 50}}};
   a.results[1].truth_rows = {{1, 0, true, {1000, 100, 100, 90}}};
   const std::string tables = threshold_experiment().analyse({a, b}).markdown;
-  EXPECT_THAT(tables, HasSubstr("| 25.0 % | 90.0 % | 50.0 % | 10.0 % |"));
+  EXPECT_THAT(tables, HasSubstr("| 25.0 % (25.0 to 25.0) | 90.0 % (90.0 to 90.0) | "
+                                "50.0 % (50.0 to 50.0) | 10.0 % (10.0 to 10.0) |"));
   EXPECT_THAT(tables, HasSubstr("| **0.1** |"));
   EXPECT_THAT(tables, HasSubstr("| 0.2 |"));
+}
+
+TEST(ThresholdClaim, TellsTheLeastAndTheGreatestOfTheThrows) {
+  LoadedCampaign a = swept({{{"dodger.time_image.threshold_a_s", "0.1"}}},
+                           [](std::size_t, double) { return false; });
+  LoadedCampaign b = swept({{{"dodger.time_image.threshold_b", "0.1"}}},
+                           [](std::size_t, double) { return false; });
+  a.results[0].truth_rows = {{0, 0, false, {1000, 100, 20, 10}}, {0, 1, false, {1000, 100, 0, 0}}};
+  a.results[1].truth_rows = {{1, 0, false, {1000, 200, 40, 40}}};
+  // 10 of 200 and 40 of 200; 10 of 20 and none of 40.
+  EXPECT_THAT(threshold_experiment().analyse({a, b}).markdown,
+              HasSubstr("| 12.5 % (5.0 to 20.0) | - | 16.7 % (0.0 to 50.0) | - |"));
 }
 
 TEST(RangeClaim, PutsTheRangesBesideTheSpeeds) {
@@ -77,6 +108,15 @@ TEST(RangeClaim, PutsTheRangesBesideTheSpeeds) {
   EXPECT_THAT(tables.csv, HasSubstr("falanga2020,1 m,4 m/s,0,1,"));
   EXPECT_THAT(tables.csv, HasSubstr("falanga2020,3 m,4 m/s,1,1,"));
   EXPECT_THAT(tables.csv, HasSubstr("oracle,3 m,8 m/s,0,1,"));
+  // From the tick on, the bound is at least the speed: 4 and 8 m/s.
+  const std::vector<double> ticks = ticks_of(tables.plots[1].plot);
+  ASSERT_EQ(ticks.size(), 2u);
+  const double tau_s = 1e-6 * static_cast<double>(oracle.scenario.delays.pilot_us()) +
+                       latency_without_pilot_s(oracle.scenario);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double speed_mps = i == 0 ? 4 : 8;
+    EXPECT_NEAR(rotors_bound(oracle.scenario, ticks[i]).greatest_speed_mps(tau_s), speed_mps, 0.05);
+  }
 }
 
 TEST(SpeedClaim, KeepsThePilotsInOrder) {
