@@ -151,7 +151,7 @@ TEST(MoreThrows, LeaveOutFlightsThatFailed) {
 
 TEST(MoreThrows, AreFlownByThePilotAndByAnOracleThatMustSee) {
   const std::vector<PaperFlight> flights = more_throws_experiment().flights;
-  ASSERT_EQ(flights.size(), 8u);
+  ASSERT_EQ(flights.size(), 10u);
   EXPECT_EQ(flights[0].arguments(), "scenarios/paper/outdoor_hover.yaml");
   EXPECT_EQ(flights[1].arguments(),
             "scenarios/paper/outdoor_hover.yaml --set pilot=oracle --set "
