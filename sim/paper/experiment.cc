@@ -21,6 +21,7 @@ Setting paper_setting(const std::string& key, const std::string& value) {
 std::vector<PaperFlight> flights_of(const std::string& prefix, const std::string& scenario,
                                     const std::vector<PaperVariant>& variants) {
   std::vector<PaperFlight> flights;
+  flights.reserve(variants.size());
   for (const PaperVariant& variant : variants) {
     flights.push_back({prefix + variant.file, scenario, variant.settings});
   }

@@ -93,6 +93,7 @@ std::vector<Rate> success_by(const Axis& axis, const Results& results) {
     if (i) tallies[*i].add(*result);
   }
   std::vector<Rate> rates;
+  rates.reserve(tallies.size());
   for (const Tally& tally : tallies) rates.push_back(tally.success());
   return rates;
 }

@@ -54,10 +54,11 @@ double median_of(const std::string& name, const std::vector<Measurement>& measur
 // "0.032 (0.008), 19 %"; together without a share.
 std::string cell(const Stage& stage, const Load& load, const std::vector<Measurement>& measured) {
   const std::string name = std::string("pilot.") + load.quantity + "." + stage.quantity;
-  const std::string text = fixed_text(median_of(name, measured), 3) + " (" +
-                           fixed_text(median_of(name + "_sd", measured), 3) + ")";
-  if (&stage == std::end(kStages) - 1) return text;
-  return text + ", " + fixed_text(100 * median_of(name + "_share", measured), 0) + " %";
+  std::string text = fixed_text(median_of(name, measured), 3) + " (" +
+                     fixed_text(median_of(name + "_sd", measured), 3) + ")";
+  const bool together = &stage == std::end(kStages) - 1;
+  if (!together) text += ", " + fixed_text(100 * median_of(name + "_share", measured), 0) + " %";
+  return text;
 }
 
 TextTable stage_table(const std::vector<Measurement>& measured) {
