@@ -1,7 +1,6 @@
 #include "sim/paper/table3.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "sim/base/error.h"
