@@ -1,8 +1,6 @@
 // Every mistake gives one sentence with file, line, column, key, value and what is allowed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "sim/base/error.h"
 #include "sim/config/scenario.h"
@@ -360,23 +358,6 @@ TEST(BadScenario, MoreValuesThanCanBeReadAgainAreRefused) {
                                HasSubstr("5000 values")));
 }
 
-// The name that a scenario has without one, that of its file, is one of its texts, too.
-TEST(BadScenario, AFileMustHaveANameThatACampaignCanHave) {
-  const auto error_of_file = [](const std::string& file) -> std::string {
-    try {
-      parse_scenario("seed: 1\n", file, "");
-    } catch (const ScenarioError& error) {
-      return error.what();
-    }
-    return "no error";
-  };
-  EXPECT_EQ(error_of_file("b\xc3\xa4"
-                          "d.yaml"),
-            "no error");
-  EXPECT_THAT(error_of_file("a\nb.yaml"), HasSubstr("name has a line break"));
-  EXPECT_THAT(error_of_file("a\xff.yaml"), HasSubstr("name is not UTF-8 text."));
-}
-
 TEST(BadScenario, AnAliasBombIsRefusedWithoutBeingExpanded) {
   std::string yaml = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 12; ++i) {
@@ -393,28 +374,6 @@ TEST(BadScenario, LongTextIsCutInTheMessageAtAWholeCharacter) {
   const std::string error =
       error_of("pilot: " + std::string(59, 'x') + repeat("\xc3\xa4", 50) + "\n");
   EXPECT_THAT(error, HasSubstr("\"" + std::string(59, 'x') + "...\""));
-}
-
-TEST(BadScenario, AMissingFileAndWhatIsNoFileAreRefused) {
-  EXPECT_THROW(load_scenario("/no/such/file.yaml", ""), ScenarioError);
-  EXPECT_THROW(load_scenario("/", ""), ScenarioError);
-  EXPECT_THROW(load_scenario("/dev/zero", ""), ScenarioError);
-  const std::string pipe = ::testing::TempDir() + "dodgesim_pipe_" + std::to_string(::getpid());
-  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_THROW(load_scenario(pipe, ""), ScenarioError);
-  ::unlink(pipe.c_str());
-}
-
-TEST(BadScenario, AFileThatCannotBeReachedIsNotSaidToBeMissing) {
-  const std::string loop = ::testing::TempDir() + "dodgesim_loop_" + std::to_string(::getpid());
-  ASSERT_EQ(::symlink(loop.c_str(), loop.c_str()), 0);
-  try {
-    load_scenario(loop, "");
-    FAIL();
-  } catch (const IoError& error) {
-    EXPECT_EQ(error.what(), loop + " could not be read: Too many levels of symbolic links.");
-  }
-  ::unlink(loop.c_str());
 }
 
 }  // namespace
