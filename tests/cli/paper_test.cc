@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "tests/cli/command_test.h"
 
 namespace {
@@ -34,6 +37,15 @@ TEST_F(PaperCommandTest, MakesTheSameTablesAgain) {
   }
   EXPECT_THAT(contents("a/table2.md"), HasSubstr("`dodgesim paper table2 --throws 1 --seed 3`"));
   EXPECT_EQ(fly("b", "").exit_code, 2) << "without --force or --resume";
+}
+
+TEST_F(PaperCommandTest, DoesNotMeasureOverATable) {
+  std::filesystem::create_directory(path("out"));
+  std::ofstream(path("out/table3.md")) << "mine";
+  const Outcome outcome = dodgesim("paper table3 --out " + path("out"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("table3.md was measured before; choose another"));
+  EXPECT_EQ(contents("out/table3.md"), "mine");
 }
 
 TEST_F(PaperCommandTest, ASeedIsAddedToThatOfEveryScenario) {

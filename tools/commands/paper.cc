@@ -1,6 +1,7 @@
 // dodgesim paper: the experiments of Falanga et al. 2020.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -62,6 +63,19 @@ std::string table_command(const PaperArguments& arguments) {
   return line;
 }
 
+// Flights keep those who fly again from writing over tables; a table that is only measured has
+// none.
+void protect_measured(const PaperArguments& arguments,
+                      const std::vector<PaperExperiment>& experiments) {
+  if (arguments.options.force || arguments.options.resume) return;
+  for (const PaperExperiment& experiment : experiments) {
+    const auto table = arguments.options.out / (experiment.name + ".md");
+    if (experiment.measure == nullptr || !std::filesystem::exists(table)) continue;
+    throw ScenarioError(table.string() + " was measured before; choose another directory, or add " +
+                        "--force to measure anew.");
+  }
+}
+
 struct Flown {
   std::size_t campaigns = 0;  // to their end
   int errors = 0;             // throws that could not be flown
@@ -98,6 +112,7 @@ int paper(const PaperArguments& arguments) {
     scenarios.push_back(scenario_of(flight, arguments.models_dir));
   }
 
+  protect_measured(arguments, experiments);
   try_models(scenarios);  // all of them before an hour of flights
   const Flown flown = fly(arguments, flights, scenarios);
   if (flown.campaigns < flights.size()) {
