@@ -17,6 +17,7 @@ Config dodgesim() {
   config.kalman.gravity = true;
   config.kalman.acceleration_noise = 1;
   config.kalman.lateral_size_share = 0.1;
+  config.velocity_limit.calm_acceleration_mps2 = 3;
   config.escape.law = "closest_approach";
   config.escape.min_speed_mps = 2.5;
   return config;

@@ -36,6 +36,7 @@ Avoider::Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attra
     : repulsive_(repulsive),
       attractive_(attractive),
       limit_(limit),
+      ramp_(limit),
       escape_(escape, limit.max_speed_mps),
       predicts_(escape.law == "closest_approach") {
   check_ranges(attractive, "attractive.");
@@ -49,15 +50,18 @@ VelocityCommand Avoider::command(TimeUs now, const StateEstimate& state, const G
   vehicle.v_W = state.v_WB;
   vehicle.p_W = state.p_WB + seconds(now - state.t_us) * state.v_WB;
   vehicle.heading_W = heading(state.q_WB);
-
-  const Eigen::Vector3d attractive_W =
-      attractive_force(attractive_, goal.speed_mps, goal.p_WG - vehicle.p_W);
   acting_.clear();
   std::copy_if(obstacles.begin(), obstacles.end(), std::back_inserter(acting_), acts);
+  return ramp_.ramped(decide(now, vehicle, goal), vehicle.v_W);
+}
+
+VelocityCommand Avoider::decide(TimeUs now, const VehicleMotion& vehicle, const Goal& goal) {
+  const Eigen::Vector3d attractive_W =
+      attractive_force(attractive_, goal.speed_mps, goal.p_WG - vehicle.p_W);
   if (!predicts_) {
     return velocity_command(limit_, now, repulsion(now, vehicle), attractive_W);
   }
-  const Want want{attractive_W, goal.p_WG};
+  const Want want{attractive_W, goal.p_WG, limit_.calm_acceleration_mps2};
   if (const auto escape_W = escape_.escape(now, vehicle, want, acting_)) {
     return velocity_command(limit_, now, *escape_W, Eigen::Vector3d::Zero());
   }

@@ -27,11 +27,14 @@ class Avoider {
                           std::span<const TrackedObstacle> obstacles);
 
  private:
+  // By the field, or by the escape's law.
+  VelocityCommand decide(TimeUs now, const VehicleMotion& vehicle, const Goal& goal);
   Eigen::Vector3d repulsion(TimeUs now, const VehicleMotion& vehicle) const;
 
   RepulsiveField repulsive_;
   AttractiveConfig attractive_;
   VelocityLimitConfig limit_;
+  CommandRamp ramp_;
   EscapePlanner escape_;
   bool predicts_;
   std::vector<TrackedObstacle> acting_;  // those of the last command that act

@@ -30,7 +30,8 @@ class Course {
     if (size <= kNoSpeedMps) return;
     const double level = change_W.head<2>().norm() / size;
     start_s_ = config.dead_time_s + level * config.tilt_time_s;
-    length_s_ = size / config.acceleration_mps2;
+    length_s_ =
+        size / (want.acceleration_mps2 > 0 ? want.acceleration_mps2 : config.acceleration_mps2);
     a_W_ = change_W / length_s_;
   }
 

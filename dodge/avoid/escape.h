@@ -64,6 +64,7 @@ void validate(const EscapeConfig& config);
 struct Want {
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // to take up this velocity [m/s]
   std::optional<Eigen::Vector3d> p_WG;            // until it is there
+  double acceleration_mps2 = 0;                   // so gently; 0: as an escape
 };
 
 // The nearest that an obstacle will come to the vehicle, or a part of the future.

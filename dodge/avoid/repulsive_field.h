@@ -29,9 +29,8 @@ struct RepulsiveConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v("field", field, {"falanga", "khosla"},
-      "Magnitude of the repulsive force: (28), or that of the classic field (27). The whole "
-      "classic "
-      "field is khosla with direction gradient.");
+      "Magnitude of the repulsive force: (28), or that of the classic field (27). With the "
+      "direction gradient khosla is the whole classic field.");
     v("k_r0", k_r0, 0.0, 1000.0,
       "Repulsive constant at a detection (33). With |v| of (32) the force is in units of (m/s) per "
       "(m/s). Not given by the paper; first value from the authors' group's open code.");
@@ -51,8 +50,7 @@ struct RepulsiveConfig {
       "Velocity in (29) and (32): the obstacle's in the world as the paper writes, or relative to "
       "the vehicle.");
     v("direction", direction, {"cross", "away", "gradient"},
-      "Escape direction: the cross product (29); away from the obstacle's line of flight, within "
-      "the "
+      "Escape direction: the cross product (29); away from the obstacle's line of flight, in the "
       "plane of approach; or the gradient of the distance to the obstacle, as (27) has it.");
     v("upward", upward,
       "Whether the z component of each obstacle's force is replaced by its absolute value, as the "

@@ -30,9 +30,8 @@ struct StateEstimateSpec {
   template <class Visitor>
   void visit(Visitor& v) {
     v("rate_hz", rate_hz, 1, 4000,
-      "Estimates per second (paper: 250); it must divide 4000. The velocity controller acts at "
-      "each, "
-      "and at once on a command to evade: other commands wait for up to a period.");
+      "Estimates per second (paper: 250); it must divide 4000. At each the velocity controller "
+      "acts, and at once on a command to evade: other commands wait for up to a period.");
     v("position_walk_m_sqrts", position_walk_m_sqrts, 0, 10,
       "Random walk of the position's error, unbounded as odometry is: 0.8 cm after a minute of "
       "hover (assumed).");

@@ -1,5 +1,10 @@
-// What the pilot dodgesim sees of balls over the open field.
+// What the pilot dodgesim sees of balls over the open field, and how it flies back.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "tests/closed_loop/flights.h"
 
@@ -41,6 +46,51 @@ TEST(OwnPilot, KeepsABallApartFromItsBackground) {
   EXPECT_GT(own.whole, 30 * kThrows);
   EXPECT_GT(own.whole, 1.1 * paper.whole);
   EXPECT_LT(own.too_large, paper.too_large);
+}
+
+// The greatest tilt [deg] from 0.2 to 0.5 s after an escape, while the vehicle brakes.
+class TiltAfterEscape : public FlightObserver {
+ public:
+  void on_velocity(TimeUs now_us, const dodge::VelocityCommand& command) override {
+    if (command.evading) last_us_ = now_us;
+  }
+  void on_tick(const World& world) override {
+    const Snapshot now = world.snapshot();
+    if (last_us_ == 0 || now.t_us < last_us_ + 200000 || now.t_us > last_us_ + 500000) return;
+    const double up_z = (now.vehicle.q_W * Eigen::Vector3d::UnitZ()).z();
+    tilt_deg_ = std::max(tilt_deg_, std::acos(std::min(1.0, up_z)) * 180 / std::numbers::pi);
+  }
+  double tilt_deg() const { return tilt_deg_; }
+
+ private:
+  TimeUs last_us_ = 0;
+  double tilt_deg_ = 0;
+};
+
+// After escapes from balls that the pilot is told of, mostly upward.
+std::vector<double> tilts_after_escape(double calm_acceleration_mps2) {
+  const Scenario s = scenario(
+      "room: field\n"
+      "pilot: oracle\n"
+      "repeats: 4\n"
+      "mission: {start_m: [0, 0, 2]}\n"
+      "throw: {distance_m: 4, speed_mps: 8, aim_offset_m: [!uniform [-0.15, 0.15], 0], launch_s: "
+      "0.1}\n"
+      "after_s: 0.7\n"
+      "dodger: {repulsive: {direction: away}, velocity_limit: {calm_acceleration_mps2: " +
+      std::to_string(calm_acceleration_mps2) + "}}\n");
+  std::vector<double> tilts_deg;
+  for (int i = 0; i < 4; ++i) {
+    TiltAfterEscape observer;
+    fly(s, plan_throw(s, i), &observer);
+    tilts_deg.push_back(observer.tilt_deg());
+  }
+  return tilts_deg;
+}
+
+TEST(OwnPilot, BrakesWithoutTiltingFar) {
+  EXPECT_THAT(tilts_after_escape(3), ::testing::Each(::testing::Lt(20)));
+  EXPECT_THAT(tilts_after_escape(0), ::testing::Each(::testing::Gt(28)));
 }
 
 }  // namespace

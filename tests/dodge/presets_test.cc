@@ -29,6 +29,7 @@ TEST(Presets, LeaveThePaperAsItIs) {
   EXPECT_EQ(paper.position.max_range_m, 1.5);
   EXPECT_EQ(paper.window.window_us, 10000);
   EXPECT_EQ(paper.escape.law, "potential_field");
+  EXPECT_EQ(paper.velocity_limit.calm_acceleration_mps2, 0);
   EXPECT_FALSE(paper.kalman.gravity);
   EXPECT_EQ(paper.kalman.lateral_size_share, 0);
   EXPECT_EQ(paper.association.gate_sigmas, 0);

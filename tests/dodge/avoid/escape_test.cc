@@ -150,6 +150,22 @@ TEST(EscapePlanner, PredictsTheCovarianceOfTheMiss) {
   EXPECT_NEAR(meeting->radius_m, config.hull_radius_m + 0.1, 1e-12);
 }
 
+TEST(EscapePlanner, PredictsHowGentlyTheVehicleBrakes) {
+  const EscapeConfig config = closest_approach();
+  const EscapePlanner planner(config, kSpeedMps);
+  const Vector3d v_W(0, 4, 0);
+  const TrackedObstacle thrown = ball({4, 0, 2}, {0, 1.5, 2}, 0.6);
+  for (const double acceleration_mps2 : {3.0, 5.0}) {
+    const Want stop{Vector3d::Zero(), std::nullopt, acceleration_mps2};
+    const auto meeting = planner.meeting(0, at({0, 0, 2}, v_W), stop, thrown);
+    ASSERT_TRUE(meeting);
+    const double t = meeting->time_s, braked_s = t - config.dead_time_s - config.tilt_time_s;
+    const double ball_y = t * thrown.obstacle.v_WO.y();
+    const double vehicle_y = 4 * t - 0.5 * acceleration_mps2 * braked_s * braked_s;
+    EXPECT_NEAR(meeting->miss_W.y(), ball_y - vehicle_y, 2e-3) << acceleration_mps2;
+  }
+}
+
 TEST(EscapePlanner, PredictsAnObstacleFromTheInstantOfItsState) {
   const EscapePlanner planner(closest_approach(), kSpeedMps);
   const TrackedObstacle thrown = ball({3, 0, 2}, {0, 0, 2}, 0.5);
@@ -275,6 +291,21 @@ TEST(Avoider, EscapesByClosestApproachInPlaceOfTheField) {
   const VelocityCommand escape = avoider.command(0, state, goal, hitting);
   EXPECT_TRUE(escape.evading);
   EXPECT_NEAR(escape.v_W.norm(), VelocityLimitConfig{}.max_speed_mps, 1e-9);
+}
+
+// Braking hard, the vehicle would stop before the ball's path; gently, it drifts into it.
+TEST(Avoider, EscapesFromWhatItWouldDriftInto) {
+  StateEstimate state;
+  state.p_WB = {0, 0, 2};
+  state.v_WB = {0, 4, 0};
+  const Goal goal{.p_WG = state.p_WB};
+  const std::array crossing = {ball({4, 1.8, 2}, {0, 1.8, 2}, 0.6)};
+  const auto evades = [&](double calm_acceleration_mps2) {
+    const VelocityLimitConfig limit{.calm_acceleration_mps2 = calm_acceleration_mps2};
+    return Avoider({}, {}, limit, closest_approach()).command(0, state, goal, crossing).evading;
+  };
+  EXPECT_FALSE(evades(0));
+  EXPECT_TRUE(evades(4));
 }
 
 TEST(EscapeConfig, RefusesValuesThatMakeNoSense) {

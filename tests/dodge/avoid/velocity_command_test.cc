@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "dodge/check_ranges.h"
@@ -29,9 +30,48 @@ TEST(VelocityCommand, IsNoEvasionWithoutARepulsiveForce) {
   EXPECT_TRUE(velocity_command({}, 0, Vector3d(0.11, 0, 0), Vector3d::Zero()).evading);
 }
 
+VelocityCommand wanted(TimeUs t_us, const Vector3d& v_W, bool evading = false) {
+  VelocityCommand command;
+  command.t_us = t_us;
+  command.v_W = v_W;
+  command.evading = evading;
+  return command;
+}
+
+TEST(CommandRamp, BrakesGentlyFromTheVelocityOfAnEscape) {
+  CommandRamp ramp({.calm_acceleration_mps2 = 5});
+  const Vector3d escape(0, 3, 4), home(-1.5, 0, 0);
+  EXPECT_EQ(ramp.ramped(wanted(0, escape, true), Vector3d::Zero()).v_W, escape);
+  // The vehicle has reached no more than this when the escape ends; then it goes the straight way.
+  const Vector3d reached(0, 1.5, 2), change = home - reached;
+  for (int cycle = 1; cycle < 250; ++cycle) {
+    const double changed_mps = 5 * 0.004 * (cycle - 1);
+    const Vector3d v_W = ramp.ramped(wanted(4000 * cycle, home), reached).v_W;
+    const double share = std::min(1.0, changed_mps / change.norm());
+    ASSERT_TRUE(v_W.isApprox(reached + share * change, 1e-9)) << cycle;
+  }
+  EXPECT_EQ(ramp.ramped(wanted(1000000, home), reached).v_W, home);
+}
+
+TEST(CommandRamp, FollowsTheNextEscapeAtOnceToo) {
+  CommandRamp ramp({.calm_acceleration_mps2 = 5});
+  const Vector3d first(0, 5, 0), second(0, 0, 5), slow(0, 0, 1);
+  ramp.ramped(wanted(0, first, true), Vector3d::Zero());
+  ramp.ramped(wanted(4000, Vector3d::Zero()), first);
+  EXPECT_EQ(ramp.ramped(wanted(8000, second, true), first).v_W, second);
+  EXPECT_EQ(ramp.ramped(wanted(12000, Vector3d::Zero()), slow).v_W, slow);
+}
+
+TEST(CommandRamp, IsOffInThePapersPilot) {
+  CommandRamp ramp({});
+  ramp.ramped(wanted(0, {0, 5, 0}, true), Vector3d::Zero());
+  EXPECT_EQ(ramp.ramped(wanted(4000, {1, 0, 0}), {0, 5, 0}).v_W, Vector3d(1, 0, 0));
+}
+
 TEST(VelocityLimitConfig, RefusesALimitOfZero) {
-  EXPECT_THROW(check_ranges(VelocityLimitConfig{0, 0.1}), std::invalid_argument);
-  EXPECT_THROW(check_ranges(VelocityLimitConfig{5, -0.1}), std::invalid_argument);
+  EXPECT_THROW(check_ranges(VelocityLimitConfig{.max_speed_mps = 0}), std::invalid_argument);
+  EXPECT_THROW(check_ranges(VelocityLimitConfig{.evading_threshold_mps = -0.1}),
+               std::invalid_argument);
 }
 
 }  // namespace
