@@ -58,7 +58,7 @@ struct Config {
     v("repulsive", repulsive, "Force away from obstacles, eqs. (26) to (33).");
     v("attractive", attractive, "Force towards the goal, eqs. (35), (36).");
     v("escape", escape, "Escape by predicted closest approach, in place of the repulsive force.");
-    v("velocity_limit", velocity_limit, "Limit of the commanded velocity, eq. (39).");
+    v("velocity_limit", velocity_limit, "Limits of the commanded velocity, eq. (39).");
     v("range_sensor", range_sensor, "Which readings of the range sensor that looks down are used.");
     v("height_monitor", height_monitor,
       "Lands the vehicle when the estimated height has drifted away from the measured one.");

@@ -1,5 +1,7 @@
 #include "dodge/avoid/velocity_command.h"
 
+#include <algorithm>
+
 namespace dodge {
 
 VelocityCommand velocity_command(const VelocityLimitConfig& config, TimeUs t_us,
@@ -14,18 +16,26 @@ VelocityCommand velocity_command(const VelocityLimitConfig& config, TimeUs t_us,
   return command;
 }
 
+Eigen::Vector3d CommandRamp::braked_from(const Eigen::Vector3d& v_WB) const {
+  Eigen::Vector3d from_W = v_WB;
+  from_W.z() = std::max(0.0, from_W.z());
+  const double speed = from_W.norm();
+  return speed > config_.max_speed_mps ? config_.max_speed_mps / speed * from_W : from_W;
+}
+
 VelocityCommand CommandRamp::ramped(VelocityCommand command, const Eigen::Vector3d& v_WB) {
-  if (config_.calm_acceleration_mps2 <= 0) return command;
   if (command.evading) {
-    calm_.reset();
-    return command;
+    braking_ = config_.calm_acceleration_mps2 > 0;
+    last_.reset();
   }
-  const Eigen::Vector3d from_W = calm_ ? calm_->v_W : v_WB;
-  const double elapsed_s = calm_ ? seconds(command.t_us - calm_->t_us) : 0;
+  if (command.evading || !braking_) return command;
+  const Eigen::Vector3d from_W = last_ ? last_->v_W : braked_from(v_WB);
+  const double elapsed_s = last_ ? seconds(command.t_us - last_->t_us) : 0;
   const Eigen::Vector3d change_W = command.v_W - from_W;
   const double most_mps = config_.calm_acceleration_mps2 * elapsed_s;
-  if (change_W.norm() > most_mps) command.v_W = from_W + most_mps * change_W.normalized();
-  calm_ = command;
+  braking_ = change_W.norm() > most_mps;
+  if (braking_) command.v_W = from_W + most_mps * change_W.normalized();
+  last_ = command;
   return command;
 }
 

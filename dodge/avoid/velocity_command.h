@@ -21,9 +21,9 @@ struct VelocityLimitConfig {
     v("evading_threshold_mps", evading_threshold_mps, 0.0, 100.0,
       "The vehicle is evading while the sum of the repulsive forces is larger than this.");
     v("calm_acceleration_mps2", calm_acceleration_mps2, 0.0, 100.0,
-      "How fast the command changes while the vehicle does not evade, from the velocity that an "
-      "escape leaves it with; 0: at once. Who brakes hard turns fast, and the threshold |w| a + b "
-      "hides the next object.");
+      "After an escape the command goes only so fast from the velocity that it leaves the vehicle "
+      "with to that towards the goal; 0: at once. Who brakes hard tilts fast, and sees the next "
+      "object late. A descent is braked at once: that takes thrust and no tilt.");
   }
 };
 
@@ -32,8 +32,8 @@ VelocityCommand velocity_command(const VelocityLimitConfig& config, TimeUs t_us,
                                  const Eigen::Vector3d& repulsive_W,
                                  const Eigen::Vector3d& attractive_W);
 
-// Lets the command change gently, an extension of the paper: an escape is followed at once, all
-// else at calm_acceleration_mps2.
+// Brakes gently after an escape, an extension of the paper: from the vehicle's velocity then on,
+// the command changes at calm_acceleration_mps2 until it is what is wanted.
 class CommandRamp {
  public:
   explicit CommandRamp(const VelocityLimitConfig& config) : config_(config) {}
@@ -41,9 +41,15 @@ class CommandRamp {
   // Call once a cycle. `v_WB` is the vehicle's velocity.
   VelocityCommand ramped(VelocityCommand command, const Eigen::Vector3d& v_WB);
 
+  // How fast the next command changes if it is none to evade [m/s^2]; 0: at once.
+  double acceleration_mps2() const { return braking_ ? config_.calm_acceleration_mps2 : 0; }
+
  private:
+  Eigen::Vector3d braked_from(const Eigen::Vector3d& v_WB) const;
+
   VelocityLimitConfig config_;
-  std::optional<VelocityCommand> calm_;  // the last command if it was none to evade
+  bool braking_ = false;                 // it has evaded, and not what is wanted since
+  std::optional<VelocityCommand> last_;  // since the escape
 };
 
 }  // namespace dodge

@@ -89,7 +89,8 @@ std::vector<double> tilts_after_escape(double calm_acceleration_mps2) {
 }
 
 TEST(OwnPilot, BrakesWithoutTiltingFar) {
-  EXPECT_THAT(tilts_after_escape(3), ::testing::Each(::testing::Lt(20)));
+  EXPECT_THAT(tilts_after_escape(3),
+              ::testing::Each(::testing::AllOf(::testing::Gt(3), ::testing::Lt(20))));
   EXPECT_THAT(tilts_after_escape(0), ::testing::Each(::testing::Gt(28)));
 }
 

@@ -42,6 +42,11 @@ TEST(Presets, TheBetterPilotRemembersAnObstacleLongerUntilItIsConfirmed) {
   EXPECT_EQ(preset("falanga2020").association.tentative_timeout_us, 25000);
 }
 
+// Or it would not see the second of two balls.
+TEST(Presets, TheBetterPilotBrakesGently) {
+  EXPECT_EQ(preset("dodgesim").velocity_limit.calm_acceleration_mps2, 3);
+}
+
 TEST(Presets, ThereAreNoOthers) { EXPECT_THROW(preset("oracle"), std::invalid_argument); }
 
 }  // namespace

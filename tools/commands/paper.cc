@@ -63,8 +63,8 @@ std::string table_command(const PaperArguments& arguments) {
   return line;
 }
 
-// Flights keep those who fly again from writing over tables; a table that is only measured has
-// none.
+// Flights keep those who fly again from writing over tables; a table that is only measured has no
+// flights.
 void protect_measured(const PaperArguments& arguments,
                       const std::vector<PaperExperiment>& experiments) {
   if (arguments.options.force || arguments.options.resume) return;

@@ -302,7 +302,10 @@ TEST(Avoider, EscapesFromWhatItWouldDriftInto) {
   const std::array crossing = {ball({4, 1.8, 2}, {0, 1.8, 2}, 0.6)};
   const auto evades = [&](double calm_acceleration_mps2) {
     const VelocityLimitConfig limit{.calm_acceleration_mps2 = calm_acceleration_mps2};
-    return Avoider({}, {}, limit, closest_approach()).command(0, state, goal, crossing).evading;
+    Avoider avoider({}, {}, limit, closest_approach());
+    const std::array before = {ball(state.p_WB + Vector3d(1.5, 0, 0), state.p_WB, 0.3)};
+    EXPECT_TRUE(avoider.command(-4000, state, goal, before).evading);
+    return avoider.command(0, state, goal, crossing).evading;
   };
   EXPECT_FALSE(evades(0));
   EXPECT_TRUE(evades(4));

@@ -53,6 +53,27 @@ TEST(CommandRamp, BrakesGentlyFromTheVelocityOfAnEscape) {
   EXPECT_EQ(ramp.ramped(wanted(1000000, home), reached).v_W, home);
 }
 
+TEST(CommandRamp, EndsWhenTheCommandIsWhatIsWanted) {
+  CommandRamp ramp({.calm_acceleration_mps2 = 5});
+  EXPECT_EQ(ramp.ramped(wanted(0, {1.5, 0, 0}), Vector3d::Zero()).v_W, Vector3d(1.5, 0, 0));
+  EXPECT_EQ(ramp.acceleration_mps2(), 0) << "nothing has been evaded";
+  ramp.ramped(wanted(4000, {0, 5, 0}, true), Vector3d::Zero());
+  ramp.ramped(wanted(8000, {1.5, 0, 0}), {0, 1, 0});
+  EXPECT_EQ(ramp.acceleration_mps2(), 5);
+  EXPECT_EQ(ramp.ramped(wanted(1000000, {1.5, 0, 0}), {0, 1, 0}).v_W, Vector3d(1.5, 0, 0));
+  EXPECT_EQ(ramp.acceleration_mps2(), 0);
+  EXPECT_EQ(ramp.ramped(wanted(1004000, Vector3d::Zero()), {1.5, 0, 0}).v_W, Vector3d::Zero());
+}
+
+TEST(CommandRamp, BrakesADescentAtOnceAndKeepsTheSpeedLimit) {
+  CommandRamp ramp({.max_speed_mps = 5, .calm_acceleration_mps2 = 3});
+  ramp.ramped(wanted(0, {0, 5, 0}, true), Vector3d::Zero());
+  EXPECT_EQ(ramp.ramped(wanted(4000, Vector3d::Zero()), {0, 4, -1.3}).v_W, Vector3d(0, 4, 0));
+  ramp.ramped(wanted(8000, {0, 5, 0}, true), Vector3d::Zero());
+  const Vector3d v_W = ramp.ramped(wanted(12000, Vector3d::Zero()), {0, 5.4, 1}).v_W;
+  EXPECT_NEAR(v_W.norm(), 5, 1e-12);
+}
+
 TEST(CommandRamp, FollowsTheNextEscapeAtOnceToo) {
   CommandRamp ramp({.calm_acceleration_mps2 = 5});
   const Vector3d first(0, 5, 0), second(0, 0, 5), slow(0, 0, 1);

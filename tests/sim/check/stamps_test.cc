@@ -1,6 +1,8 @@
 // Time stamps are spread over the clock's steps, or the check fails.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "sim/check/stamps.h"
 #include "tests/sim/check/outcomes.h"
 
