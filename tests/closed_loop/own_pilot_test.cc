@@ -55,7 +55,7 @@ class TiltAfterEscape : public FlightObserver {
     if (command.evading) last_us_ = now_us;
   }
   void on_tick(const World& world) override {
-    const Snapshot now = world.snapshot();
+    const Snapshot& now = world.snapshot();
     if (last_us_ == 0 || now.t_us < last_us_ + 200000) return;
     whole_ = whole_ || now.t_us >= last_us_ + 500000;
     if (now.t_us > last_us_ + 500000) return;
