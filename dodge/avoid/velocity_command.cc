@@ -3,24 +3,27 @@
 #include <algorithm>
 
 namespace dodge {
+namespace {
+
+Eigen::Vector3d shortened(const Eigen::Vector3d& v, double limit) {
+  const double length = v.norm();
+  return length > limit ? limit / length * v : v;
+}
+
+}  // namespace
 
 VelocityCommand velocity_command(const VelocityLimitConfig& config, TimeUs t_us,
                                  const Eigen::Vector3d& repulsive_W,
                                  const Eigen::Vector3d& attractive_W) {
   VelocityCommand command;
   command.t_us = t_us;
-  command.v_W = repulsive_W + attractive_W;
-  const double speed = command.v_W.norm();
-  if (speed > config.max_speed_mps) command.v_W *= config.max_speed_mps / speed;
+  command.v_W = shortened(repulsive_W + attractive_W, config.max_speed_mps);
   command.evading = repulsive_W.norm() > config.evading_threshold_mps;
   return command;
 }
 
 Eigen::Vector3d CommandRamp::braked_from(const Eigen::Vector3d& v_WB) const {
-  Eigen::Vector3d from_W = v_WB;
-  from_W.z() = std::max(0.0, from_W.z());
-  const double speed = from_W.norm();
-  return speed > config_.max_speed_mps ? config_.max_speed_mps / speed * from_W : from_W;
+  return shortened({v_WB.x(), v_WB.y(), std::max(0.0, v_WB.z())}, config_.max_speed_mps);
 }
 
 VelocityCommand CommandRamp::ramped(VelocityCommand command, const Eigen::Vector3d& v_WB) {
