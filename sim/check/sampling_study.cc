@@ -127,6 +127,11 @@ std::vector<SamplingVariant> sampling_variants() {
           changed("whole pictures", [](SamplingVariant& v) { v.whole_pictures = true; }),
           supersampling(3),
           supersampling(4),
+          changed("accurate: fast_displacement_px 0.5, supersampling 3",
+                  [](SamplingVariant& v) {
+                    v.sampling.fast_displacement_px = 0.5;
+                    v.keys.supersampling = 3;
+                  }),
           changed("fine: 0.25 px, also when fast, supersampling 4",
                   [](SamplingVariant& v) {
                     v.sampling.max_displacement_px = v.sampling.fast_displacement_px = 0.25;
