@@ -142,8 +142,9 @@ GateVerdict judge(const Baseline& baseline, const CampaignTables& flown,
   if (rules.must_equal == "nothing") return verdict;
   GateCheck bytes = bytes_equal(baseline.tables, flown, rules);
   if (!same_machine) {
+    const std::string changes = bytes.reason.empty() ? "no row changed" : bytes.reason;
     bytes.result = Result::kLeftOut;
-    bytes.reason = "the baseline is of another kind of machine, or of other libraries";
+    bytes.reason = "the baseline is of another kind of machine, or of other libraries; " + changes;
   }
   verdict.checks.push_back(std::move(bytes));
   return verdict;

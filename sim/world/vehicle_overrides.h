@@ -37,9 +37,8 @@ struct VehicleOverrides {
     v("lower_camera_turn_deg", lower_camera_turn_deg, -5, 5,
       "An error of calibration: the lower camera is turned about its own axes (right, down, and "
       "ahead), and the pilot does not know. [0.1, 0, 0]: it looks 0.1 degrees higher; at 80 "
-      "degrees over "
-      "320 columns disparities are 0.33 px too small, and things seem farther. With two cameras "
-      "only.");
+      "degrees over 320 columns disparities are 0.33 px too small, and things seem farther. With "
+      "two cameras only.");
   }
 };
 
