@@ -1,10 +1,14 @@
 #include "dodge/camera_model.h"
 
+#include <cmath>
+
 namespace dodge {
 
 namespace {
 
-constexpr int kUndistortIterations = 20;  // fixed point of the radtan model; converges to 1e-9
+// Newton's method for the inverse of the radtan model.
+constexpr int kMostSteps = 50;
+constexpr double kExact = 1e-9;
 
 Eigen::Vector2d distort(const CameraModel& camera, const Eigen::Vector2d& p) {
   const double r2 = p.squaredNorm();
@@ -14,13 +18,41 @@ Eigen::Vector2d distort(const CameraModel& camera, const Eigen::Vector2d& p) {
           p.y() * radial + camera.p1 * (r2 + 2 * p.y() * p.y()) + 2 * camera.p2 * xy};
 }
 
+// Derivative of distort() by p.
+Eigen::Matrix2d stretch(const CameraModel& camera, const Eigen::Vector2d& p) {
+  const double x = p.x(), y = p.y(), r2 = p.squaredNorm();
+  const double radial = 1 + r2 * (camera.k1 + r2 * (camera.k2 + r2 * camera.k3));
+  const double slope = 2 * (camera.k1 + r2 * (2 * camera.k2 + 3 * r2 * camera.k3));
+  const double mixed = x * y * slope + 2 * (camera.p1 * x + camera.p2 * y);
+  Eigen::Matrix2d J;
+  J << radial + x * x * slope + 2 * camera.p1 * y + 6 * camera.p2 * x, mixed, mixed,
+      radial + y * y * slope + 6 * camera.p1 * y + 2 * camera.p2 * x;
+  return J;
+}
+
+// Whether distort() does not fold: on the way from the axis to p it stretches, and never turns
+// back.
+bool unfolded(const CameraModel& camera, const Eigen::Vector2d& p) {
+  constexpr int kPieces = 16;
+  for (int i = 1; i <= kPieces; ++i) {
+    if (stretch(camera, p * i / kPieces).determinant() <= 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Eigen::Vector2d CameraModel::bearing(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d distorted((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
   if (k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0) return distorted;
   Eigen::Vector2d ideal = distorted;
-  for (int i = 0; i < kUndistortIterations; ++i) ideal += distorted - distort(*this, ideal);
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Eigen::Vector2d error = distorted - distort(*this, ideal);
+    if (error.norm() <= kExact) break;
+    ideal += stretch(*this, ideal).inverse() * error;
+  }
+  const bool found = (distorted - distort(*this, ideal)).norm() <= kExact;
+  if (!found || !unfolded(*this, ideal)) ideal.setConstant(std::nan(""));
   return ideal;
 }
 

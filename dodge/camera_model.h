@@ -17,7 +17,7 @@ struct CameraModel {
 
   double mean_focal_px() const { return 0.5 * (fx + fy); }
 
-  // Undistorted bearing (X/Z, Y/Z) of a pixel position.
+  // Undistorted bearing (X/Z, Y/Z) of a pixel position; NaN where the distortion has no inverse.
   Eigen::Vector2d bearing(const Eigen::Vector2d& pixel) const;
 
   // Ideal (undistorted) pixel position of a point in C. Requires p_C.z() > 0.

@@ -43,6 +43,13 @@ void check_camera(const CameraModel& camera) {
   if (camera.width < 1 || camera.height < 1 || !(camera.fx > 0) || !(camera.fy > 0)) {
     fail("A camera must have a positive size and positive focal lengths.");
   }
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      if (camera.bearing({x, y}).allFinite()) continue;
+      fail("A camera's distortion has no inverse at pixel (" + std::to_string(x) + ", " +
+           std::to_string(y) + "): no line of sight is seen there.");
+    }
+  }
 }
 
 // Stereo takes the disparity along the image's columns: same intrinsics, same orientation, the
@@ -77,6 +84,11 @@ void validate(const Config& config) {
              {"range_sensor.max_range_m", config.range_sensor.max_range_m});
   validate(config.repulsive);
   validate(config.escape);
+  if (config.escape.law != "potential_field" && decay_lifetime_s(config.repulsive) <= 0) {
+    // By any law an obstacle is remembered until its repulsive constant has decayed.
+    refuse_order({"repulsive.k_r0", config.repulsive.k_r0}, "exceed",
+                 {"repulsive.k_tau", config.repulsive.k_tau});
+  }
   if (config.landing.touchdown_mps > config.landing.descent_mps) {
     refuse_order({"landing.touchdown_mps", config.landing.touchdown_mps}, "not exceed",
                  {"landing.descent_mps", config.landing.descent_mps});

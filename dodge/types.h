@@ -63,6 +63,7 @@ struct Detection {
   Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();  // [m]
   double depth_m = 0;                                  // along the camera's optical axis
   double depth_sigma_m = 0;                            // its standard deviation
+  double distance_per_depth = 1;                       // of centre_W from the camera
   double size_m = 0;     // longer side of the rotated rectangle at that depth (eq. 9)
   int obstacle_id = -1;  // the track it was associated with
 };

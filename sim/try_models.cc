@@ -16,6 +16,7 @@
 #include "sim/config/expand.h"
 #include "sim/config/numbers.h"
 #include "sim/config/pilot.h"
+#include "sim/control/mixer.h"
 #include "sim/flight.h"
 #include "sim/render/scene_geometry.h"
 #include "sim/world/model_trial.h"
@@ -102,6 +103,10 @@ std::vector<Trial> trials_of(const Scenario& campaign) {
   return all;
 }
 
+std::string vehicle_file(const Trial& trial) {
+  return trial.world.models_dir + "/vehicles/" + trial.world.vehicle + ".xml";
+}
+
 // Whether the flight core can use the cameras.
 void check_stereo(const World& world, const Trial& trial) {
   Scenario scenario;
@@ -112,8 +117,31 @@ void check_stereo(const World& world, const Trial& trial) {
   try {
     dodge::validate(config);
   } catch (const std::invalid_argument& error) {
-    throw ScenarioError(trial.world.models_dir + "/vehicles/" + trial.world.vehicle +
-                        ".xml: " + error.what());
+    throw ScenarioError(vehicle_file(trial) + ": " + error.what());
+  }
+}
+
+// Whether the mixer can use the rotors.
+void check_rotors(const World& world, const Trial& trial) {
+  try {
+    Mixer(world.vehicle(), trial.min_thrust_n, world.vehicle().max_thrust_n, 0);
+  } catch (const std::invalid_argument& error) {
+    throw ScenarioError(vehicle_file(trial) + ": " + error.what());
+  }
+}
+
+// Whether the event cameras see the objects.
+void check_visible(const World& world, const Trial& trial) {
+  const SceneGeometry scene = collect_scene(world.model(), world.object_bodies(), false);
+  std::set<int> visible;
+  for (const Primitive& primitive : scene.primitives) visible.insert(primitive.object);
+  for (const auto& [object, batch] : scene.moving_triangles) visible.insert(object);
+  for (int i = 0; i < world.object_count(); ++i) {
+    if (visible.contains(i)) continue;
+    throw ScenarioError(trial.world.models_dir + "/objects/" +
+                        trial.world.objects[static_cast<std::size_t>(i)].kind +
+                        ".xml: No geom of the object can be seen: groups 3 and above and an alpha "
+                        "of 0 are hidden.");
   }
 }
 
@@ -137,9 +165,9 @@ void check_world(const World& world, const Trial& trial) {
                         " times the vehicle's weight; it needs at least " + to_text(kLeastLift) +
                         " to fly (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
   }
+  check_rotors(world, trial);
   if (trial.stereo) check_stereo(world, trial);
-  if (!trial.seen) return;
-  collect_scene(world.model(), world.object_bodies(), false);
+  if (trial.seen) check_visible(world, trial);
 }
 
 // The message behind the place of the longest dotted key that it names and that the scenario gives;

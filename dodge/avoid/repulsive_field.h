@@ -42,7 +42,8 @@ struct RepulsiveConfig {
     v("lambda_decay_1ps", lambda_decay_1ps, 0.01, 1000.0,
       "Decay of the repulsive constant since the last detection (33). Same source as k_r0.");
     v("k_tau", k_tau, 1e-12, 1000.0,
-      "An obstacle is removed when its repulsive constant (33) has decayed below this.");
+      "An obstacle is removed when its repulsive constant (33) has decayed below this, also with "
+      "escape.law closest_approach.");
     v("quadrotor_radius_m", quadrotor_radius_m, 0.0, 10.0,
       "Taken off the distance between the vehicle's centre and the obstacle's surface.");
     v("scale_by_speed", scale_by_speed, "Whether the force grows with the obstacle's speed (32).");

@@ -41,11 +41,12 @@ double Associator::cost(const MeasuredPosition& detection,
 }
 
 std::span<const int> Associator::associate(std::span<const MeasuredPosition> detections,
-                                           std::span<const PredictedObstacle> obstacles) {
+                                           std::span<const PredictedObstacle> predicted) {
+  const std::size_t obstacles = detections.empty() ? 0 : predicted.size() / detections.size();
   pairs_.clear();
-  for (std::size_t o = 0; o < obstacles.size(); ++o) {
-    for (std::size_t d = 0; d < detections.size(); ++d) {
-      const double c = cost(detections[d], obstacles[o]);
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    for (std::size_t o = 0; o < obstacles; ++o) {
+      const double c = cost(detections[d], predicted[d * obstacles + o]);
       if (c < kInfinity) pairs_.push_back({c, static_cast<int>(d), static_cast<int>(o)});
     }
   }
@@ -53,7 +54,7 @@ std::span<const int> Associator::associate(std::span<const MeasuredPosition> det
     return std::tie(a.cost, a.detection, a.obstacle) < std::tie(b.cost, b.detection, b.obstacle);
   });
   obstacle_of_.assign(detections.size(), -1);
-  taken_.assign(obstacles.size(), 0);
+  taken_.assign(obstacles, 0);
   for (const Pair& pair : pairs_) {
     int& mine = obstacle_of_[static_cast<std::size_t>(pair.detection)];
     char& taken = taken_[static_cast<std::size_t>(pair.obstacle)];

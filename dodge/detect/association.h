@@ -49,8 +49,7 @@ struct AssociationConfig {
   }
 };
 
-// An obstacle as association sees it, at the instant of the first detection (those of one cycle lie
-// within some milliseconds).
+// An obstacle as association sees it, at the instant of a detection.
 struct PredictedObstacle {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]
   Eigen::Matrix3d P_W = Eigen::Matrix3d::Zero();  // covariance of p_W [m^2]
@@ -70,9 +69,10 @@ class Associator {
  public:
   explicit Associator(const AssociationConfig& config);
 
-  // For each detection the index of its obstacle, or -1. Valid until the next call.
+  // For each detection the index of its obstacle, or -1. Valid until the next call. `predicted`
+  // has all obstacles for the first detection, then all for the next: whole rows.
   std::span<const int> associate(std::span<const MeasuredPosition> detections,
-                                 std::span<const PredictedObstacle> obstacles);
+                                 std::span<const PredictedObstacle> predicted);
 
  private:
   struct Pair {

@@ -169,6 +169,7 @@ void DepthEstimator::append(const Cluster& cluster, double depth_m, double depth
   detection.camera = 0;
   detection.depth_m = depth_m;
   detection.depth_sigma_m = depth_sigma_m;
+  detection.distance_per_depth = range_m / depth_m;
   detection.size_m = size_m;
   cv::Point2f corners[4];
   cluster.rectangle.points(corners);

@@ -7,7 +7,7 @@ namespace dodge {
 namespace {
 
 constexpr std::size_t kRateSamples = 1024;  // one second at 1 kHz
-constexpr std::size_t kMaxBins = 4096;      // reached only beyond 1000 rad/s or so
+constexpr double kMostBins = 4096;          // of faster turns events are misplaced by more
 
 Eigen::Vector3d interpolate(const ImuSample& a, const ImuSample& b, TimeUs t_us) {
   if (b.t_us <= a.t_us) return b.w_WB_B;
@@ -20,6 +20,7 @@ Eigen::Vector3d interpolate(const ImuSample& a, const ImuSample& b, TimeUs t_us)
 RateHistory::RateHistory() : samples_(kRateSamples) {}
 
 void RateHistory::add(const ImuSample& sample) {
+  if (!sample.w_WB_B.allFinite()) return;
   if (samples_.size() == samples_.capacity()) samples_.pop_front();
   samples_.push_back(sample);
 }
@@ -67,7 +68,7 @@ EgoMotion::EgoMotion(const EgoMotionConfig& config, const CameraModel& camera)
   float largest = 0;
   for (const Eigen::Vector2f& d : bearings_) largest = std::max(largest, d.squaredNorm());
   px_per_rad_ = std::max(camera.fx, camera.fy) * (1 + largest);
-  bins_.reserve(kMaxBins);
+  bins_.reserve(static_cast<std::size_t>(kMostBins));
   set_motion(Eigen::Vector3d::Zero(), 0, 0);
 }
 
@@ -101,8 +102,7 @@ void EgoMotion::set_motion(const Eigen::Vector3d& w_WC_C, TimeUs begin_us, TimeU
   // An event lies at most half a bin from the bin's centre.
   const double travel_px = px_per_rad_ * w.norm() * length_s;
   const double needed = std::ceil(0.5 * travel_px / config_.max_error_px);
-  const auto count =
-      static_cast<std::size_t>(std::clamp(needed, 1.0, static_cast<double>(kMaxBins)));
+  const auto count = static_cast<std::size_t>(std::clamp(needed, 1.0, kMostBins));
   begin_us_ = begin_us;
   bins_per_us_ = length_us > 0 ? static_cast<float>(static_cast<double>(count) / length_us) : 0;
 

@@ -23,7 +23,8 @@ Matrix36d past_position_of_state(double age_s) {
 Eigen::Matrix3d measurement_covariance(const KalmanConfig& config, const Detection& detection) {
   const double lateral =
       std::hypot(config.lateral_sigma_m, config.lateral_size_share * detection.size_m);
-  const double along = std::max(detection.depth_sigma_m, config.min_depth_sigma_m);
+  const double along =
+      std::max(detection.depth_sigma_m * detection.distance_per_depth, config.min_depth_sigma_m);
   const Eigen::Vector3d ray = detection.p_W[5] - detection.p_W[4];
   const double length = ray.norm();
   if (length < kNoDirectionM) {

@@ -6,6 +6,11 @@ namespace {
 
 constexpr std::size_t kStates = 128;  // half a second at 250 Hz
 
+bool is_finite(const StateEstimate& state) {
+  return state.p_WB.allFinite() && state.q_WB.coeffs().allFinite() && state.v_WB.allFinite() &&
+         state.w_WB_B.allFinite();
+}
+
 StateEstimate carry_on(const StateEstimate& from, TimeUs t_us) {
   const double dt_s = seconds(t_us - from.t_us);
   StateEstimate state = from;
@@ -32,6 +37,7 @@ StateEstimate between(const StateEstimate& a, const StateEstimate& b, TimeUs t_u
 StateHistory::StateHistory() : states_(kStates) {}
 
 void StateHistory::add(const StateEstimate& state) {
+  if (!is_finite(state)) return;
   if (states_.size() == states_.capacity()) states_.pop_front();
   states_.push_back(state);
 }

@@ -11,7 +11,7 @@ namespace dodge {
 class StateHistory {
  public:
   StateHistory();
-  void add(const StateEstimate& state);  // in ascending time
+  void add(const StateEstimate& state);  // in ascending time; one that is not finite is left out
 
   // The state at t_us: interpolated between two estimates, or carried on from the newest (oldest)
   // one at constant velocity and angular velocity. Empty as long as there is no estimate.

@@ -43,7 +43,7 @@ Tracker::Tracker(const AssociationConfig& association, const KalmanConfig& kalma
   lifetime_us_ = static_cast<TimeUs>(std::min(lifetime_s, kLongestLifetimeS) * kUsPerSecond);
   tracks_.reserve(kUsualObstacles);
   measured_.reserve(kUsualObstacles);
-  predicted_.reserve(kUsualObstacles);
+  predicted_.reserve(kUsualObstacles * kUsualObstacles);
   obstacles_.reserve(kUsualObstacles);
 }
 
@@ -64,21 +64,21 @@ void Tracker::predict(TimeUs now) {
   publish(now);
 }
 
+PredictedObstacle Tracker::predicted(const Track& track, TimeUs t_us) {
+  const Kalman::Position position = track.filter.position_at(t_us);
+  const TimeUs unseen_us = std::max<TimeUs>(0, t_us - track.last_detection_us);
+  return {position.mean_W, position.covariance_W, track.detections, seconds(unseen_us)};
+}
+
 // One camera's detections at a time: it sees an obstacle once, another camera may see it again.
 // Those that are not finite take no track from the others.
 void Tracker::take_in(std::span<Detection> detections) {
-  const TimeUs t_us = detections.front().t_us;
   predicted_.clear();
-  for (const Track& track : tracks_) {
-    const Kalman::Position position = track.filter.position_at(t_us);
-    const TimeUs unseen_us = std::max<TimeUs>(0, t_us - track.last_detection_us);
-    predicted_.push_back({position.mean_W, position.covariance_W, track.detections,
-                          static_cast<double>(unseen_us) / kUsPerSecond});
-  }
   measured_.clear();
   for (const Detection& detection : detections) {
     if (!is_finite(detection)) continue;
     measured_.push_back({detection.centre_W, measurement_covariance(kalman_, detection)});
+    for (const Track& track : tracks_) predicted_.push_back(predicted(track, detection.t_us));
   }
   const std::span<const int> track_of = associator_.associate(measured_, predicted_);
   std::size_t next = 0;
@@ -88,14 +88,8 @@ void Tracker::take_in(std::span<Detection> detections) {
     const std::size_t i = next++;
     const Eigen::Matrix3d& R = measured_[i].R_W;
     if (track_of[i] < 0) {
-      tracks_.push_back({next_id_++,
-                         Kalman(kalman_, detection.t_us, detection.centre_W, R),
-                         detection.t_us,
-                         0,
-                         0,
-                         {},
-                         false,
-                         false});
+      tracks_.push_back(
+          {next_id_++, Kalman(kalman_, detection.t_us, detection.centre_W, R), detection.t_us});
       measure(tracks_.back(), detection);
     } else {
       Track& track = tracks_[static_cast<std::size_t>(track_of[i])];

@@ -48,13 +48,14 @@ class Tracker {
     int id;
     Kalman filter;  // at the last detection's instant
     TimeUs last_detection_us;
-    int detections;
-    double size_m;
-    Ellipsoid ellipsoid;  // its centre relative to the obstacle's position
-    bool confirmed;
-    bool missed;  // not detected by the last look
+    int detections = 0;
+    double size_m = 0;
+    Ellipsoid ellipsoid = {};  // its centre relative to the obstacle's position
+    bool confirmed = false;
+    bool missed = false;  // not detected by the last look
   };
 
+  static PredictedObstacle predicted(const Track& track, TimeUs t_us);
   void take_in(std::span<Detection> detections);
   void measure(Track& track, Detection& detection) const;
   void remove_stale(TimeUs now);

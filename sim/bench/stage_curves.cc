@@ -1,9 +1,7 @@
 #include "sim/bench/stage_curves.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 
-#include "sim/base/error.h"
 #include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/text_table.h"
 #include "sim/files/output_file.h"
@@ -61,9 +59,7 @@ void draw_curve(const std::filesystem::path& file, const std::string& title,
                          {0, most},
                          {line.at_0, line.at_0 + line.slope * most},
                          {}});
-  if (!cv::imwrite(file, draw(plot))) {
-    throw IoError("The picture " + file.string() + " could not be written.");
-  }
+  write_file(file, png_of(plot));
 }
 
 }  // namespace

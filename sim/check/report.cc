@@ -1,7 +1,5 @@
 #include "sim/check/report.h"
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "sim/files/base64.h"
 #include "sim/files/markup.h"
 
@@ -41,10 +39,8 @@ std::string table(const Check& check) {
 }
 
 std::string picture(const Plot& plot) {
-  std::vector<unsigned char> png;
-  cv::imencode(".png", draw(plot), png);
   return "<img alt=\"" + markup_escaped(plot.title) + "\" src=\"data:image/png;base64," +
-         base64({reinterpret_cast<const char*>(png.data()), png.size()}) + "\">\n";
+         base64(png_of(plot)) + "\">\n";
 }
 
 }  // namespace

@@ -113,6 +113,9 @@ Baseline read_baseline(const fs::path& directory) {
       machine_kind(directory)};
   check(baseline.rules, directory);
   check(baseline.tables.throws, directory);
+  if (!baseline.tables.objects) {
+    throw IoError((directory / "objects.csv").string() + " is missing.");
+  }
   return baseline;
 }
 

@@ -32,11 +32,17 @@ GateCheck every_throw_flew(const CsvTable& flown) {
 // empty if not even all of them are enough.
 std::optional<std::int64_t> losses_that_fail(const PairedCounts& counts, const GateRules& rules) {
   const std::int64_t successes = counts.both + counts.only_first;
-  for (std::int64_t lost = 1; lost <= successes; ++lost) {
+  const auto fails = [&](std::int64_t lost) {
     const PairedCounts then = {successes - lost, lost, 0, counts.total() - successes};
-    if (judge_drop(then, rules.margin, rules.confidence).fell) return lost;
+    return judge_drop(then, rules.margin, rules.confidence).fell;
+  };
+  if (successes == 0 || !fails(successes)) return std::nullopt;
+  std::int64_t passes = 0, least = successes;
+  while (least - passes > 1) {
+    const std::int64_t lost = passes + (least - passes) / 2;
+    (fails(lost) ? least : passes) = lost;
   }
-  return std::nullopt;
+  return least;
 }
 
 // No throw may escape the comparison. A throw that grazes may hit on one kind of machine only.

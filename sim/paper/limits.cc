@@ -1,5 +1,6 @@
 // What the paper's pilot can dodge, by the speed of the object and by the distance from which on it
 // is believed.
+#include "sim/base/error.h"
 #include "sim/paper/avoidance_bound.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/rate_grid.h"
@@ -59,7 +60,11 @@ struct SpeedCurve {
 SpeedCurve curve(std::size_t part, const LoadedCampaign& slow, const LoadedCampaign& fast) {
   SpeedCurve curve;
   for (const LoadedCampaign* campaign : {&slow, &fast}) {
-    curve.add(parts_of(*campaign).at(part).results, *campaign);
+    const std::vector<Part> parts = parts_of(*campaign);
+    if (part >= parts.size()) {
+      throw ScenarioError(campaign->scenario.name + ": the experiment needs its sweep.");
+    }
+    curve.add(parts[part].results, *campaign);
   }
   return curve;
 }

@@ -1,6 +1,7 @@
 #include "sim/paper/pair.h"
 
 #include <stdexcept>
+#include <string>
 
 #include "sim/campaign/text_table.h"
 
@@ -8,10 +9,12 @@ namespace dodgesim {
 
 namespace {
 
+// As drawn, and with the same fate if nobody dodges, where that was flown in both.
 bool same_throw(const ThrowResult& a, const ThrowResult& b) {
-  return a.index == b.index && a.object == b.object && a.size_m == b.size_m &&
-         a.speed_mps == b.speed_mps && a.distance_m == b.distance_m &&
-         a.bearing_deg == b.bearing_deg && a.none.hit == b.none.hit;
+  const bool same_draw = a.index == b.index && a.object == b.object && a.size_m == b.size_m &&
+                         a.speed_mps == b.speed_mps && a.distance_m == b.distance_m &&
+                         a.bearing_deg == b.bearing_deg;
+  return same_draw && (!a.none.ok() || !b.none.ok() || a.none.hit == b.none.hit);
 }
 
 void count(const ThrowResult& result, Tally& tally, std::map<std::string, int>& causes) {
@@ -29,7 +32,9 @@ void for_each_throw(const LoadedCampaign& first_flew, const LoadedCampaign& seco
   for (std::size_t i = 0; i < first_flew.results.size(); ++i) {
     const ThrowResult &a = first_flew.results[i], &b = second_flew.results[i];
     if (!same_throw(a, b)) {
-      throw std::invalid_argument("The two pilots flew different throws.");
+      throw std::invalid_argument(
+          "Throw " + std::to_string(a.index) + " of " + first_flew.scenario.name + " and throw " +
+          std::to_string(b.index) + " of " + second_flew.scenario.name + " are not the same.");
     }
     both(a, b);
   }
@@ -42,7 +47,7 @@ void PilotPair::add(const LoadedCampaign& first_flew, const LoadedCampaign& seco
     count(a, first, first_causes);
     count(b, second, second_causes);
     oracle.add(a, &ThrowResult::oracle);
-    if (a.none.hit) paired.add(a.dodged(), b.dodged());
+    if (a.none.hit || b.none.hit) paired.add(a.dodged(), b.dodged());
   });
 }
 

@@ -1,7 +1,7 @@
 #include "sim/paper/paper_tables.h"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
+#include <tuple>
 
 #include "sim/base/error.h"
 #include "sim/campaign/build_info.h"
@@ -57,9 +57,7 @@ std::string write_plots(const fs::path& out, const std::string& experiment,
   std::string text;
   for (const PaperPlot& plot : plots) {
     const std::string file = experiment + "_" + plot.name + ".png";
-    if (!cv::imwrite(out / file, draw(plot.plot))) {
-      throw IoError("The picture " + (out / file).string() + " could not be written.");
-    }
+    write_file(out / file, png_of(plot.plot));
     text += "![" + plot.plot.title + "](" + file + ")\n";
   }
   return text.empty() ? text : text + "\n";
@@ -73,6 +71,20 @@ PaperTables tables_of(const fs::path& out, const PaperExperiment& experiment,
   options.scenarios_dir = sources.scenarios_dir;
   options.plots_dir = out;
   return experiment.measure(options);
+}
+
+// Of all tables that are there, also those of other commands.
+std::string contents_of(const fs::path& out) {
+  std::string text =
+      "# Falanga et al. 2020, reproduced\n\nEach table says which command and program made "
+      "it.\n\n| experiment | tables |\n|---|---|\n";
+  for (const PaperExperiment& experiment : paper_experiments()) {
+    const auto& [name, title] = std::tie(experiment.name, experiment.title);
+    if (!fs::exists(out / (name + ".md"))) continue;
+    text += "| " + title + " | [" + name + ".md](" + name + ".md), [" + name + ".csv](" + name +
+            ".csv) |\n";
+  }
+  return text;
 }
 
 }  // namespace
@@ -116,8 +128,6 @@ std::string write_paper_tables(const fs::path& out, const std::vector<PaperExper
   make_directory(out);
   const std::string program = build_info().name();
   std::string shown;
-  std::string readme = "# Falanga et al. 2020, reproduced\n\nMade by `" + command + "`, dodgesim " +
-                       program + ".\n\n| experiment | tables |\n|---|---|\n";
   for (const PaperExperiment& experiment : experiments) {
     std::vector<LoadedCampaign> campaigns;
     for (const PaperFlight& flight : experiment.flights) {
@@ -129,11 +139,9 @@ std::string write_paper_tables(const fs::path& out, const std::vector<PaperExper
                              tables.markdown + flown_markdown(experiment, campaigns);
     write_file(out / (experiment.name + ".md"), text);
     write_file(out / (experiment.name + ".csv"), tables.csv);
-    readme += "| " + experiment.title + " | [" + experiment.name + ".md](" + experiment.name +
-              ".md), [" + experiment.name + ".csv](" + experiment.name + ".csv) |\n";
     shown += text + "\n";
   }
-  write_file(out / "README.md", readme);
+  write_file(out / "README.md", contents_of(out));
   return shown;
 }
 

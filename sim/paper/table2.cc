@@ -2,14 +2,12 @@
 #include <array>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "sim/base/error.h"
 #include "sim/campaign/statistics.h"
 #include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
-#include "sim/paper/bootstrap.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/miss_investigator.h"
 #include "sim/paper/success.h"
@@ -62,8 +60,9 @@ constexpr const char* kTable2Protocol = R"(How the protocol is read:
 - *How far the pilot got at best*: of a missed passage or piece, over the pilot's cycles while the
   ball was in view; the throws were flown again for this, with a look at events, clusters and
   matches.
-- Intervals: 95 %, Wilson; for the pieces of 10 ms, bootstrap over throws. A cell is below the paper
-  when its interval is.
+- Intervals: 95 %, Wilson. Pieces of one passage may be seen or missed together: they count as no
+  more trials than there are passages, with the same share detected, rounded down. A cell is below
+  the paper when its interval is.
 )";
 
 // Detected and visible.
@@ -124,28 +123,13 @@ Cells count_passages(const std::vector<PassageCase>& cases) {
 
 // Of the pieces of the passages of one cell.
 Cell count_pieces(const std::vector<Exposure>& passages) {
-  const auto visible = [&](std::span<const std::size_t> which) {
-    std::int64_t sum = 0;
-    for (const std::size_t k : which) sum += passages[k].pieces;
-    return sum;
-  };
-  const auto detected = [&](std::span<const std::size_t> which) {
-    std::int64_t sum = 0;
-    for (const std::size_t k : which) sum += passages[k].detected_pieces();
-    return sum;
-  };
-  std::vector<std::size_t> each(passages.size());
-  std::iota(each.begin(), each.end(), std::size_t{0});
-  Cell cell{detected(each), visible(each), {}};
-  if (cell.detected == 0 || cell.detected == cell.visible) {
-    // Nothing varies that could be drawn again: as if each passage were one trial.
-    const auto n = static_cast<std::int64_t>(passages.size());
-    cell.interval = wilson(cell.detected == 0 ? 0 : n, n);
-  } else {
-    cell.interval = cluster_bootstrap(passages.size(), "table2/pieces", [&](auto which) {
-      return static_cast<double>(detected(which)) / static_cast<double>(visible(which));
-    });
+  Cell cell;
+  for (const Exposure& passage : passages) {
+    cell.visible += passage.pieces;
+    cell.detected += passage.detected_pieces();
   }
+  const auto n = static_cast<std::int64_t>(passages.size());
+  cell.interval = wilson(cell.visible > 0 ? cell.detected * n / cell.visible : 0, n);
   return cell;
 }
 

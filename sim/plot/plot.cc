@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -234,6 +235,12 @@ cv::Mat3b draw(const Plot& plot) {
                                      image.rowRange(kBelowTitle, kHeight)},
               image);
   return image;
+}
+
+std::string png_of(const Plot& plot) {
+  std::vector<unsigned char> png;
+  cv::imencode(".png", draw(plot), png);
+  return {png.begin(), png.end()};
 }
 
 }  // namespace dodgesim

@@ -36,4 +36,7 @@ Series histogram(const std::string& name, int colour, const std::vector<double>&
 // 640 x 400 px, and above the axes the lines that the names take [BGR].
 cv::Mat3b draw(const Plot& plot);
 
+// The bytes of that picture's PNG file.
+std::string png_of(const Plot& plot);
+
 }  // namespace dodgesim

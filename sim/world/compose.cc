@@ -34,6 +34,28 @@ void refuse(const std::vector<MjcfTag>& tags, std::initializer_list<const char*>
   }
 }
 
+// What stands beside an object's body would stand in the room.
+void expect_one_body(const std::vector<MjcfTag>& tags, const std::string& label) {
+  std::vector<std::string> open;
+  bool has_body = false;
+  for (const MjcfTag& tag : tags) {
+    if (tag.kind == MjcfTag::Kind::kClose) {
+      if (!open.empty()) open.pop_back();
+      continue;
+    }
+    if (open.size() == 1 && open[0] == "worldbody") {
+      if (tag.name != "body" || has_body) {
+        throw ScenarioError(label + ":" + std::to_string(tag.line) +
+                            ": The <worldbody> of an object must hold one <body> and nothing "
+                            "else, not <" +
+                            tag.name + "> too.");
+      }
+      has_body = true;
+    }
+    if (tag.kind == MjcfTag::Kind::kOpen) open.push_back(tag.name);
+  }
+}
+
 std::vector<MjcfTag> scaled_object(const std::string& models_dir, const ObjectSpec& spec, int i) {
   check_model_name(spec.kind, "models/objects");
   const std::string file = "objects/" + spec.kind + ".xml";
@@ -45,6 +67,7 @@ std::vector<MjcfTag> scaled_object(const std::string& models_dir, const ObjectSp
   std::vector<MjcfTag> tags = read_model_file(models_dir, file);
   // Files that bring global settings would change the other models in the world.
   refuse(tags, {"option", "size", "default", "contact"}, "an object", label);
+  expect_one_body(tags, label);
   if (std::none_of(tags.begin(), tags.end(),
                    [](const MjcfTag& t) { return t.name == "inertial"; })) {
     throw ScenarioError(label + ": The body of an object must have an <inertial>, which is what " +
@@ -123,6 +146,8 @@ MjModelPtr compose_model(const WorldSpec& spec) {
     const std::vector<MjcfTag> tags = read_model_file(spec.models_dir, file);
     // Gravity, air and the time step are known to the throws, the controller and the IMU, too.
     refuse(tags, {"option"}, what, label);
+    // The pictures of a room are drawn once and shown from many places.
+    if (what == "a room") refuse(tags, {"joint", "freejoint"}, what, label);
     parts.push_back({label, print_mjcf(tags)});
   }
   for (std::size_t i = 0; i < spec.objects.size(); ++i) {

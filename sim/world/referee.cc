@@ -19,6 +19,7 @@ Touch touch_of(const World& world) {
   Touch touch = Touch::kNone;
   for (int k = 0; k < data.ncon; ++k) {
     const mjContact& contact = data.contact[k];
+    if (contact.dist > 0) continue;  // within a geom's margin, but not touching
     const int body1 = model.geom_bodyid[contact.geom1];
     const int body2 = model.geom_bodyid[contact.geom2];
     if (body1 != world.vehicle_body() && body2 != world.vehicle_body()) continue;

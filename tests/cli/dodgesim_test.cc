@@ -78,8 +78,7 @@ TEST_F(DodgesimTest, RefusesBadCommandLinesWithExitCode2) {
 TEST_F(DodgesimTest, SaysWhatIsWrongWithACommandLine) {
   const std::pair<const char*, const char*> cases[] = {
       {"fly s.yaml", "dodgesim has no command fly; it has run, sweep, "},
-      {"run " DODGESIM_SOURCE_DIR "/scenarios/demo.yaml --out ''",
-       "The name of the directory for the results is empty."},
+      {"run " DODGESIM_SOURCE_DIR "/scenarios/demo.yaml --out ''", "--out: nothing was given"},
       {"explain throw --markdown", "key excludes --markdown"},
       {"replay d --throw 0 --video v.avi", "v.avi must be the name of a file that ends in .mp4"},
       {"replay d --throw 0 --mcap v.bag", "v.bag must be the name of a file that ends in .mcap"},

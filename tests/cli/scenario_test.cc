@@ -186,6 +186,30 @@ TEST_F(ScenarioCommandTest, RoomsThatNoCameraCanSeeAndRotorsThatAreTooWeakAreUsa
   EXPECT_THAT(lifted.output, HasSubstr("a quarter of the vehicle's weight, which is 2.45"));
 }
 
+TEST_F(ScenarioCommandTest, ObjectsThatNobodySeesAndRotorsThatCannotHoldAreUsageErrors) {
+  fs::copy(DODGESIM_SOURCE_DIR "/models", root_ / "models", fs::copy_options::recursive);
+  const auto validate = [&](const std::string& settings) {
+    return dodgesim("validate " + path("s.yaml") + " --models " + path("models") + settings);
+  };
+  const std::string ball = contents("models/objects/ball.xml");
+  const std::string hidden = std::regex_replace(ball, std::regex("<geom "), "<geom group=\"3\" ");
+  ASSERT_NE(hidden, ball);
+  write("models/objects/ghost.xml", hidden);
+  EXPECT_EQ(validate(" --set throw.object=ghost").exit_code, 0) << "nobody looks";
+  const Outcome ghost = validate(" --set throw.object=ghost --set pilot=dodgesim");
+  EXPECT_EQ(ghost.exit_code, 2);
+  EXPECT_THAT(ghost.output, HasSubstr("objects/ghost.xml: No geom of the object can be seen"));
+
+  const std::string quad = contents("models/vehicles/qav_rxl.xml");
+  const std::string lame =
+      std::regex_replace(quad, std::regex("(name=\"rotor_0\"\\s+pos=\")"), "$1-");
+  ASSERT_NE(lame, quad);
+  write("models/vehicles/qav_rxl.xml", lame);
+  const Outcome rotors = validate("");
+  EXPECT_EQ(rotors.exit_code, 2);
+  EXPECT_THAT(rotors.output, HasSubstr("vehicles/qav_rxl.xml: The "));
+}
+
 TEST_F(ScenarioCommandTest, CamerasThatStereoCannotUseAreUsageErrors) {
   fs::copy(DODGESIM_SOURCE_DIR "/models", root_ / "models", fs::copy_options::recursive);
   const std::string upright = contents("models/vehicles/qav_rxl.xml");

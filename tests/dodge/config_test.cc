@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -82,6 +83,25 @@ TEST(Config, StereoNeedsARectifiedVerticalPair) {
   config = valid();
   config.cameras[1].fx += 1;
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("same intrinsics"));
+}
+
+TEST(Config, ALensMustHaveALineOfSightForEveryPixel) {
+  Config config = valid();
+  for (CameraModel& camera : config.cameras) camera.k1 = 0.4;  // stretches ever more
+  EXPECT_EQ(complaint(config), "");
+  for (CameraModel& camera : config.cameras) camera.k1 = -0.25;  // folds before the corners
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("has no inverse at pixel (0, 0)"));
+  for (CameraModel& camera : config.cameras) camera.k1 = std::nan("");
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("has no inverse"));
+}
+
+TEST(Config, AnEscapeNeedsObstaclesThatAreRemembered) {
+  Config config = valid();
+  config.repulsive.k_r0 = 0;
+  EXPECT_EQ(complaint(config), "");
+  config.escape.law = "closest_approach";
+  EXPECT_EQ(complaint(config),
+            "The parameter repulsive.k_r0 is 0 but must exceed repulsive.k_tau, which is 0.001.");
 }
 
 TEST(Config, MonoNeedsOneCamera) {

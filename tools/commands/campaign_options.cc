@@ -24,15 +24,21 @@ ThrowResult fly_with_truth(const Scenario& scenario, int index) {
   return result;
 }
 
+const std::filesystem::path kDefaultOut = "out";
+
 }  // namespace
 
-void add_campaign_options(CLI::App& command, CampaignOptions& options) {
+void add_campaign_options(CLI::App& command, const std::string& by_default,
+                          CampaignOptions& options) {
   options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   constexpr double kTimeLimitS = 600;
   constexpr std::int64_t kMemoryLimitMb = 4096;
   options.limits = {kTimeLimitS, kMemoryLimitMb};
-  command.add_option("--out", options.out, "Where the results go; made when missing")
-      ->required()
+  command
+      .add_option(
+          "--out", options.out,
+          "Where the results go; made when missing [" + (kDefaultOut / by_default).string() + "]")
+      ->check(not_empty())
       ->type_name("DIR");
   command.add_option("-j,--jobs", options.jobs, "Worker processes; results do not depend on it")
       ->check(whole_number_between(1, 1024))
@@ -54,6 +60,10 @@ void add_campaign_options(CLI::App& command, CampaignOptions& options) {
                   "Address space of a worker [MB]; a throw that needs more fails; 0: no limit")
       ->check(whole_number_between(0, 1000000))
       ->capture_default_str();
+}
+
+void set_default_out(const std::filesystem::path& name, CampaignOptions& options) {
+  if (options.out.empty()) options.out = kDefaultOut / name;
 }
 
 void add_repeat_options(CLI::App& command, RepeatOptions& options, const std::string& throws_help,

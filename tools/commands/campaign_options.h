@@ -10,8 +10,12 @@
 
 namespace dodgesim {
 
-// Adds --out, -j, --force, --resume and the limits of a worker.
-void add_campaign_options(CLI::App& command, CampaignOptions& options);
+// Adds --out, -j, --force, --resume and the limits of a worker. Without --out the results go to
+// out/NAME of the current directory: `by_default` is that NAME in the help, set_default_out() sets
+// it.
+void add_campaign_options(CLI::App& command, const std::string& by_default,
+                          CampaignOptions& options);
+void set_default_out(const std::filesystem::path& name, CampaignOptions& options);
 
 // --throws and --seed, which stand for keys of the scenario; as written, empty if not given.
 struct RepeatOptions {

@@ -231,7 +231,7 @@ void add_options(CLI::App& command, GateArguments& arguments) {
   command.add_option("--baseline", arguments.baseline, "What to compare with")
       ->required()
       ->type_name("DIR");
-  add_campaign_options(command, arguments.options);
+  add_campaign_options(command, "SCENARIO", arguments.options);
   add_set_option(command, arguments.set);
   command.add_flag("--update", arguments.update,
                    "Make this campaign the baseline, with the rules below");
@@ -263,18 +263,18 @@ void add_gate_command(CLI::App& program, const std::string& command_line, int& e
       "gate", "Fly the throws of a baseline again, and fail if they went worse");
   add_options(*command, *arguments);
   command->footer(
-      "Compares throw by throw. Exit code 1: the success rate fell by more than the margin with "
-      "the\n"
-      "confidence, a throw could not be flown or, on a machine of the baseline's kind, would have\n"
-      "hit in only one of the two, or bytes changed that must not. Prints the throws that changed, "
-      "and how to look at them. The throws\n"
-      "are the baseline's: other repeats or another seed (--set seed=8) make another baseline, "
-      "with\n"
-      "--update.\n\n"
+      "Compares throw by throw. Exit code 1: the success rate fell by more than the margin with\n"
+      "the confidence, a throw could not be flown or, on a machine of the baseline's kind, would\n"
+      "have hit in only one of the two, or bytes changed that must not. Prints the throws that\n"
+      "changed, and how to look at them. The throws are the baseline's: other repeats or another\n"
+      "seed (--set seed=8) make another baseline, with --update.\n\n"
       "Examples:\n"
       "  dodgesim gate s.yaml --baseline baselines/s --out out/s --update      once\n"
       "  dodgesim gate s.yaml --baseline baselines/s --out out/s --force       after each change");
-  command->callback([arguments, &exit_code] { exit_code = gate(*arguments); });
+  command->callback([arguments, &exit_code] {
+    set_default_out(fs::path(arguments->scenario).stem(), arguments->options);
+    exit_code = gate(*arguments);
+  });
 }
 
 }  // namespace dodgesim

@@ -29,12 +29,15 @@ Scenario scenario_of(const PaperFlight& flight, const std::string& models_dir) {
                        flight.settings);
 }
 
-// Adds to the seed: throws that were the same in two flights stay the same, others different.
+// The experiments' own seeds are smaller and lie side by side: no sum of one is another's.
+constexpr std::uint64_t kSeedStep = 1'000'000;
+
+// Moves the seed: throws that were the same in two flights stay the same, and all are new.
 void add_to_seed(const Setting& seed, const std::string& models_dir, PaperFlight& flight) {
   const std::uint64_t own = scenario_of(flight, models_dir).seed;
   flight.settings.push_back(seed);
   Setting& sum = flight.settings.back();
-  sum.value = std::to_string(own + scenario_of(flight, models_dir).seed);
+  sum.value = std::to_string(own + kSeedStep * scenario_of(flight, models_dir).seed);
 }
 
 // The experiments as the command line wants them.
@@ -144,12 +147,12 @@ void add_paper_command(CLI::App& program, const std::string& command_line, int& 
       "Fly the experiments of Falanga et al. 2020, and put the results beside the paper's");
   command->add_option("experiments", arguments->experiments, "Which ones; all of them without any")
       ->type_name("EXPERIMENT");
-  add_campaign_options(*command, arguments->options);
+  add_campaign_options(*command, "paper", arguments->options);
   add_repeat_options(
       *command, arguments->repeat,
       "Repeats of every scenario, in place of its own: for a quick look",
-      "Added to the seed of every scenario: for trying something out, as no parameter\n"
-      "may be tuned on the throws that are reported");
+      "Moves the seed of every scenario, by so many millions: for trying something out, as no\n"
+      "parameter may be tuned on the throws that are reported");
   add_set_option(*command, arguments->set);
   add_models_option(*command, arguments->models_dir);
   std::string list = "Experiments:\n";
@@ -165,7 +168,10 @@ void add_paper_command(CLI::App& program, const std::string& command_line, int& 
                   "  dodgesim paper table2 --out out/table2\n"
                   "  dodgesim paper table2 --out out/dusk --seed 7 --throws 20 --set "
                   "sensors.events.preset=low_light");
-  command->callback([arguments, &exit_code] { exit_code = paper(*arguments); });
+  command->callback([arguments, &exit_code] {
+    set_default_out("paper", arguments->options);
+    exit_code = paper(*arguments);
+  });
 }
 
 }  // namespace dodgesim

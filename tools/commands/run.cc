@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <set>
@@ -14,6 +15,8 @@
 #include "tools/commands/command.h"
 
 namespace dodgesim {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -108,7 +111,7 @@ CLI::App* add_campaign_command(CLI::App& program, const std::string& name, const
   command->add_option("scenario", arguments->scenario, "The scenario's YAML file")
       ->required()
       ->type_name("SCENARIO.yaml");
-  add_campaign_options(*command, options);
+  add_campaign_options(*command, "SCENARIO", options);
   add_repeat_options(*command, arguments->repeat,
                      "Number of throws (with a grid, of each cell), in place of repeats",
                      "Seed, in place of the scenario's");
@@ -143,11 +146,14 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
       "or a full disk, --resume goes on from there. A throw that crashes, hangs or needs too much\n"
       "memory fails with its reason and never counts as a success.\n\n"
       "Examples:\n"
-      "  dodgesim run scenarios/demo.yaml --out out/demo\n"
+      "  dodgesim run scenarios/demo.yaml                          results in out/demo\n"
       "  dodgesim run scenarios/demo.yaml --out out/quick --throws 4 -j 2\n"
       "  dodgesim run scenarios/demo.yaml --out out/fast --set 'throw.speed_mps=!uniform [8, 10]'\n"
       "  dodgesim replay out/demo --throw 3 --video throw3.mp4     look at one of them");
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+  command->callback([arguments, &exit_code] {
+    set_default_out(fs::path(arguments->scenario).stem(), arguments->options);
+    exit_code = run(*arguments);
+  });
 }
 
 void add_sweep_command(CLI::App& program, const std::string& command_line, int& exit_code) {
@@ -169,7 +175,10 @@ void add_sweep_command(CLI::App& program, const std::string& command_line, int& 
       "delays.compute_us=0,3500,9000\n"
       "  dodgesim sweep scenarios/demo.yaml --out out/speed --over throw.speed_mps=4,6,8\n"
       "  dodgesim sweep scenarios/demo.yaml --out out/pilots --over pilot=falanga2020,oracle");
-  command->callback([arguments, &exit_code] { exit_code = run(*arguments); });
+  command->callback([arguments, &exit_code] {
+    set_default_out(fs::path(arguments->scenario).stem(), arguments->options);
+    exit_code = run(*arguments);
+  });
 }
 
 }  // namespace dodgesim

@@ -31,8 +31,12 @@ PredictedObstacle obstacle(double x, int detections = 5) {
 std::vector<int> associate(const AssociationConfig& config,
                            const std::vector<MeasuredPosition>& detections,
                            const std::vector<PredictedObstacle>& obstacles) {
+  std::vector<PredictedObstacle> predicted;  // the same at every detection's instant
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    predicted.insert(predicted.end(), obstacles.begin(), obstacles.end());
+  }
   Associator associator(config);
-  const auto result = associator.associate(detections, obstacles);
+  const auto result = associator.associate(detections, predicted);
   return {result.begin(), result.end()};
 }
 

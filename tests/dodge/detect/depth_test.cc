@@ -148,6 +148,13 @@ TEST_F(DepthTest, DepthUncertaintyIsThatOfOneDisparitySigma) {
   EXPECT_NEAR(detections[0].depth_sigma_m, 0.0787 * sigma_px, 0.0005 * sigma_px);
 }
 
+TEST_F(DepthTest, DistanceIsLongerThanDepthOffTheAxis) {
+  const Eigen::Vector3d p_B(1.1, 0.6, 0.075 + 0.3);
+  const auto detections = locate(centres(), {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
+  ASSERT_EQ(detections.size(), 1U);
+  EXPECT_NEAR(detections[0].distance_per_depth, Eigen::Vector3d(1, 0.6, 0.3).norm(), 1e-4);
+}
+
 TEST_F(DepthTest, MonoUncertaintyGrowsWithTheSquareOfTheDepth) {
   DepthConfig config;
   config.depth = "mono";

@@ -46,6 +46,13 @@ TEST(FindRowShift, FindsAPartOfTheOutlineInTheWhole) {
   EXPECT_NEAR(found->shift_px, -30, 0.1);
 }
 
+TEST(FindRowShift, FindsNothingWhenTheBestLiesOutsideOfTheSearch) {
+  const cv::Mat1f pattern = ring(80, 80, 8), image = ring(80, 60, 8);
+  EXPECT_TRUE(find_row_shift(pattern, around(80, 80, 8), image, -20, -10).has_value());
+  EXPECT_FALSE(find_row_shift(pattern, around(80, 80, 8), image, -18, -10).has_value());
+  EXPECT_FALSE(find_row_shift(pattern, around(80, 80, 8), image, -30, -22).has_value());
+}
+
 TEST(FindRowShift, FindsNothingInNothing) {
   const cv::Mat1f empty(120, 160, 0.0F), pattern = ring(80, 60, 8);
   EXPECT_FALSE(find_row_shift(pattern, around(80, 60, 8), empty, -20, 20).has_value());

@@ -37,6 +37,14 @@ TEST(RateHistory, IsZeroWithoutSamplesAndConstantOutsideOfThem) {
   EXPECT_EQ(rates.mean(9000, 9000), Eigen::Vector3d(1, 2, 3));
 }
 
+TEST(RateHistory, LeavesOutRatesThatAreNotFinite) {
+  RateHistory rates;
+  rates.add({.t_us = 0, .w_WB_B = {1, 2, 3}});
+  rates.add({.t_us = 500, .w_WB_B = {1, std::nan(""), 3}});
+  rates.add({.t_us = 900, .w_WB_B = {-INFINITY, 2, 3}});
+  EXPECT_EQ(rates.mean(0, 1000), Eigen::Vector3d(1, 2, 3));
+}
+
 TEST(RateHistory, WeighsIrregularSamplesByTime) {
   // A rate that grows linearly has its mean at the middle of the window, whatever the sampling.
   RateHistory rates;
@@ -145,6 +153,25 @@ TEST(EgoMotion, Undistorts) {
                      .p1 = -0.0003,
                      .p2 = -0.00076};
   EXPECT_LT(largest_error(camera, {}, {1.97, -0.11, 1.15}, kEndUs), 0.021);
+}
+
+// A line of sight is what distorts to its pixel, by the equations of OpenCV's manual, where that is
+// stretched so much that fixed-point steps do not converge.
+TEST(EgoMotion, LinesOfSightDistortToTheirPixels) {
+  const CameraModel camera{.k1 = 0.4, .k2 = 0.05, .p1 = 0.002, .p2 = -0.003, .k3 = 0.01};
+  for (int y = 0; y < camera.height; y += 7) {
+    for (int x = 0; x < camera.width; x += 7) {
+      const Eigen::Vector2d p = camera.bearing({x, y});
+      const double r2 = p.squaredNorm(),
+                   radial = 1 + camera.k1 * r2 + camera.k2 * r2 * r2 + camera.k3 * r2 * r2 * r2;
+      const double u =
+          p.x() * radial + 2 * camera.p1 * p.x() * p.y() + camera.p2 * (r2 + 2 * p.x() * p.x());
+      const double v =
+          p.y() * radial + camera.p1 * (r2 + 2 * p.y() * p.y()) + 2 * camera.p2 * p.x() * p.y();
+      ASSERT_NEAR(camera.fx * u + camera.cx, x, 1e-6);
+      ASSERT_NEAR(camera.fy * v + camera.cy, y, 1e-6);
+    }
+  }
 }
 
 TEST(EgoMotion, AStaticEdgeSeenFromAYawingCameraStaysWhereItIsNow) {

@@ -275,6 +275,19 @@ TEST(MeasurementCovariance, LiesAlongTheLineOfSight) {
   EXPECT_TRUE(measurement_covariance(config, detection).isApprox(0.01 * Matrix3d::Identity()));
 }
 
+TEST(MeasurementCovariance, IsLongerThanTheDepthsTowardsTheEdgesOfTheView) {
+  Detection detection;
+  detection.p_W.fill(Vector3d::Zero());
+  const Vector3d ray(0.8, 0.6, 1);  // of depth 1, seen from a camera that looks along z
+  detection.p_W[5] = ray;
+  detection.depth_sigma_m = 0.1;
+  detection.distance_per_depth = ray.norm();
+  // Depth z alone is uncertain: p = z ray.
+  const Vector3d sight = ray.normalized();
+  const Matrix3d R = measurement_covariance({}, detection);
+  EXPECT_NEAR(sight.dot(R * sight), (0.1 * ray).squaredNorm(), 1e-12);
+}
+
 TEST(MeasurementCovariance, GrowsWithTheClusterAcrossTheLineOfSight) {
   KalmanConfig config;
   config.lateral_sigma_m = 0.03;

@@ -25,6 +25,15 @@ double yaw_of(const StateEstimate& s) {
 
 TEST(StateHistory, IsEmptyWithoutEstimates) { EXPECT_FALSE(StateHistory().at(5).has_value()); }
 
+TEST(StateHistory, LeavesOutEstimatesThatAreNotFinite) {
+  StateHistory history;
+  history.add(state(1000, {0, 0, 1}, 0, {1, 0, 0}, 0));
+  history.add(state(2000, {0, std::nan(""), 1}, 0, {1, 0, 0}, 0));
+  history.add(state(3000, {0, 0, 1}, 0, {INFINITY, 0, 0}, 0));
+  EXPECT_NEAR(history.at(3000)->p_WB.x(), 0.002, 1e-12);
+  EXPECT_TRUE(history.at(2000)->p_WB.allFinite());
+}
+
 TEST(StateHistory, InterpolatesBetweenEstimates) {
   StateHistory history;
   history.add(state(1000, {0, 0, 1}, 0.0, {1, 0, 0}, 0));

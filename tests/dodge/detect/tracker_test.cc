@@ -213,6 +213,22 @@ TEST(Tracker, IsNotMovedByADetectionThatComesLate) {
   EXPECT_EQ(tracker.obstacles().size(), 1);
 }
 
+TEST(Tracker, PredictsObstaclesToTheInstantOfEachDetection) {
+  AssociationConfig association;
+  association.gate_sigmas = 3;
+  KalmanConfig kalman;
+  kalman.acceleration_noise = 0.1;
+  Tracker tracker(association, kalman, kLifetimeS);
+  const auto ball = [](TimeUs t_us) { return seen(t_us, {4 - 10 * seconds(t_us), 0, 0}); };
+  for (TimeUs t_us = 0; t_us <= 100000; t_us += 4000) update(tracker, t_us, {ball(t_us)});
+  ASSERT_EQ(tracker.obstacles().size(), 1);
+  // Something else was seen before, when the ball was 0.2 m farther.
+  std::vector<Detection> both = {seen(90000, {2, 3, 0}), ball(110000)};
+  tracker.update(110000, both);
+  EXPECT_EQ(both[1].obstacle_id, tracker.obstacles()[0].obstacle.id);
+  EXPECT_NE(both[0].obstacle_id, both[1].obstacle_id);
+}
+
 TEST(Tracker, IgnoresDetectionsThatAreNotFinite) {
   Tracker tracker({}, {}, kLifetimeS);
   Detection bad_centre = seen(0, Vector3d(2, 0, 0)), bad_point = bad_centre, bad_sigma = bad_centre,

@@ -41,7 +41,7 @@ TEST(Shard, IsTakenFromTheEnvironmentOfAnArrayJob) {
       {"SLURM_ARRAY_TASK_ID", "4"}, {"SLURM_ARRAY_TASK_MIN", "1"}, {"SLURM_ARRAY_TASK_COUNT", "6"}};
   EXPECT_EQ(parsed("auto", slurm).index, 3);
   EXPECT_EQ(parsed("auto", slurm).count, 6);
-  EXPECT_EQ(parsed("auto/10", slurm).count, 10);
+  EXPECT_EQ(parsed("auto/6", slurm).index, 3);
 }
 
 TEST(Shard, RefusesWhatIsNone) {
@@ -52,6 +52,10 @@ TEST(Shard, RefusesWhatIsNone) {
   EXPECT_THAT(refusal("auto/8"), ::testing::HasSubstr("none of SLURM_ARRAY_TASK_ID"));
   EXPECT_THAT(refusal("auto", {{"SLURM_ARRAY_TASK_ID", "1"}}),
               ::testing::HasSubstr("SLURM_ARRAY_TASK_COUNT is not set"));
+  // Only task 5 was submitted again.
+  const Variables again = {
+      {"SLURM_ARRAY_TASK_ID", "5"}, {"SLURM_ARRAY_TASK_MIN", "5"}, {"SLURM_ARRAY_TASK_COUNT", "1"}};
+  EXPECT_THAT(refusal("auto/8", again), ::testing::HasSubstr("the array has 1 tasks"));
   EXPECT_THAT(refusal("auto/8", {{"JOB_COMPLETION_INDEX", "x"}}),
               ::testing::HasSubstr("which is no number"));
   EXPECT_THAT(refusal("auto/8", {{"JOB_COMPLETION_INDEX", "8"}}),

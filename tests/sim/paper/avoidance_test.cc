@@ -149,6 +149,32 @@ TEST(MoreThrows, LeaveOutFlightsThatFailed) {
               HasSubstr("\n| all of outdoor.md | 5 | 5 | 3 / 5 ("));
 }
 
+// A worker that dies takes every flight of its throw with it.
+TEST(AvoidanceTables, CountThrowsThatWereLostWithTheirWorker) {
+  const LoadedCampaign dodged = campaign({thrown(0, true, false), thrown(1, true, false)});
+  LoadedCampaign lost = dodged;
+  FlightResult not_flown;
+  not_flown.status = "not flown";
+  lost.results[1].none = lost.results[1].oracle = not_flown;
+  lost.results[1].flown.status = "lost";
+  for (const auto& campaigns : {outdoors(lost, dodged), outdoors(dodged, lost)}) {
+    const std::string table = outdoor_experiment().analyse(campaigns).markdown;
+    EXPECT_THAT(table, HasSubstr("\n| hover, to 6 m/s | 1 / 1 (")) << table;
+  }
+}
+
+TEST(AvoidanceTables, SayWhichThrowsAreNotTheSame) {
+  LoadedCampaign first = campaign({thrown(0, true, false), thrown(1, true, false)});
+  LoadedCampaign other = first;
+  other.results[1].size_m += 0.01;
+  try {
+    outdoor_experiment().analyse(outdoors(first, other));
+    FAIL() << "different throws were compared";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "Throw 1 of hover and throw 1 of hover are not the same.");
+  }
+}
+
 TEST(MoreThrows, AreFlownByThePilotAndByAnOracleThatMustSee) {
   const std::vector<PaperFlight> flights = more_throws_experiment().flights;
   ASSERT_EQ(flights.size(), 10u);

@@ -141,6 +141,26 @@ TEST_F(OwnModels, ObjectsMustNotChangeTheWorldAroundThem) {
   }
 }
 
+TEST_F(OwnModels, AnObjectIsOneBodyWithNothingBesideIt) {
+  for (const char* beside :
+       {"<geom size='0.5'/>", "<body name='other'><geom size='0.1'/></body>"}) {
+    std::string text = object("<geom size='0.1'/>");
+    text.insert(text.find("</worldbody>"), beside);
+    write_object(text);
+    EXPECT_THAT(message_of(spec_),
+                AllOf(HasSubstr("own.xml:1: "), HasSubstr("must hold one <body>")));
+  }
+}
+
+TEST_F(OwnModels, RoomsMustStandStill) {
+  std::ofstream(directory_ / "rooms" / "own.xml")
+      << "<mujoco><worldbody>\n<body><freejoint/><geom size='1'/></body></worldbody></mujoco>";
+  spec_.room = "own";
+  write_object(object("<geom size='0.1'/>"));
+  EXPECT_THAT(message_of(spec_),
+              AllOf(HasSubstr("rooms/own.xml:2: "), HasSubstr("must not use <freejoint>")));
+}
+
 // Throws, controller and IMU know of gravity, too.
 TEST_F(OwnModels, RoomsAndVehiclesMustNotChangeGravityAndAir) {
   write_object(object("<geom size='0.1'/>"));

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "sim/base/random.h"
 #include "sim/world/throw.h"
+#include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/world/test_world.h"
 
 namespace dodgesim {
@@ -233,6 +236,28 @@ TEST(RefereeTest, OneLandsOnTopOfThingsNotAgainstThem) {
   EXPECT_TRUE(first_touch({1.5, 3.5, 1.0}, {0, 0, -0.5}, true).landed);  // the table
   EXPECT_TRUE(first_touch({0, 3.5, 2.5}, {0, 0.5, 0}, true).crashed);    // a wall
   EXPECT_TRUE(first_touch({0, 0, 4.7}, {0, 0, 0.5}, true).crashed);      // the ceiling
+}
+
+// MuJoCo lists contacts from a margin on, and forces only from the margin less the gap.
+TEST(RefereeTest, TheMarginOfARoomsGeomIsNotTouched) {
+  const testing::TemporaryDirectory own;
+  const auto models = own.path() / "models";
+  std::filesystem::copy(test_spec().models_dir, models, std::filesystem::copy_options::recursive);
+  std::ofstream(models / "rooms" / "own.xml")
+      << "<mujoco><worldbody><geom name='floor' type='plane' size='9 9 1' margin='0.5' gap='0.5'/>"
+         "</worldbody></mujoco>";
+  WorldSpec spec = test_spec({});
+  spec.models_dir = models.string();
+  spec.room = "own";
+  World world(spec);
+  world.reset(Vector3d(0, 0, 1), 0, Vector3d::Zero());
+  Referee referee(world);
+  for (int tick = 0; tick < 4000 && !referee.verdict().crashed; ++tick) {
+    world.step({0, 0, 0, 0});
+    referee.observe(world);
+  }
+  EXPECT_NEAR(1e-6 * static_cast<double>(referee.verdict().crashed_us),
+              std::sqrt(2 * (1 - 0.0925) / 9.81), 5e-4);
 }
 
 TEST(RefereeTest, FlyingIntoAWallOfTheRoomIsACrash) {
