@@ -32,9 +32,8 @@ struct EgoMotionConfig {
       "where pixels are the current ones.");
     v("max_error_px", max_error_px, 0.001, 1,
       "Events share a rotation matrix within time bins so short that no event is misplaced by "
-      "more than this; of the bins there are 4096 at most (enough for 41 rad/s in a window of 10 "
-      "ms "
-      "by default).");
+      "more than this. Of the bins there are 4096 at most, enough for 41 rad/s in a window of "
+      "10 ms by default.");
   }
 };
 

@@ -199,9 +199,9 @@ std::vector<SamplingResult> study_sampling(const SamplingOptions& options,
 
 std::string sampling_table(const std::vector<SamplingResult>& results) {
   std::string table =
-      "| sampling | object: events | worst throw | stamps, us | worst | scene: events | worst "
-      "throw "
-      "| stamps, us | worst | pictures | regions | keys | real time |\n"
+      "| sampling | object: events | worst throw | stamps, us | worst "
+      "| scene: events | worst throw | stamps, us | worst | pictures | regions | keys | real time "
+      "|\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const SamplingResult& result : results) {
     table += "| " + result.variant;

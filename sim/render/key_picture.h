@@ -12,8 +12,7 @@
 // between them. A pixel's luminance is the mean over its square aperture, as a pixel of a sensor
 // collects it, and is read from a picture of all such means, half a pixel apart (with the default
 // supersampling of 2), linearly in between; the means are sharpened by what the linear reading
-// smooths away on the average. What all this costs in
-// accuracy: results/sensor/README.md.
+// smooths away on the average. What all this costs in accuracy: results/sensor/README.md.
 #pragma once
 
 #include <Eigen/Dense>

@@ -7,8 +7,8 @@
 // capsules and all thrown solids but meshes are ray-cast), and by edge_smoother.h for what is
 // static and made of triangles (planes, boxes, cylinders, meshes). Not smoothed: thrown meshes, the
 // horizon of an unbounded plane, where a ray-cast solid cuts into something, and the outline of one
-// in front of another whose centre is nearer. Textures are read
-// once a pixel, filtered as RenderSpec::texture_filter says.
+// in front of another whose centre is nearer. Textures are read once a pixel, filtered as
+// RenderSpec::texture_filter says.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -48,8 +48,7 @@ struct RenderSpec {
       "picture.");
     v("texel_encoding", texel_encoding, {"linear", "srgb"},
       "What a texel's value v of 0 to 255 means: the reflectance v/255 (the rooms of this "
-      "project), "
-      "or a code value of a photograph.");
+      "project), or a code value of a photograph.");
     flicker.visit(v);
   }
 };
