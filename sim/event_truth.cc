@@ -9,8 +9,6 @@ namespace dodgesim {
 
 namespace {
 
-bool of_object(Cause cause) { return cause >= kCauseFirstObject && cause <= kCauseLastObject; }
-
 bool contains(const cv::RotatedRect& rectangle, double x, double y) {
   const double angle = rectangle.angle * M_PI / 180;
   const double dx = x - rectangle.center.x, dy = y - rectangle.center.y;

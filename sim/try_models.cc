@@ -31,7 +31,7 @@ constexpr double kTrialSizeM = 0.2;
 
 struct Trial {
   WorldSpec world;
-  std::vector<VehicleStart> starts;
+  std::vector<VehiclePlace> places;
   double min_thrust_n = 0;         // the greatest idle thrust of a rotor
   bool seen = false;               // by a pilot's cameras
   bool stereo = false;             // both of which it needs
@@ -54,21 +54,31 @@ std::string description(const Trial& trial) {
   text.precision(17);
   text << description(trial.world) << ' ' << trial.min_thrust_n << ' ' << trial.seen << ' '
        << trial.stereo << ' ' << trial.max_thrust_fraction;
-  for (const VehicleStart& start : trial.starts) {
-    text << ' ' << start.p_W.transpose() << ' ' << start.heading_rad;
+  for (const VehiclePlace& place : trial.places) {
+    text << ' ' << place.p_W.transpose() << ' ' << place.heading_rad;
   }
   return text.str();
 }
 
-void add_start(const MissionSpec& mission, std::vector<VehicleStart>& starts) {
-  const VehicleStart start = {mission.start_m, mission.heading_deg * std::numbers::pi / 180};
-  const auto same = [&start](const VehicleStart& other) {
-    return other.p_W == start.p_W && other.heading_rad == start.heading_rad;
+void add_place(const VehiclePlace& place, std::vector<VehiclePlace>& places) {
+  const auto same = [&place](const VehiclePlace& other) {
+    return other.p_W == place.p_W && other.heading_rad == place.heading_rad;
   };
-  if (std::none_of(starts.begin(), starts.end(), same)) starts.push_back(start);
+  if (std::none_of(places.begin(), places.end(), same)) places.push_back(place);
 }
 
-// Every world that the campaign names, with all its objects, and where the vehicle starts in it.
+// The mission's start and goals.
+void add_places(const MissionSpec& mission, std::vector<VehiclePlace>& places) {
+  const double heading_rad = mission.heading_deg * std::numbers::pi / 180;
+  add_place({"mission.start_m", mission.start_m, heading_rad}, places);
+  if (mission.type == "goal") add_place({"mission.goal_m", *mission.goal_m, heading_rad}, places);
+  if (mission.type != "waypoints") return;
+  for (const Eigen::Vector3d& p_W : mission.waypoints_m) {
+    add_place({"mission.waypoints_m", p_W, heading_rad}, places);
+  }
+}
+
+// Every world that the campaign names, with all its objects, and where the vehicle is to be in it.
 std::vector<Trial> trials_of(const Scenario& campaign) {
   std::map<std::string, Trial> trials;  // each kind of world once
   std::set<std::string> kinds;
@@ -82,7 +92,7 @@ std::vector<Trial> trials_of(const Scenario& campaign) {
       world.vehicle = scenario.vehicle;
       world.vehicle_overrides = scenario.vehicle_overrides;
       Trial& trial = trials.try_emplace(description(world), Trial{world, {}}).first->second;
-      add_start(scenario.mission, trial.starts);
+      add_places(scenario.mission, trial.places);
       trial.min_thrust_n = std::max(trial.min_thrust_n, scenario.motors.min_thrust_n);
       const bool seen = perceives(scenario.pilot);
       trial.seen |= seen;
@@ -189,7 +199,7 @@ void try_models(const std::vector<Scenario>& campaigns) {
     for (const Trial& trial : trials_of(campaign)) {
       if (!tried.insert(description(trial)).second) continue;
       try {
-        try_world(trial.world, trial.starts,
+        try_world(trial.world, trial.places,
                   [&trial](const World& world) { check_world(world, trial); });
       } catch (const ScenarioError& error) {
         throw ScenarioError(placed(error.what(), campaign));

@@ -5,17 +5,12 @@
 #include <cstdio>
 #include <utility>
 
+#include "sim/campaign/text_table.h"
 #include "sim/config/pilot.h"
 
 namespace dodgesim {
 
 namespace {
-
-std::string fixed(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.3f", value);
-  return text.data();
-}
 
 std::optional<double> seconds_between(std::optional<TimeUs> from, std::optional<TimeUs> to) {
   if (!from || !to) return std::nullopt;
@@ -69,8 +64,8 @@ std::string rate_text(const Rate& rate) {
   std::string text = std::to_string(rate.count) + " / " + std::to_string(rate.of);
   if (rate.of == 0) return text;
   const Interval interval = rate.interval();
-  return text + " (" + fixed(*rate.value()) + ", " + fixed(interval.lo) + " to " +
-         fixed(interval.hi) + (rate.sequential ? ", " + rate.interval_name() : "") + ")";
+  return text + " (" + fixed_text(*rate.value(), 3) + ", " + fixed_text(interval.lo, 3) + " to " +
+         fixed_text(interval.hi, 3) + (rate.sequential ? ", " + rate.interval_name() : "") + ")";
 }
 
 std::string tally_text(const Tally& tally, bool none) {

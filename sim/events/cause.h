@@ -17,4 +17,8 @@ inline constexpr Cause kCauseLeak = 253;
 inline constexpr Cause kCauseShotNoise = 254;
 inline constexpr Cause kCauseHotPixel = 255;
 
+inline constexpr bool of_object(Cause cause) {
+  return cause >= kCauseFirstObject && cause <= kCauseLastObject;
+}
+
 }  // namespace dodgesim

@@ -15,8 +15,6 @@ dodge::DepthConfig without_limits(dodge::DepthConfig config) {
   return config;
 }
 
-bool of_object(Cause cause) { return cause >= kCauseFirstObject && cause <= kCauseLastObject; }
-
 // Whether a pixel of one camera lies on the object's outline.
 bool on_outline(const Sight& sight, const Intrinsics& intrinsics, double x, double y) {
   const Eigen::Vector3d ray_C((x - intrinsics.cx()) / intrinsics.f,

@@ -21,8 +21,7 @@ namespace {
 constexpr int kSmoothingPx = 2;
 
 Rect clipped(const Rect& region, const Intrinsics& image) {
-  return {std::max(region.x0, 0), std::max(region.y0, 0), std::min(region.x1, image.width),
-          std::min(region.y1, image.height)};
+  return intersection(region, {0, 0, image.width, image.height});
 }
 
 Rect widened(const Rect& region, int by_px, const Intrinsics& image) {

@@ -20,10 +20,6 @@ std::size_t type_index(mjtGeom type) {
       std::begin(kTypesInOrder));
 }
 
-bool overlap(const Rect& a, const Rect& b) {
-  return std::max(a.x0, b.x0) < std::min(a.x1, b.x1) && std::max(a.y0, b.y0) < std::min(a.y1, b.y1);
-}
-
 void write_luminance(bool on) { glColorMaski(0, on, on, on, on); }
 void write_id(bool on) { glColorMaski(1, on, on, on, on); }
 
@@ -70,7 +66,8 @@ void PrimitivePainter::arrange(const Shot& shot, const Snapshot* snapshot, Wante
       poses_[i] = snapshot->objects[object].pose() * primitive.pose;
     }
     views_[i] = view_primitive(primitive, poses_[i], shot.X_WC, shot.intrinsics, depth_.near_m);
-    if (views_[i].visible && overlap(views_[i].bounds, shot.region)) order_.push_back(i);
+    const bool shown = !intersection(views_[i].bounds, shot.region).empty();
+    if (views_[i].visible && shown) order_.push_back(i);
   }
   std::sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) {
     return views_[a].distance != views_[b].distance ? views_[a].distance > views_[b].distance

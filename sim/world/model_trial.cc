@@ -33,26 +33,26 @@ std::string files_of(const WorldSpec& spec) {
   return spec.models_dir + " (" + files + ")";
 }
 
-void check_start(const VehicleStart& start, World& world, Referee& referee) {
-  world.reset(start.p_W, start.heading_rad, Eigen::Vector3d::Zero());
+void check_place(const VehiclePlace& place, World& world, Referee& referee) {
+  world.reset(place.p_W, place.heading_rad, Eigen::Vector3d::Zero());
   referee.reset();
   referee.observe(world, false);
   if (!referee.verdict().crashed) return;
   std::ostringstream message;
-  message << "The vehicle cannot start at (" << start.p_W.x() << ", " << start.p_W.y() << ", "
-          << start.p_W.z()
-          << ") m: it touches the room there, or is outside; move mission.start_m.";
+  message << "The vehicle cannot be at (" << place.p_W.x() << ", " << place.p_W.y() << ", "
+          << place.p_W.z() << ") m: it touches the room there, or is outside; move " << place.key
+          << ".";
   throw ScenarioError(message.str());
 }
 
-// What is wrong with the models or the starts, or nothing.
-std::string complaint_about(const WorldSpec& spec, const std::vector<VehicleStart>& starts,
+// What is wrong with the models or the places, or nothing.
+std::string complaint_about(const WorldSpec& spec, const std::vector<VehiclePlace>& places,
                             const WorldCheck& check, const TrialLimits& limits) {
   try {
     World world(spec);
     if (check) check(world);
     Referee referee(world);
-    for (const VehicleStart& start : starts) check_start(start, world, referee);
+    for (const VehiclePlace& place : places) check_place(place, world, referee);
     for (int i = 0; i < world.object_count(); ++i) {
       BodyState state;
       state.p_W = Eigen::Vector3d(0, 0, 100 + 3 * i);
@@ -80,13 +80,13 @@ void limit_memory([[maybe_unused]] int memory_mb) {
 
 }  // namespace
 
-void try_world(const WorldSpec& spec, const std::vector<VehicleStart>& starts,
+void try_world(const WorldSpec& spec, const std::vector<VehiclePlace>& places,
                const WorldCheck& check, const TrialLimits& limits) {
   // First a byte that says whether they are good.
   const ChildAnswer answer = ask_child(
       [&] {
         limit_memory(limits.memory_mb);
-        const std::string complaint = complaint_about(spec, starts, check, limits);
+        const std::string complaint = complaint_about(spec, places, check, limits);
         return std::string(1, complaint.empty() ? 1 : 0) + complaint;
       },
       limits.wall_ms);

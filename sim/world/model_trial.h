@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "sim/world/compose.h"
@@ -10,8 +11,9 @@
 
 namespace dodgesim {
 
-// Where a vehicle is to start.
-struct VehicleStart {
+// Where a vehicle is to be.
+struct VehiclePlace {
+  std::string key;                                // of the scenario, which says so
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]
   double heading_rad = 0;
 };
@@ -27,9 +29,9 @@ struct TrialLimits {
 // Compiles the models in a child process, builds the world and lets it run for some ticks, because
 // MuJoCo may crash, hang or eat up the memory over a broken file. Throws ScenarioError with one
 // sentence if that happens, if the models are no good, if the vehicle touches the room, or is not
-// in it, at one of the starts, or what `check` throws; SimulationError if no process can be made.
+// in it, at one of the places, or what `check` throws; SimulationError if no process can be made.
 // Call before the process has threads or a GL context.
-void try_world(const WorldSpec& spec, const std::vector<VehicleStart>& starts = {},
+void try_world(const WorldSpec& spec, const std::vector<VehiclePlace>& places = {},
                const WorldCheck& check = {}, const TrialLimits& limits = {});
 
 }  // namespace dodgesim

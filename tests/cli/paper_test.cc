@@ -92,7 +92,7 @@ TEST_F(PaperCommandTest, TriesAllModelsBeforeTheFirstFlight) {
                                    " --set 'mission.start_m=[5.95, 0, 2]'");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.output,
-              ::testing::AllOf(HasSubstr("The vehicle cannot start at (5.95, 0, 2)"),
+              ::testing::AllOf(HasSubstr("The vehicle cannot be at (5.95, 0, 2)"),
                                ::testing::Not(HasSubstr("Flying"))));
 }
 

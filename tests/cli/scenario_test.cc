@@ -61,9 +61,14 @@ TEST_F(ScenarioCommandTest, WhatOnlyTheModelsRefuseHasAPlaceToo) {
   write("start.yaml", "pilot: none\nmission:\n  start_m: [50, 0, 2]\n");
   const Outcome start = dodgesim("validate " + path("start.yaml"));
   EXPECT_EQ(start.exit_code, 2);
-  EXPECT_THAT(start.output,
-              ::testing::StartsWith(path("start.yaml") +
-                                    ":3:12: The vehicle cannot start at (50, 0, 2) m"));
+  EXPECT_THAT(start.output, ::testing::StartsWith(path("start.yaml") +
+                                                  ":3:12: The vehicle cannot be at (50, 0, 2) m"));
+  write("goal.yaml",
+        "pilot: none\nmission: {type: goal, goal_m: [3, 0, 9]}\n");  // above the ceiling
+  EXPECT_THAT(
+      dodgesim("validate " + path("goal.yaml")).output,
+      AllOf(::testing::StartsWith(path("goal.yaml") + ":2:"),
+            HasSubstr("The vehicle cannot be at (3, 0, 9) m"), HasSubstr("move mission.goal_m.")));
   const Outcome weak =
       dodgesim("validate " + path("s.yaml") + " --set vehicle_overrides.max_thrust_n=1");
   EXPECT_EQ(weak.exit_code, 2);

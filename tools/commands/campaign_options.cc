@@ -5,6 +5,7 @@
 #include <iostream>
 #include <thread>
 
+#include "sim/campaign/text_table.h"
 #include "sim/event_truth.h"
 #include "sim/loop.h"
 #include "sim/render/osmesa_context.h"
@@ -110,9 +111,9 @@ int report_stop(const std::string& flown, const CampaignOptions& options) {
 }
 
 int report_stop(const CampaignSummary& summary, const CampaignOptions& options) {
-  return report_stop(
-      std::to_string(summary.wanted - summary.missing) + " of " + count_of_throws(summary.wanted),
-      options);
+  return report_stop(std::to_string(summary.wanted - summary.missing) + " of " +
+                         count_text(summary.wanted, "throw"),
+                     options);
 }
 
 }  // namespace dodgesim

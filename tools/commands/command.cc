@@ -1,23 +1,17 @@
 #include "tools/commands/command.h"
 
 #include <charconv>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
 
 #include "sim/base/error.h"
 #include "sim/campaign/load_campaign.h"
+#include "sim/campaign/text_table.h"
 
 namespace dodgesim {
 
 namespace {
-
-std::string number_text(double share) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.3f", share);
-  return text;
-}
 
 // Whether all of a text is a number between two others.
 template <class T>
@@ -106,7 +100,7 @@ std::vector<Setting> parse_settings(const std::string& option,
 }
 
 int completeness(const std::string& directory, const LoadedCampaign& campaign) {
-  const std::string all = count_of_throws(throw_count(campaign.scenario));
+  const std::string all = count_text(throw_count(campaign.scenario), "throw");
   if (!campaign.complete()) {
     std::cerr << directory << " has " << campaign.results.size() << " of " << all << " only.\n";
     return kIncomplete;
@@ -118,11 +112,9 @@ int completeness(const std::string& directory, const LoadedCampaign& campaign) {
   return kOk;
 }
 
-std::string count_of_throws(int n) { return std::to_string(n) + (n == 1 ? " throw" : " throws"); }
-
 std::string truth_text(const EventTruthSums& sums) {
   const auto share = [](std::optional<double> value) {
-    return value ? number_text(*value) : std::string("undefined");
+    return value ? fixed_text(*value, 3) : std::string("undefined");
   };
   const auto line = [&](const EventTruthCounts& counts) {
     return "precision " + share(counts.precision()) + " of " + std::to_string(counts.found_events) +

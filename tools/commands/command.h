@@ -60,7 +60,4 @@ CLI::Validator whole_number_between(std::uint64_t least, std::uint64_t most);
 CLI::Validator not_empty();
 CLI::Validator file_ending(const std::string& extension);
 
-// The text "n throws" with the right plural.
-std::string count_of_throws(int n);
-
 }  // namespace dodgesim

@@ -1,5 +1,6 @@
 // dodgesim gate: flies a baseline's throws and fails when they went worse.
 #include "sim/gate/gate.h"
+#include "sim/campaign/text_table.h"
 
 #include <unistd.h>
 
@@ -131,7 +132,8 @@ std::string verdict_text(const GateArguments& arguments, const Scenario& scenari
 int update(const GateArguments& arguments, const GateRules& rules, const CampaignSummary& summary) {
   std::cout << summary.table;
   if (summary.errors > 0) {
-    std::cerr << count_of_throws(summary.errors) << " could not be flown: no baseline is made.\n";
+    std::cerr << count_text(summary.errors, "throw")
+              << " could not be flown: no baseline is made.\n";
     return kIncomplete;
   }
   write_baseline(arguments.baseline, arguments.options.out, rules);

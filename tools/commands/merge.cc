@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "sim/campaign/campaign.h"
+#include "sim/campaign/text_table.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -20,13 +21,14 @@ int merge(const MergeArguments& arguments) {
   try {
     if (arguments.check) {
       std::printf("All %s are there.\n",
-                  count_of_throws(expect_complete(arguments.directories)).c_str());
+                  count_text(expect_complete(arguments.directories), "throw").c_str());
       return kOk;
     }
     const CampaignSummary summary = merge_campaigns(arguments.directories, arguments.options);
     std::cout << summary.table;
-    std::printf("%s from %zu directories\nResults: %s\n", count_of_throws(summary.wanted).c_str(),
-                arguments.directories.size(), arguments.options.out.c_str());
+    std::printf("%s from %zu directories\nResults: %s\n",
+                count_text(summary.wanted, "throw").c_str(), arguments.directories.size(),
+                arguments.options.out.c_str());
     return summary.errors == 0 ? kOk : kIncomplete;
   } catch (const MissingThrows& error) {
     std::cerr << error.what() << "\n";

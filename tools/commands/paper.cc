@@ -7,6 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/shell.h"
+#include "sim/campaign/text_table.h"
 #include "sim/paper/paper_tables.h"
 #include "sim/try_models.h"
 #include "tools/commands/campaign_options.h"
@@ -132,7 +133,7 @@ int paper(const PaperArguments& arguments) {
                                   {arguments.models_dir, DODGESIM_SCENARIOS_DIR},
                                   table_command(arguments));
   if (flown.errors == 0) return kOk;
-  std::cerr << count_of_throws(flown.errors) << " could not be flown; see the tables in "
+  std::cerr << count_text(flown.errors, "throw") << " could not be flown; see the tables in "
             << (arguments.options.out / "flights") << ".\n";
   return kIncomplete;
 }

@@ -10,6 +10,7 @@
 #include "sim/base/error.h"
 #include "sim/campaign/progress.h"
 #include "sim/campaign/report.h"
+#include "sim/campaign/text_table.h"
 #include "sim/try_models.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
@@ -41,11 +42,11 @@ void warn_of_lost_events(const std::vector<ThrowResult>& results) {
   if (lost == 0) return;
   std::printf(
       "The event cameras' readout (sensors.events.readout_max_hz) lost %lld events in %s.\n",
-      static_cast<long long>(lost), count_of_throws(throws).c_str());
+      static_cast<long long>(lost), count_text(throws, "throw").c_str());
 }
 
 void report_errors(const CampaignSummary& summary) {
-  std::cerr << count_of_throws(summary.errors)
+  std::cerr << count_text(summary.errors, "throw")
             << " could not be flown; see \"Errors\" in the table.";
   const auto first = std::find_if(summary.results.begin(), summary.results.end(),
                                   [](const ThrowResult& result) { return result.flown.failed(); });
@@ -88,7 +89,7 @@ int run(const RunArguments& arguments) {
   std::printf(
       "%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n"
       "Report, for any browser: %s\n",
-      count_of_throws(summary.wanted).c_str(), duration_text(summary.wall_s).c_str(),
+      count_text(summary.wanted, "throw").c_str(), duration_text(summary.wall_s).c_str(),
       summary.real_time_factor, options.out.c_str(), (options.out / kReportFile).c_str());
   if (summary.memory.first_mb > 0) {
     std::printf("Memory of a worker: %.0f MB after its first throw, %.0f MB after its last\n",

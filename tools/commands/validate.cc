@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
 #include "sim/try_models.h"
 #include "tools/commands/command.h"
@@ -27,7 +28,7 @@ void validate(const ValidateArguments& arguments) {
   }
   std::cout << arguments.scenario << ": a valid scenario";
   if (scenario.anyone_throws()) {
-    std::cout << " of " << count_of_throws(throw_count(scenario));
+    std::cout << " of " << count_text(throw_count(scenario), "throw");
   } else {
     std::cout << " in which nobody throws";
   }
