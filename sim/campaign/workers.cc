@@ -2,7 +2,6 @@
 
 #include <poll.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/types.h>
 #include <sys/wait.h>
@@ -22,6 +21,7 @@
 #include <vector>
 
 #include "sim/base/error.h"
+#include "sim/base/memory_limit.h"
 #include "sim/base/wall_clock.h"
 #include "sim/campaign/wire.h"
 
@@ -113,11 +113,7 @@ void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_IGN);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != campaign) ::_exit(1);  // it has ended already
-  if (limits.memory_mb > 0) {
-    const auto bytes = static_cast<rlim_t>(limits.memory_mb) << 20;
-    const rlimit limit = {bytes, bytes};
-    ::setrlimit(RLIMIT_AS, &limit);
-  }
+  if (limits.memory_mb > 0) limit_memory(limits.memory_mb);
 }
 
 // The life of a worker: tasks in, results out, until the campaign closes the socket.

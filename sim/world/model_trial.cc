@@ -1,25 +1,14 @@
 #include "sim/world/model_trial.h"
 
-#include <sys/resource.h>
-
 #include <new>
 #include <sstream>
 #include <string>
 
 #include "sim/base/child_process.h"
 #include "sim/base/error.h"
+#include "sim/base/memory_limit.h"
 #include "sim/world/referee.h"
 #include "sim/world/world.h"
-
-// Sanitizers reserve more addresses than any limit.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define DODGESIM_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define DODGESIM_SANITIZED
-#endif
 
 namespace dodgesim {
 
@@ -68,14 +57,6 @@ std::string complaint_about(const WorldSpec& spec, const std::vector<VehiclePlac
     return "The models in " + files_of(spec) + " cannot fly: " + error.what();
   }
   return "";
-}
-
-void limit_memory([[maybe_unused]] int memory_mb) {
-#if !defined(DODGESIM_SANITIZED)
-  const auto bytes = static_cast<rlim_t>(memory_mb) << 20;
-  const rlimit memory = {bytes, bytes};
-  ::setrlimit(RLIMIT_AS, &memory);
-#endif
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sim/base/error.h"
+#include "sim/base/memory_limit.h"
 #include "sim/bench/timed_emulation.h"
 #include "sim/campaign/progress.h"
 #include "sim/config/event_camera_file.h"
@@ -135,6 +136,9 @@ void refuse_same_file(const std::string& out, const std::string& input) {
 
 void emulate(const EmulateArguments& arguments) {
   watch_stop_signals();
+  // All events between two frames are held at once: rather say that they are too many than be
+  // killed.
+  limit_memory(physical_memory_mb());
   const EventCameraSpec spec = named_event_camera(arguments.camera);
   Video video(arguments.frames, arguments.times);
   refuse_same_file(arguments.out, arguments.frames);
