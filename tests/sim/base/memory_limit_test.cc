@@ -1,0 +1,39 @@
+#include "sim/base/memory_limit.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "sim/base/child_process.h"
+
+namespace dodgesim {
+namespace {
+
+TEST(MemoryLimit, AnAllocationBeyondItThrows) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "Sanitizers reserve more address space than any limit allows.";
+#endif
+  const auto allocate_gb = [](std::size_t gb) {
+    return ask_child(
+               [gb] {
+                 limit_memory(2048);
+                 try {
+                   return std::to_string(std::vector<char>(gb << 30).size() >> 30);
+                 } catch (const std::bad_alloc&) {
+                   return std::string("too much");
+                 }
+               },
+               20000)
+        .said;
+  };
+  EXPECT_EQ(allocate_gb(1), "1");
+  EXPECT_EQ(allocate_gb(3), "too much");
+}
+
+TEST(MemoryLimit, TheMachineHasSomeMemory) { EXPECT_GT(physical_memory_mb(), 256); }
+
+}  // namespace
+}  // namespace dodgesim
