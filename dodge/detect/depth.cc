@@ -146,7 +146,8 @@ std::optional<double> DepthEstimator::correlated_disparity(const View& top, cons
                : find_row_shift(*bottom.averaged_rho, patch_around(below.rectangle),
                                 *top.averaged_rho, least, most);
   if (!found || found->correlation < config_.stereo.min_correlation) return std::nullopt;
-  return std::abs(found->shift_px);
+  const double disparity_px = from_top ? -found->shift_px : found->shift_px;
+  return disparity_px > 0 ? std::optional(disparity_px) : std::nullopt;
 }
 
 void DepthEstimator::append(const Cluster& cluster, double depth_m, double depth_sigma_m,

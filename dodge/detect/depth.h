@@ -33,7 +33,8 @@ struct StereoConfig {
       "and match noise with noise, the correlation errs by 2 to 4 cm. The paper says no more than "
       "'the cluster's disparity' and 'the cluster's centers'.");
     v("search_px", search_px, 0, 100,
-      "How far from the centres' disparity the correlation looks: about the size of an object.");
+      "How far from the centres' disparity the correlation looks, and on while it grows: about the "
+      "size of an object.");
     v("min_correlation", min_correlation, 0, 1, "A pair whose rho images agree less is no match.");
     v("weight_position_1ppx", weight_position_1ppx, 0, 100,
       "Weight w_p of the horizontal distance of the centres in eq. (8).");

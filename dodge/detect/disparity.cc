@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dodge {
 
@@ -51,10 +52,17 @@ std::optional<RowShift> find_row_shift(const cv::Mat1f& pattern, const cv::Rect&
     }
   }
   if (best <= 0) return std::nullopt;
+  double before = correlation(pattern, inside, image, best_shift - 1);
+  double after = correlation(pattern, inside, image, best_shift + 1);
+  while (before > best) {  // uphill, beyond what was searched
+    after = std::exchange(best, before);
+    before = correlation(pattern, inside, image, --best_shift - 1);
+  }
+  while (after > best) {
+    before = std::exchange(best, after);
+    after = correlation(pattern, inside, image, ++best_shift + 1);
+  }
   // The vertex of the parabola through the best value and its neighbours.
-  const double before = correlation(pattern, inside, image, best_shift - 1);
-  const double after = correlation(pattern, inside, image, best_shift + 1);
-  if (before > best || after > best) return std::nullopt;  // the best lies outside
   const double curvature = before - 2 * best + after;
   const double offset =
       curvature < 0 ? std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5) : 0;

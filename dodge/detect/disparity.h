@@ -13,8 +13,8 @@ struct RowShift {
 
 // The shift within [min_shift_px, max_shift_px] at which `image` looks most like the patch of
 // `pattern`, by normalised cross-correlation of their positive parts: of rho, these are where the
-// object is now, the negative ones are where it was. Empty if no shift correlates. Pixels outside
-// of `image` count as 0.
+// object is now, the negative ones are where it was. Where it is best at an end of the range, the
+// peak beyond counts. Empty if no shift within correlates. Pixels outside of `image` count as 0.
 std::optional<RowShift> find_row_shift(const cv::Mat1f& pattern, const cv::Rect& patch,
                                        const cv::Mat1f& image, int min_shift_px, int max_shift_px);
 

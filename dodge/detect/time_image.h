@@ -30,7 +30,8 @@ struct TimeImageConfig {
       "0.1 (the authors' group's open code) leaves nothing static of a real scene seen by a camera "
       "turning at 2 to 3 rad/s; 0.05 leaves a few edges.");
     v("threshold_b", threshold_b, 0.0, 1.0,
-      "Threshold b of a still camera. A lone noise event reaches 0.12 after averaging over 3 px. In "
+      "Threshold b of a still camera. A lone noise event reaches 0.12 after averaging over 3 px. "
+      "In "
       "flight 0.05 lets twelve false obstacles a second pass, 0.1 one in ten seconds, and 0.15 "
       "halves the detections.");
     v("blur_px", blur_px, 1, 15,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace dodge {
 namespace {
@@ -46,11 +47,13 @@ TEST(FindRowShift, FindsAPartOfTheOutlineInTheWhole) {
   EXPECT_NEAR(found->shift_px, -30, 0.1);
 }
 
-TEST(FindRowShift, FindsNothingWhenTheBestLiesOutsideOfTheSearch) {
-  const cv::Mat1f pattern = ring(80, 80, 8), image = ring(80, 60, 8);
-  EXPECT_TRUE(find_row_shift(pattern, around(80, 80, 8), image, -20, -10).has_value());
-  EXPECT_FALSE(find_row_shift(pattern, around(80, 80, 8), image, -18, -10).has_value());
-  EXPECT_FALSE(find_row_shift(pattern, around(80, 80, 8), image, -30, -22).has_value());
+TEST(FindRowShift, GoesUphillBeyondTheSearch) {
+  const cv::Mat1f pattern = ring(80, 80, 8), image = ring(80, 60.3, 8);
+  for (const auto& [least, most] : {std::pair(-25, -15), {-18, -10}, {-30, -22}}) {
+    const auto found = find_row_shift(pattern, around(80, 80, 8), image, least, most);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_NEAR(found->shift_px, -19.7, 0.1) << least << " to " << most;
+  }
 }
 
 TEST(FindRowShift, FindsNothingInNothing) {

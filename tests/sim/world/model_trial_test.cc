@@ -73,12 +73,12 @@ TEST_F(ModelTrial, GoodModelsPass) {
   EXPECT_EQ(complaint(), "");
 }
 
-TEST_F(ModelTrial, AStartInsideOrOutsideOfWhatStandsThereCostsASentence) {
+TEST_F(ModelTrial, APlaceInsideOrOutsideOfWhatStandsThereCostsASentence) {
   write_object(kBall);
   spec_.room = "room";
   const auto complaint_at = [&](double x_m, double z_m) -> std::string {
     try {
-      try_world(spec_, {{{0, 0, 2}, 0}, {{x_m, 0, z_m}, 1}});
+      try_world(spec_, {{"mission.start_m", {0, 0, 2}, 0}, {"mission.goal_m", {x_m, 0, z_m}, 1}});
     } catch (const ScenarioError& error) {
       return error.what();
     }
@@ -86,7 +86,7 @@ TEST_F(ModelTrial, AStartInsideOrOutsideOfWhatStandsThereCostsASentence) {
   };
   EXPECT_EQ(complaint_at(1, 2), "");
   for (const auto& [x_m, z_m] : {std::pair{0.0, 0.01}, {0.0, -3.0}, {50.0, 2.0}}) {
-    EXPECT_THAT(complaint_at(x_m, z_m), HasSubstr("move mission.start_m")) << x_m << " " << z_m;
+    EXPECT_THAT(complaint_at(x_m, z_m), HasSubstr("move mission.goal_m")) << x_m << " " << z_m;
   }
 }
 
