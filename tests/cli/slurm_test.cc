@@ -55,7 +55,7 @@ TEST_F(SlurmTest, SubmitsAnArrayAndAMergeThatWaitsForIt) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   const std::string common = "--parsable --requeue --open-mode=append --job-name=dodgesim";
   EXPECT_EQ(contents("sbatch.log"),
-            common + " --array=0,1,2 --output=" + path("out/logs/shard%a.log") +
+            common + " --array=0-2 --output=" + path("out/logs/shard%a.log") +
                 " --partition=fast " + kScripts + "shard.sh " + kProgram + " " + path("s.yaml") +
                 " " + path("out") + " 3 --throws=6 --truth\n" + common +
                 "-merge --dependency=afterany:1 --output=" + path("out/logs/merge.log") +

@@ -13,7 +13,7 @@ class Directory {
  public:
   Directory() {
     std::filesystem::create_directories(path_);
-    for (const char* name : {"throws.csv", "scenario.resolved.yaml", "table.md"}) {
+    for (const char* name : {"throws.csv", "objects.csv", "scenario.resolved.yaml", "table.md"}) {
       std::ofstream(path_ / name) << "x\n";
     }
   }
