@@ -91,9 +91,8 @@ TEST_F(PaperCommandTest, TriesAllModelsBeforeTheFirstFlight) {
   const Outcome outcome = dodgesim("paper latency --throws 1 --out " + path("out") +
                                    " --set 'mission.start_m=[5.95, 0, 2]'");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output,
-              ::testing::AllOf(HasSubstr("The vehicle cannot be at (5.95, 0, 2)"),
-                               ::testing::Not(HasSubstr("Flying"))));
+  EXPECT_THAT(outcome.output, ::testing::AllOf(HasSubstr("The vehicle cannot be at (5.95, 0, 2)"),
+                                               ::testing::Not(HasSubstr("Flying"))));
 }
 
 }  // namespace

@@ -175,8 +175,7 @@ TEST_F(ResumeTest, ASecondProcessIsRefused) {
     return fly(index);
   });
   EXPECT_EQ(summary.errors, 1);
-  EXPECT_THAT(summary.results[0].flown.error,
-              HasSubstr("is being written to by another dodgesim"));
+  EXPECT_THAT(summary.results[0].flown.error, HasSubstr("is being written to by another dodgesim"));
 }
 
 TEST_F(ResumeTest, AThrowThatHangsIsGivenUp) {
