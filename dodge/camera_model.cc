@@ -43,7 +43,7 @@ bool unfolded(const CameraModel& camera, const Eigen::Vector2d& p) {
 }  // namespace
 
 Eigen::Vector2d CameraModel::bearing(const Eigen::Vector2d& pixel) const {
-  const Eigen::Vector2d distorted((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
+  Eigen::Vector2d distorted((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
   if (k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0) return distorted;
   Eigen::Vector2d ideal = distorted;
   for (int i = 0; i < kMostSteps; ++i) {

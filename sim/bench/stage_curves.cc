@@ -33,6 +33,7 @@ Line fit(const std::vector<double>& x, const std::vector<double>& y) {
 
 std::vector<double> all(const std::vector<WindowTimes>& windows, double WindowTimes::*member) {
   std::vector<double> values;
+  values.reserve(windows.size());
   for (const WindowTimes& window : windows) values.push_back(window.*member);
   return values;
 }
