@@ -19,7 +19,8 @@ Baseline baseline_of(const std::string& outcomes) {
   return {tables_of(outcomes), "", GateRules{}, "abc", "one kind"};
 }
 
-GateVerdict judged(const std::string& before, const std::string& after, GateRules rules = {}) {
+GateVerdict judged(const std::string& before, const std::string& after,
+                   const GateRules& rules = {}) {
   return judge(baseline_of(before), tables_of(after), "one kind", rules);
 }
 
