@@ -43,7 +43,7 @@ Tracker::Tracker(const AssociationConfig& association, const KalmanConfig& kalma
   lifetime_us_ = static_cast<TimeUs>(std::min(lifetime_s, kLongestLifetimeS) * kUsPerSecond);
   tracks_.reserve(kUsualObstacles);
   measured_.reserve(kUsualObstacles);
-  predicted_.reserve(kUsualObstacles * kUsualObstacles);
+  predicted_.reserve(4 * kUsualObstacles);  // as many pairs as the associator has room for
   obstacles_.reserve(kUsualObstacles);
 }
 

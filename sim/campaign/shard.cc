@@ -54,7 +54,7 @@ Shard parse_shard(const std::string& text, const Environment& environment) {
   if (slash != std::string::npos) {
     count = number(text.substr(slash + 1));
     const auto tasks = find(environment, text, "SLURM_ARRAY_TASK_COUNT");
-    if (automatic && tasks && tasks != count) {
+    if (automatic && count && tasks && tasks != count) {
       refuse(text, "the array has " + std::to_string(*tasks) +
                        " tasks, so which part is this one's cannot be told; give its INDEX");
     }

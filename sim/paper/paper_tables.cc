@@ -1,7 +1,6 @@
 #include "sim/paper/paper_tables.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "sim/base/error.h"
 #include "sim/campaign/build_info.h"
@@ -79,10 +78,10 @@ std::string contents_of(const fs::path& out) {
       "# Falanga et al. 2020, reproduced\n\nEach table says which command and program made "
       "it.\n\n| experiment | tables |\n|---|---|\n";
   for (const PaperExperiment& experiment : paper_experiments()) {
-    const auto& [name, title] = std::tie(experiment.name, experiment.title);
+    const std::string& name = experiment.name;
     if (!fs::exists(out / (name + ".md"))) continue;
-    text += "| " + title + " | [" + name + ".md](" + name + ".md), [" + name + ".csv](" + name +
-            ".csv) |\n";
+    text += "| " + experiment.title + " | [" + name + ".md](" + name + ".md), [" + name + ".csv](" +
+            name + ".csv) |\n";
   }
   return text;
 }

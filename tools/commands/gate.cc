@@ -1,6 +1,5 @@
 // dodgesim gate: flies a baseline's throws and fails when they went worse.
 #include "sim/gate/gate.h"
-#include "sim/campaign/text_table.h"
 
 #include <unistd.h>
 
@@ -15,6 +14,7 @@
 #include "sim/base/error.h"
 #include "sim/base/shell.h"
 #include "sim/campaign/csv.h"
+#include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
 #include "sim/files/output_file.h"
