@@ -22,7 +22,10 @@
 
 namespace dodge {
 
-// The defaults are the faithful pilot of Falanga et al. 2020.
+// The defaults are the pilot of Falanga et al. 2020, with what its paper does not say filled in:
+// the disparity by correlation and joined rectangles (DepthConfig), detections that confirm an
+// obstacle (AssociationConfig), (30) made a unit vector and an escape where (29) and (30) vanish
+// (RepulsiveConfig), a limit of the speed (VelocityLimitConfig).
 struct Config {
   // Set by whatever carries the core; not parameters of the pilot. Stereo needs two cameras, the
   // upper one first; mono uses the first. The range sensor sits at p_BR and looks along -z of B.

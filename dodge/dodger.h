@@ -63,8 +63,8 @@ class Dodger : public Pilot {
   void set_goal(const Goal& goal) override;
 
   // Until the first state estimate the command is zero. A landing, once begun, goes on for ever.
-  // Neither this nor handing over data allocates memory, unless there are more events in a window
-  // or more obstacles than ever before and than is usual, or images are captured.
+  // Neither this nor handing over data allocates memory, unless a window's events or the obstacles
+  // exceed both what is reserved for and every earlier number, or images are captured.
   VelocityCommand update(TimeUs now_us) override;
 
   std::span<const Detection> detections() const override { return detections_; }

@@ -8,6 +8,8 @@
 
 namespace dodge {
 
+// Every flight has a pilot of its own, whose members one thread calls. The simulator records a
+// flight in which one throws an exception as failed, with the exception's text.
 class Pilot {
  public:
   virtual ~Pilot() = default;
@@ -20,7 +22,8 @@ class Pilot {
   virtual void add_range(const RangeReading& /*reading*/) {}
   virtual void set_goal(const Goal& goal) = 0;
 
-  // One cycle on all data received so far; now_us is the vehicle's clock.
+  // One cycle on all data received so far; now_us is the vehicle's clock. May be called before the
+  // first state estimate or event; without an intention of its own, a pilot returns velocity zero.
   virtual VelocityCommand update(TimeUs now_us) = 0;
 
   // Of the last update, for logs and pictures.

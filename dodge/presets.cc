@@ -11,14 +11,14 @@ Config dodgesim() {
   // Enough events of a ball of 10 cm at 3 m.
   config.window.window_us = 20000;
   // Clusters over 20 instead of 35 px: a ball seldom grows together with its background.
-  config.cluster.weight_position = 0.35;
+  config.cluster.weight_position_1ppx = 0.35;
   // Far away, but only what six detections say that it falls freely, to three standard deviations.
   config.position.max_range_m = 5;
   config.association.gate_sigmas = 3;
   config.association.min_detections = 6;
   config.association.tentative_timeout_us = 100000;
   config.kalman.gravity = true;
-  config.kalman.acceleration_noise = 1;
+  config.kalman.acceleration_noise_mps2_sqrthz = 1;
   // A wide cluster tells less of where its object is.
   config.kalman.lateral_size_share = 0.1;
   // Tilted at 45 degrees and turning it would see the next object late.

@@ -30,11 +30,11 @@ struct ImuSample {
 };
 
 struct StateEstimate {
-  TimeUs t_us = 0;                                 // the instant the estimate speaks of
-  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  // [m]
-  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();    // [m/s]
-  Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  // [rad/s]
+  TimeUs t_us = 0;                                           // the instant the estimate speaks of
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();            // [m]
+  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();  // takes vectors from B to W
+  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();            // [m/s]
+  Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();          // angular velocity of B in B [rad/s]
 };
 
 struct RangeReading {
@@ -58,7 +58,6 @@ struct VelocityCommand {
 // One obstacle measured in one update.
 struct Detection {
   TimeUs t_us = 0;                     // the instant the position speaks of
-  int camera = 0;                      // the reference camera
   std::array<Eigen::Vector3d, 6> p_W;  // four corners, near and far centre (eq. 12) [m]
   Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();  // [m]
   double depth_m = 0;                                  // along the camera's optical axis
@@ -76,7 +75,7 @@ struct Obstacle {
   int detections = 0;
   Eigen::Vector3d p_WO = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector3d v_WO = Eigen::Vector3d::Zero();  // [m/s]
-  double size_m = 0;
+  double size_m = 0;                               // of the last detection, as there
 };
 
 }  // namespace dodge

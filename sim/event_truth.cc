@@ -27,8 +27,7 @@ void EventTruth::on_start(dodge::Pilot& pilot) {
 }
 
 void EventTruth::on_tick(const World& world) {
-  const auto& launched = world.snapshot().launched;
-  object_in_flight_ = std::find(launched.begin(), launched.end(), true) != launched.end();
+  object_in_flight_ = world.snapshot().any_launched();
 }
 
 void EventTruth::on_events(int camera, const Packet& packet) {

@@ -160,10 +160,7 @@ void StageFilm::on_start(dodge::Pilot& pilot) {
   if (auto* dodger = dynamic_cast<dodge::Dodger*>(&pilot)) dodger->set_capture(true);
 }
 
-void StageFilm::on_tick(const World& world) {
-  const auto& launched = world.snapshot().launched;
-  object_in_flight_ = std::find(launched.begin(), launched.end(), true) != launched.end();
-}
+void StageFilm::on_tick(const World& world) { object_in_flight_ = world.snapshot().any_launched(); }
 
 void StageFilm::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
   const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);

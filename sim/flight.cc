@@ -14,7 +14,6 @@ namespace dodgesim {
 namespace {
 
 constexpr TimeUs kTruthEveryUs = 1000;     // how often the pilot that knows the truth looks
-constexpr TimeUs kHistoryUs = 1000000;     // longer than any sensing delay that makes sense
 constexpr TimeUs kShownBeforeUs = 100000;  // of the trajectory before the first launch
 
 ImuSpec every_tick(ImuSpec spec) {
@@ -219,8 +218,7 @@ void Flight::see() {
     computer_.send_events(camera, packet.end_us, packet.events);
     if (observer_ != nullptr) observer_->on_events(camera, packet);
   });
-  history_.push_back(now);
-  while (history_.front().t_us < now.t_us - kHistoryUs) history_.pop_front();
+  history_.add(now);
 }
 
 // The last packet that a cycle of the pilot will have must be complete by then. With a slow link
@@ -286,13 +284,6 @@ double Flight::true_range_m() const {
   return hit ? hit->distance : std::numeric_limits<double>::infinity();
 }
 
-const Snapshot* Flight::truth_at(TimeUs t_us) const {
-  if (history_.empty() || t_us < history_.front().t_us) return nullptr;
-  const auto after = std::lower_bound(history_.begin(), history_.end(), t_us,
-                                      [](const Snapshot& s, TimeUs t) { return s.t_us < t; });
-  return after == history_.end() ? nullptr : &*after;
-}
-
 void Flight::log_detections() {
   const TimeUs output_us = now_us() + scenario_.delays.pilot_us();
   for (const dodge::Detection& detection : computer_.pilot().detections()) {
@@ -305,7 +296,7 @@ void Flight::log_detections() {
     row.size_m = detection.size_m;
     row.depth_m = detection.depth_m;
     row.depth_sigma_m = detection.depth_sigma_m;
-    if (const Snapshot* truth = truth_at(detection.t_us)) add_truth(*truth, detection, row);
+    if (const Snapshot* truth = history_.at(detection.t_us)) add_truth(*truth, detection, row);
     witness_.add_detection(row);
     record_.rows.push_back(row);
   }

@@ -1,7 +1,6 @@
 // Everything that takes part in one throw flown by one pilot. loop.h says in which order it acts.
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -174,7 +173,7 @@ class Flight {
   VelocityReference reference_;
   bool evasion_arrived_ = false;  // and the controller has not acted since
   RateThrustCommand rate_command_;
-  std::deque<Snapshot> history_;  // for the truth at the instant of a detection
+  SnapshotHistory history_;  // for the truth at the instant of a detection
   FlightRecord record_;
   FlightTiming timing_;
   WallClock::time_point constructed_ = WallClock::now();

@@ -82,8 +82,7 @@ void Witness::add_detection(const DetectionRow& row) {
 }
 
 void Witness::add_command(const Snapshot& now, const VelocityReference& reference) {
-  const bool any = std::find(now.launched.begin(), now.launched.end(), true) != now.launched.end();
-  if (!any) return;
+  if (!now.any_launched()) return;
   testimony_.commands.push_back({now.t_us, reference.evading, reference.v_W, now.vehicle.v_W});
 }
 

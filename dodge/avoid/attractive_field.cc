@@ -4,13 +4,6 @@
 
 namespace dodge {
 
-double attractive_potential(const AttractiveConfig& config, double k_a, const Eigen::Vector3d& e) {
-  const double distance = e.norm(), e_0 = config.e_0_m, gamma_a = config.gamma_a;
-  if (distance >= e_0) return k_a * distance;
-  const double inner = e_0 / (gamma_a + 1) * std::pow(distance / e_0, gamma_a + 1);
-  return k_a * (inner + e_0 * gamma_a / (gamma_a + 1));
-}
-
 Eigen::Vector3d attractive_force(const AttractiveConfig& config, double k_a,
                                  const Eigen::Vector3d& e) {
   const double distance = e.norm();

@@ -61,8 +61,8 @@ VelocityCommand Avoider::decide(TimeUs now, const VehicleMotion& vehicle, const 
   if (!predicts_) {
     return velocity_command(limit_, now, repulsion(now, vehicle), attractive_W);
   }
-  const Want want{attractive_W, goal.p_WG, ramp_.acceleration_mps2()};
-  if (const auto escape_W = escape_.escape(now, vehicle, want, acting_)) {
+  const Intent intent{attractive_W, goal.p_WG, ramp_.acceleration_mps2()};
+  if (const auto escape_W = escape_.escape(now, vehicle, intent, acting_)) {
     return velocity_command(limit_, now, *escape_W, Eigen::Vector3d::Zero());
   }
   return velocity_command(limit_, now, Eigen::Vector3d::Zero(), attractive_W);

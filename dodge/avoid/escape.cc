@@ -15,23 +15,25 @@ using Eigen::Vector3d;
 
 constexpr double kStepS = 0.01;  // between predicted positions; the approach is refined within one
 constexpr int kDirections = 24;  // of escape, across the obstacle's line of flight
+constexpr int kStrips = 32;      // of the disc over which a probability is integrated
 constexpr double kNoSpeedMps = 1e-9;
 constexpr double kNoDistanceM = 1e-9;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Where a vehicle will be whose velocity changes from v to another at constant acceleration, after
 // a dead time, and that stops where it is wanted.
 class Course {
  public:
-  Course(const EscapeConfig& config, const VehicleMotion& vehicle, const Want& want)
+  Course(const EscapeConfig& config, const VehicleMotion& vehicle, const Intent& intent)
       : p_W_(vehicle.p_W), v_W_(vehicle.v_W) {
-    if (want.p_WG) way_W_ = *want.p_WG - p_W_;
-    const Vector3d change_W = want.v_W - vehicle.v_W;
+    if (intent.p_WG) way_W_ = *intent.p_WG - p_W_;
+    const Vector3d change_W = intent.v_W - vehicle.v_W;
     const double size = change_W.norm();
     if (size <= kNoSpeedMps) return;
     const double level = change_W.head<2>().norm() / size;
     start_s_ = config.dead_time_s + level * config.tilt_time_s;
     length_s_ =
-        size / (want.acceleration_mps2 > 0 ? want.acceleration_mps2 : config.acceleration_mps2);
+        size / (intent.acceleration_mps2 > 0 ? intent.acceleration_mps2 : config.acceleration_mps2);
     a_W_ = change_W / length_s_;
   }
 
@@ -83,6 +85,10 @@ class Fall {
   double age_s_;
 };
 
+double normal_density(double z) { return std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi); }
+// Of a standard normal distribution below z.
+double normal_share(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+
 // The direction across `along` that climbs most, or any if `along` is vertical.
 Vector3d upward_across(const Vector3d& along) {
   const Vector3d up = Vector3d::UnitZ() - along.z() * along;
@@ -99,18 +105,28 @@ void validate(const EscapeConfig& config) {
   }
 }
 
+// In strips along the axis of the smaller standard deviation, each of which is exact.
 double hit_probability(const Meeting& meeting) {
   const Vector3d a = meeting.along_W.unitOrthogonal(), b = meeting.along_W.cross(a);
   Eigen::Matrix<double, 3, 2> across;
   across << a, b;
-  const double r2 = meeting.radius_m * meeting.radius_m;
-  const Eigen::Matrix2d spread =
-      across.transpose() * meeting.covariance * across + 0.25 * r2 * Eigen::Matrix2d::Identity();
-  const double determinant = spread.determinant();
-  if (!(determinant > 0)) return 0;
-  const Eigen::Vector2d miss = across.transpose() * meeting.miss_W;
-  const double density = std::exp(-0.5 * miss.dot(spread.inverse() * miss));
-  return std::min(1.0, 0.5 * r2 / std::sqrt(determinant) * density);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(across.transpose() * meeting.covariance * across);
+  if (!(axes.eigenvalues()[0] > 0)) return 0;
+  const Eigen::Vector2d sigma = axes.eigenvalues().cwiseSqrt();
+  const Eigen::Vector2d miss =
+      axes.eigenvectors().transpose() * across.transpose() * meeting.miss_W;
+  double sum = 0;
+  for (int i = 0; i < kStrips; ++i) {
+    const double angle = std::numbers::pi * ((i + 0.5) / kStrips - 0.5);
+    const double half_length = meeting.radius_m * std::cos(angle);
+    const double z = (meeting.radius_m * std::sin(angle) - miss[1]) / sigma[1];
+    const double low = (-half_length - miss[0]) / sigma[0];
+    const double high = (half_length - miss[0]) / sigma[0];
+    // With d(sin angle) = cos(angle) d(angle) the width of a strip is proportional to its length.
+    sum += half_length * normal_density(z) * (normal_share(high) - normal_share(low));
+  }
+  return sum * std::numbers::pi / (kStrips * sigma[1]);
 }
 
 EscapePlanner::EscapePlanner(const EscapeConfig& config, double speed_mps)
@@ -125,12 +141,12 @@ bool EscapePlanner::is_thrown(const TrackedObstacle& tracked) const {
 }
 
 std::optional<Meeting> EscapePlanner::meeting(TimeUs now, const VehicleMotion& vehicle,
-                                              const Want& want,
+                                              const Intent& intent,
                                               const TrackedObstacle& obstacle) const {
-  const Course course(config_, vehicle, want);
+  const Course course(config_, vehicle, intent);
   const Fall fall(obstacle, now);
   int nearest = 0;
-  double nearest_m2 = std::numeric_limits<double>::infinity();
+  double nearest_m2 = kInfinity;
   const int steps = static_cast<int>(config_.horizon_s / kStepS);
   for (int i = 0; i <= steps; ++i) {
     const double t_s = i * kStepS;
@@ -147,8 +163,9 @@ std::optional<Meeting> EscapePlanner::meeting(TimeUs now, const VehicleMotion& v
   meeting.miss_W = fall.position(meeting.time_s) - course.position(meeting.time_s);
   if (v_W.norm() <= kNoSpeedMps) return std::nullopt;
   meeting.along_W = v_W.normalized();
-  // To the nearest point between two steps.
-  const double late_s = std::clamp(meeting.miss_W.dot(v_W) / v_W.squaredNorm(), -kStepS, kStepS);
+  // To the nearest point between two steps, or straight on from the last one.
+  const double earliest_s = nearest == steps ? -kInfinity : -kStepS;
+  const double late_s = std::clamp(meeting.miss_W.dot(v_W) / v_W.squaredNorm(), earliest_s, kStepS);
   meeting.time_s -= late_s;
   meeting.miss_W -= late_s * v_W;
   meeting.covariance = fall.covariance(meeting.time_s) + config_.control_sigma_m *
@@ -160,12 +177,12 @@ std::optional<Meeting> EscapePlanner::meeting(TimeUs now, const VehicleMotion& v
 
 // The least over all obstacles of the distance by which they miss, in its standard deviations.
 double EscapePlanner::clearance_in_sigmas(TimeUs now, const VehicleMotion& vehicle,
-                                          const Want& want,
+                                          const Intent& intent,
                                           std::span<const TrackedObstacle> obstacles) const {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (const TrackedObstacle& tracked : obstacles) {
     if (!is_thrown(tracked)) continue;
-    const std::optional<Meeting> near = meeting(now, vehicle, want, tracked);
+    const std::optional<Meeting> near = meeting(now, vehicle, intent, tracked);
     if (!near) continue;
     const double miss_m = near->miss_W.norm();
     const Vector3d towards = miss_m > 0 ? (near->miss_W / miss_m).eval() : Vector3d::UnitZ();
@@ -176,14 +193,14 @@ double EscapePlanner::clearance_in_sigmas(TimeUs now, const VehicleMotion& vehic
 }
 
 std::optional<Vector3d> EscapePlanner::escape(TimeUs now, const VehicleMotion& vehicle,
-                                              const Want& want,
+                                              const Intent& intent,
                                               std::span<const TrackedObstacle> obstacles) {
   double worst = 0;
   Vector3d along_W = Vector3d::Zero();
   for (const TrackedObstacle& tracked : obstacles) {
     if (!is_thrown(tracked)) continue;
-    const std::optional<Meeting> near = meeting(now, vehicle, want, tracked);
-    if (!near) continue;
+    const std::optional<Meeting> near = meeting(now, vehicle, intent, tracked);
+    if (!near || near->time_s > config_.horizon_s) continue;
     const double probability = hit_probability(*near);
     if (probability <= worst) continue;
     worst = probability;
@@ -200,12 +217,12 @@ Vector3d EscapePlanner::best_direction(TimeUs now, const VehicleMotion& vehicle,
                                        std::span<const TrackedObstacle> obstacles) const {
   const Vector3d up = upward_across(along_W), left = up.cross(along_W);
   Vector3d best_W = up;
-  double best = -std::numeric_limits<double>::infinity();
+  double best = -kInfinity;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2 * std::numbers::pi * i / kDirections;
     const Vector3d direction_W = std::cos(angle) * up + std::sin(angle) * left;
     if (direction_W.z() < lowest_z_) continue;
-    const Want escape{speed_mps_ * direction_W, std::nullopt};
+    const Intent escape{speed_mps_ * direction_W, std::nullopt};
     const double clearance = clearance_in_sigmas(now, vehicle, escape, obstacles);
     if (clearance <= best) continue;
     best = clearance;

@@ -60,14 +60,14 @@ struct EscapeConfig {
 // Throws std::invalid_argument on values out of range or that contradict each other.
 void validate(const EscapeConfig& config);
 
-// What the vehicle is told to do.
-struct Want {
-  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // to take up this velocity [m/s]
-  std::optional<Eigen::Vector3d> p_WG;            // until it is there
-  double acceleration_mps2 = 0;                   // so gently; 0: as an escape
+// What the vehicle will be commanded.
+struct Intent {
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // velocity [m/s]
+  std::optional<Eigen::Vector3d> p_WG;            // where it stops, if it does
+  double acceleration_mps2 = 0;                   // towards v_W; 0: EscapeConfig::acceleration_mps2
 };
 
-// The nearest that an obstacle will come to the vehicle, or a part of the future.
+// The closest approach of an obstacle to the vehicle.
 struct Meeting {
   double time_s = 0;                                     // from now
   Eigen::Vector3d miss_W = Eigen::Vector3d::Zero();      // obstacle's centre from the vehicle's [m]
@@ -76,10 +76,9 @@ struct Meeting {
   double radius_m = 0;  // they touch when the length of miss_W is less
 };
 
-// Probability that the vehicle is hit: the normal distribution of the miss across the relative
-// velocity, over the disc of that radius. Approximated by widening the distribution by the disc's
-// own second moment, radius^2 / 4: within 0.14 of the integral where the standard deviation is at
-// least half the radius.
+// Probability that the vehicle is hit: the integral of the normal distribution of the miss, across
+// the relative velocity, over the disc of that radius. To 1e-3 where no standard deviation is less
+// than a tenth of the radius.
 double hit_probability(const Meeting& meeting);
 
 class EscapePlanner {
@@ -87,20 +86,21 @@ class EscapePlanner {
   // `speed_mps` is that of an escape. Throws std::invalid_argument on values out of range.
   EscapePlanner(const EscapeConfig& config, double speed_mps);
 
-  // The velocity command of an escape, or nothing while no confirmed obstacle will probably hit a
-  // vehicle that does as it is wanted to. `vehicle` is the state at `now`. Call once a cycle: what
-  // has been answered decides which probability counts.
-  std::optional<Eigen::Vector3d> escape(TimeUs now, const VehicleMotion& vehicle, const Want& want,
+  // The velocity command of an escape, or nothing while no confirmed obstacle will, within the
+  // horizon, probably hit a vehicle that follows `intent`. `vehicle` is the state at `now`. Call
+  // once a cycle: what has been answered decides which probability counts.
+  std::optional<Eigen::Vector3d> escape(TimeUs now, const VehicleMotion& vehicle,
+                                        const Intent& intent,
                                         std::span<const TrackedObstacle> obstacles);
 
-  // How an obstacle and a vehicle that is told so at `now` meet; nothing if they do not come
-  // nearer. The obstacle falls freely.
-  std::optional<Meeting> meeting(TimeUs now, const VehicleMotion& vehicle, const Want& want,
+  // How an obstacle, in free fall, meets a vehicle that follows `intent` from `now` on; nothing if
+  // they do not come nearer. Beyond the horizon both fly on straight.
+  std::optional<Meeting> meeting(TimeUs now, const VehicleMotion& vehicle, const Intent& intent,
                                  const TrackedObstacle& obstacle) const;
 
  private:
   bool is_thrown(const TrackedObstacle& tracked) const;
-  double clearance_in_sigmas(TimeUs now, const VehicleMotion& vehicle, const Want& want,
+  double clearance_in_sigmas(TimeUs now, const VehicleMotion& vehicle, const Intent& intent,
                              std::span<const TrackedObstacle> obstacles) const;
   Eigen::Vector3d best_direction(TimeUs now, const VehicleMotion& vehicle,
                                  const Eigen::Vector3d& along_W,

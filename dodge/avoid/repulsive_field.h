@@ -100,9 +100,10 @@ class RepulsiveField {
   // velocity that counts. Cross: (29), (30), orthogonal to the heading and made a unit vector
   // again, so that (28) alone sets the magnitude: as printed, an obstacle that crosses from the
   // side would hardly push. Where (29) or (30) vanish (head-on), the escape is upward, or sideways
-  // if the obstacle flies steeply: to the left, or to the right if the left would go down; in all
-  // cases without the components along the obstacle's velocity and along the heading. Away: the
-  // same with the gradient's part across the velocity in place of (29). Gradient: the gradient.
+  // if the obstacle flies steeply: to the left, or to the right if the left would go down. All of
+  // these are orthogonal to the heading; the part along the obstacle's velocity is removed before
+  // the one along the heading, so that a little of it may come back. Away: the same with the
+  // gradient's part across the velocity in place of (29). Gradient: the gradient.
   Eigen::Vector3d direction(const Eigen::Vector3d& grad_eta_W, const Eigen::Vector3d& v_W,
                             const Eigen::Vector3d& heading_W) const;
 

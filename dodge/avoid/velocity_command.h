@@ -21,8 +21,8 @@ struct VelocityLimitConfig {
     v("evading_threshold_mps", evading_threshold_mps, 0.0, 100.0,
       "The vehicle is evading while the sum of the repulsive forces is larger than this.");
     v("calm_acceleration_mps2", calm_acceleration_mps2, 0.0, 100.0,
-      "After an escape the command goes only so fast from the velocity that it leaves the vehicle "
-      "with to that towards the goal; 0: at once. Who brakes hard tilts fast, and sees the next "
+      "After an escape the command changes at most this fast, from the vehicle's velocity to that "
+      "towards the goal; 0: at once. Hard braking tilts the vehicle fast, so that it sees the next "
       "object late. A descent is braked at once: that takes thrust and no tilt.");
   }
 };
@@ -33,7 +33,7 @@ VelocityCommand velocity_command(const VelocityLimitConfig& config, TimeUs t_us,
                                  const Eigen::Vector3d& attractive_W);
 
 // Brakes gently after an escape, an extension of the paper: from the vehicle's velocity then on,
-// the command changes at calm_acceleration_mps2 until it is what is wanted.
+// the command changes at calm_acceleration_mps2 until it is the one asked for.
 class CommandRamp {
  public:
   explicit CommandRamp(const VelocityLimitConfig& config) : config_(config) {}
@@ -41,14 +41,14 @@ class CommandRamp {
   // Call once a cycle. `v_WB` is the vehicle's velocity.
   VelocityCommand ramped(VelocityCommand command, const Eigen::Vector3d& v_WB);
 
-  // How fast the next command changes if it is none to evade [m/s^2]; 0: at once.
+  // How fast the next command will change unless it evades [m/s^2]; 0: at once.
   double acceleration_mps2() const { return braking_ ? config_.calm_acceleration_mps2 : 0; }
 
  private:
   Eigen::Vector3d braked_from(const Eigen::Vector3d& v_WB) const;
 
   VelocityLimitConfig config_;
-  bool braking_ = false;                 // it has evaded, and not what is wanted since
+  bool braking_ = false;  // an escape has ended, and the command is not yet the one asked for
   std::optional<VelocityCommand> last_;  // since the escape
 };
 

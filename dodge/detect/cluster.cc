@@ -99,8 +99,8 @@ const std::vector<Cluster>& Clusterer::find(const TimeImage& image, const Optica
 }
 
 double Clusterer::cost(const Cluster& a, const Cluster& b) const {
-  return config_.weight_position * rectangle_distance(a.rectangle, b.rectangle) +
-         config_.weight_velocity * (a.velocity - b.velocity).norm() +
+  return config_.weight_position_1ppx * rectangle_distance(a.rectangle, b.rectangle) +
+         config_.weight_velocity_1ppx * (a.velocity - b.velocity).norm() +
          config_.weight_rho * std::abs(a.rho - b.rho);
 }
 

@@ -19,8 +19,8 @@ struct ClusterConfig {
   int max_groups = 64;
   double eps = 7;
   int min_points = 1;
-  double weight_position = 0.2;
-  double weight_velocity = 0.1;
+  double weight_position_1ppx = 0.2;
+  double weight_velocity_1ppx = 0.1;
   double weight_rho = 15;
   int min_pixels = 6;
   int min_events = 30;
@@ -36,12 +36,12 @@ struct ClusterConfig {
     v("eps", eps, 0, 1000, "DBSCAN's largest cost between neighbours.");
     v("min_points", min_points, 1, 100,
       "Groups in the eps neighbourhood, itself included, that make a group a core of a cluster.");
-    v("weight_position", weight_position, 0, 1000,
+    v("weight_position_1ppx", weight_position_1ppx, 0, 1000,
       "Weight w_p of the distance between rectangles [1/px] in eq. (6); from the authors' group's "
       "open code. With eps 7 it joins groups up to 35 px apart: the two edges of a 20 cm ball that "
       "crosses at 1.1 m, but also a ball and the edges of a cluttered background. A greater weight "
       "sees more of the ball by itself, and takes more of the scene for an object.");
-    v("weight_velocity", weight_velocity, 0, 1000,
+    v("weight_velocity_1ppx", weight_velocity_1ppx, 0, 1000,
       "Weight w_v of the velocity difference [1/(px per event window)] in eq. (6).");
     v("weight_rho", weight_rho, 0, 1000, "Weight w_rho of the difference in mean rho in eq. (6).");
     v("min_pixels", min_pixels, 1, 100000, "A cluster with fewer pixels with events is noise.");

@@ -167,7 +167,6 @@ void DepthEstimator::append(const Cluster& cluster, double depth_m, double depth
 
   Detection detection;
   detection.t_us = state.t_us - age_us;
-  detection.camera = 0;
   detection.depth_m = depth_m;
   detection.depth_sigma_m = depth_sigma_m;
   detection.distance_per_depth = range_m / depth_m;

@@ -91,8 +91,8 @@ struct View {
 class DepthEstimator {
  public:
   // One camera for mono; for stereo camera 0 on top and camera 1 below it, rectified (validate()
-  // in dodge/config.h checks this). max_clusters: how many a camera may see without that locate()
-  // allocates memory.
+  // in dodge/config.h checks this). max_clusters: clusters of a camera for which memory is
+  // reserved.
   DepthEstimator(const DepthConfig& config, std::span<const CameraModel> cameras,
                  std::int64_t window_us, int max_clusters);
 

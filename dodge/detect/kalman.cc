@@ -58,7 +58,7 @@ void Kalman::predict(TimeUs t_us) {
     x_[5] -= kGravityMps2 * dt;
   }
   // White acceleration, integrated exactly over dt.
-  const double q = config_.acceleration_noise * config_.acceleration_noise;
+  const double q = config_.acceleration_noise_mps2_sqrthz * config_.acceleration_noise_mps2_sqrthz;
   P_ = A * P_ * A.transpose();  // (22)
   for (int i = 0; i < 3; ++i) {
     P_(i, i) += q * dt * dt * dt / 3;

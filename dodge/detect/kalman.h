@@ -11,7 +11,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 struct KalmanConfig {
-  double acceleration_noise = 3.0;
+  double acceleration_noise_mps2_sqrthz = 3.0;
   double initial_speed_sigma_mps = 6.0;
   double lateral_sigma_m = 0.02;
   double lateral_size_share = 0.0;
@@ -20,7 +20,7 @@ struct KalmanConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v("acceleration_noise", acceleration_noise, 0.0, 1000.0,
+    v("acceleration_noise_mps2_sqrthz", acceleration_noise_mps2_sqrthz, 0.0, 1000.0,
       "Square root of the spectral density of the obstacle's acceleration [m/s^2/sqrt(Hz)], from "
       "which Q of (22) follows exactly. A thrown object falls and the filter does not know it: 3 "
       "covers g over about 0.1 s.");

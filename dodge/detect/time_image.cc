@@ -71,7 +71,7 @@ void TimeImage::place(std::span<const Event> block, const EgoMotion& ego_motion)
   }
 }
 
-void TimeImage::threshold(double rate_rps) {
+void TimeImage::threshold(double rate_radps) {
   const std::uint16_t* count = count_.ptr<std::uint16_t>();
   float* rho = rho_.ptr<float>();
   double sum = 0;
@@ -85,7 +85,7 @@ void TimeImage::threshold(double rate_rps) {
 
   cv::swap(averaged_, previous_);
   blur_.apply(rho_, averaged_);
-  const auto cut = static_cast<float>(config_.threshold_a_s * rate_rps + config_.threshold_b);
+  const auto cut = static_cast<float>(config_.threshold_a_s * rate_radps + config_.threshold_b);
   const float* averaged = averaged_.ptr<float>();
   std::transform(averaged, averaged + averaged_.total(), threshold_mask_.ptr<std::uint8_t>(),
                  [cut](float value) { return static_cast<std::uint8_t>(value >= cut ? 255 : 0); });

@@ -75,8 +75,8 @@ class TimeImage {
   void accumulate(std::span<const std::span<const Event>> pieces, const EgoMotion& ego_motion,
                   TimeUs begin_us, TimeUs end_us);
 
-  // Eq. (4), the averaging, and the cut at a|w| + b. rate_rps is |w|.
-  void threshold(double rate_rps);
+  // Eq. (4), the averaging, and the cut at a|w| + b. rate_radps is |w|.
+  void threshold(double rate_radps);
 
   // Opening, closing and dilation.
   void clean();

@@ -47,18 +47,6 @@ Tracker::Tracker(const AssociationConfig& association, const KalmanConfig& kalma
   obstacles_.reserve(kUsualObstacles);
 }
 
-void Tracker::update(TimeUs now, std::span<Detection> detections) {
-  remove_stale(now);
-  for (Track& track : tracks_) track.missed = true;
-  for (std::size_t first = 0; first < detections.size();) {
-    std::size_t end = first + 1;
-    while (end < detections.size() && detections[end].camera == detections[first].camera) ++end;
-    take_in(detections.subspan(first, end - first));
-    first = end;
-  }
-  publish(now);
-}
-
 void Tracker::predict(TimeUs now) {
   remove_stale(now);
   publish(now);
@@ -70,9 +58,10 @@ PredictedObstacle Tracker::predicted(const Track& track, TimeUs t_us) {
   return {position.mean_W, position.covariance_W, track.detections, seconds(unseen_us)};
 }
 
-// One camera's detections at a time: it sees an obstacle once, another camera may see it again.
-// Those that are not finite take no track from the others.
-void Tracker::take_in(std::span<Detection> detections) {
+// A look sees an obstacle once. Detections that are not finite take no track from the others.
+void Tracker::update(TimeUs now, std::span<Detection> detections) {
+  remove_stale(now);
+  for (Track& track : tracks_) track.missed = true;
   predicted_.clear();
   measured_.clear();
   for (const Detection& detection : detections) {
@@ -97,6 +86,7 @@ void Tracker::take_in(std::span<Detection> detections) {
       measure(track, detection);
     }
   }
+  publish(now);
 }
 
 void Tracker::measure(Track& track, Detection& detection) const {

@@ -32,9 +32,9 @@ class Tracker {
   // repulsive field, (33)). Throws std::invalid_argument on values out of range.
   Tracker(const AssociationConfig& association, const KalmanConfig& kalman, double lifetime_s);
 
-  // Takes in the detections of one look (none: it has missed all obstacles), those of one camera in
-  // a row, fills their obstacle_id, removes obstacles that were not seen for too long, and predicts
-  // all to `now`. Detections that are not finite are ignored and keep id -1.
+  // Takes in the detections of one look (none: it has missed all obstacles), fills their
+  // obstacle_id, removes obstacles that were not seen for too long, and predicts all to `now`.
+  // Detections that are not finite are ignored and keep id -1.
   void update(TimeUs now, std::span<Detection> detections);
 
   // The same without a look, between the cameras' data.
@@ -56,7 +56,6 @@ class Tracker {
   };
 
   static PredictedObstacle predicted(const Track& track, TimeUs t_us);
-  void take_in(std::span<Detection> detections);
   void measure(Track& track, Detection& detection) const;
   void remove_stale(TimeUs now);
   void publish(TimeUs now);

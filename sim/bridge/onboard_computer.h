@@ -1,5 +1,5 @@
 // The computer that carries the pilot: sensor data reach it late, it works in cycles, and each
-// cycle takes time. The one place where the simulator's values become the flight core's.
+// cycle takes time. Where the simulator's readings become the flight core's.
 #pragma once
 
 #include <memory>

@@ -30,7 +30,7 @@
 #include <string>
 
 #include "sim/base/time.h"
-#include "sim/campaign/escape.h"
+#include "sim/campaign/agility.h"
 
 namespace dodgesim {
 

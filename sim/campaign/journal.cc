@@ -174,7 +174,9 @@ ThrowResult read_result(std::ifstream& file, const std::filesystem::path& path,
   file.seekg(static_cast<std::streamoff>(record.offset));
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!file) throw IoError(path.string() + " could not be read.");
-  return result_from_bytes(bytes);
+  ThrowResult result = result_from_bytes(bytes);
+  if (result_digest(result) != record.digest) throw IoError(path.string() + " has changed.");
+  return result;
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ std::string rate_text(const Rate& rate);
 
 // Counts over some throws, for one pilot.
 struct Tally {
-  int throws = 0;          // thrown, flown by the pilot, and judged by the pilot none
-  int would_have_hit = 0;  // of those, hit when nobody dodged
+  int throws = 0;          // thrown, flown by the pilot and by the pilot none
+  int would_have_hit = 0;  // of those, hit when nobody dodged, or that flight failed
   int dodged = 0;          // of those that would have hit
   int errors = 0;          // flights of this pilot, or of the pilot none, that failed
   Rate collisions;         // hit or crashed, of all flights of the pilot that did not fail, also

@@ -13,7 +13,8 @@ namespace {
 // Two p-values that are equal but for rounding count as a tie.
 constexpr double kTie = 1 + 1e-7;
 
-// P(the first group has `least` successes or more | all successes of both).
+// Fisher's one-sided p-value (Fisher 1935): P(the first group has `least` successes or more | all
+// successes of both).
 double fisher_tail(std::int64_t least, std::int64_t n1, std::int64_t n2, std::int64_t successes) {
   const std::int64_t lowest = std::max<std::int64_t>(0, successes - n2);
   const std::int64_t highest = std::min(n1, successes);
@@ -33,37 +34,6 @@ double fisher_tail(std::int64_t least, std::int64_t n1, std::int64_t n2, std::in
     if (above_mean) ++k;
   }
   return std::clamp(above_mean ? sum : 1 - sum, 0.0, 1.0);
-}
-
-double fisher_two_sided(const Proportion& first, const Proportion& second) {
-  const std::int64_t n1 = first.trials, n2 = second.trials;
-  const std::int64_t successes = first.successes + second.successes;
-  const std::int64_t lowest = std::max<std::int64_t>(0, successes - n2);
-  const std::int64_t highest = std::min(n1, successes);
-  const auto pmf = [&](std::int64_t k) { return hypergeometric_pmf(k, n1, n2, successes); };
-  const double limit = pmf(first.successes) * kTie;
-  // The distribution has one mode: what is as unlikely as the table seen are its two ends.
-  const std::int64_t mode = std::clamp(
-      static_cast<std::int64_t>(static_cast<double>(n1 + 1) * static_cast<double>(successes + 1) /
-                                static_cast<double>(n1 + n2 + 2)),
-      lowest, highest);
-  // First k on either side whose probability is within the limit, by halving.
-  std::int64_t inside = mode, above = highest + 1;
-  if (pmf(mode) <= limit) return 1;
-  while (above - inside > 1) {
-    const std::int64_t k = inside + (above - inside) / 2;
-    (pmf(k) <= limit ? above : inside) = k;
-  }
-  std::int64_t below = lowest - 1;
-  inside = mode;
-  while (inside - below > 1) {
-    const std::int64_t k = below + (inside - below) / 2;
-    (pmf(k) <= limit ? below : inside) = k;
-  }
-  // The lower end of the first group is the upper end of the second.
-  const double upper = fisher_tail(above, n1, n2, successes);
-  const double lower = fisher_tail(successes - below, n2, n1, successes);
-  return std::min(1.0, upper + lower);
 }
 
 // Boschloo's p-value against "the second rate is lower".
@@ -97,15 +67,6 @@ void check(const Proportion& first, const Proportion& second) {
 }
 
 }  // namespace
-
-double fisher(const Proportion& first, const Proportion& second, Alternative alternative) {
-  check(first, second);
-  if (alternative == Alternative::kDifferent) return fisher_two_sided(first, second);
-  const bool lower = alternative == Alternative::kLower;
-  const Proportion& high = lower ? first : second;
-  const Proportion& low = lower ? second : first;
-  return fisher_tail(high.successes, high.trials, low.trials, high.successes + low.successes);
-}
 
 double boschloo(const Proportion& first, const Proportion& second, Alternative alternative) {
   check(first, second);

@@ -13,17 +13,11 @@ struct Proportion {
 // What the second rate may be if it is not the first (the null hypothesis: both are one).
 enum class Alternative { kDifferent, kLower, kHigher };
 
-// Fisher's exact test (Fisher 1935), p-value: given how many of all throws succeeded, the
-// probability of a table at least as extreme. kDifferent adds all tables that are no more likely
-// than the one seen (the same rule as R's fisher.test). Never rejects a true null too often, and
-// often too seldom; `compare` uses the next one instead. 1 when a group is empty.
-double fisher(const Proportion& first, const Proportion& second,
-              Alternative alternative = Alternative::kDifferent);
-
 // Boschloo's exact unconditional test (Boschloo 1970, Statistica Neerlandica 24:1), p-value: tables
 // ordered by Fisher's one-sided p-value, the largest probability over the unknown common rate.
 // One-sided it is never above Fisher's, so it is the more powerful, and exact too. kDifferent
-// doubles the smaller side. Takes 0.1 s for two groups of 10,000 throws, 3 s for 100,000.
+// doubles the smaller side. 1 when a group is empty. Takes 0.1 s for two groups of 10,000 throws,
+// 3 s for 100,000.
 double boschloo(const Proportion& first, const Proportion& second,
                 Alternative alternative = Alternative::kDifferent);
 

@@ -165,6 +165,18 @@ void check_range_sensor(const Scenario& scenario, ReadContext& context) {
                            to_text(range.max_range_m) + ".");
 }
 
+// A pilot that takes the vehicle for faster than it may fly predicts escapes that never happen.
+void check_speed_limit(const Scenario& scenario, ReadContext& context) {
+  const double limit_mps = scenario.controller.evading_speed_limit_mps;
+  const double pilot_mps = scenario.dodger.velocity_limit.max_speed_mps;
+  if (scenario.pilot == "none" || pilot_mps <= limit_mps) return;
+  const std::string key = "dodger.velocity_limit.max_speed_mps";
+  context.problems.add(position_of(context, key),
+                       key + " is " + to_text(pilot_mps) +
+                           ", but must not exceed controller.evading_speed_limit_mps, which is " +
+                           to_text(limit_mps) + ".");
+}
+
 // Of a rotor's thrusts that the scenario sets. What a model says is known only to the simulation.
 void check_thrust(const Scenario& scenario, ReadContext& context) {
   const double least_n = scenario.motors.min_thrust_n;
@@ -187,6 +199,7 @@ void check_keys_together(const Scenario& scenario, ReadContext& context) {
   check_rates(scenario, context);
   check_range_sensor(scenario, context);
   check_thrust(scenario, context);
+  check_speed_limit(scenario, context);
 }
 
 std::int64_t product(const VariedKeys& axes) {

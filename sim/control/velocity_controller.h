@@ -75,7 +75,8 @@ struct ControllerSpec {
       "Limit of the velocity error while evading, per axis; wide enough to reverse the fastest "
       "command.");
     v("evading_speed_limit_mps", evading_speed_limit_mps, 0.1, 100,
-      "Limit of the commanded speed while evading; 3 m/s and less cannot dodge fast objects.");
+      "Limit of the commanded speed while evading; 3 m/s and less cannot dodge fast objects. The "
+      "pilot's own limit, dodger.velocity_limit.max_speed_mps, must not exceed it.");
     v("attitude_gain_xy_1ps", attitude_gain_xy_1ps, 0.1, 100,
       "Body rate per roll and pitch error (rpg_quadrotor_control).");
     v("attitude_gain_z_1ps", attitude_gain_z_1ps, 0, 100,

@@ -26,8 +26,8 @@
 
 #include "sim/base/time.h"
 #include "sim/events/spec.h"
-#include "sim/events/sphere_bounds.h"
 #include "sim/render/camera.h"
+#include "sim/render/sphere_bounds.h"
 #include "sim/world/snapshot.h"
 
 namespace dodgesim {

@@ -6,7 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/base/gravity.h"
 #include "sim/base/time.h"
-#include "sim/campaign/escape.h"
+#include "sim/campaign/agility.h"
 #include "sim/flight.h"
 #include "sim/world/referee.h"
 

@@ -7,8 +7,6 @@ namespace dodgesim {
 
 namespace {
 
-constexpr TimeUs kHistoryUs = 100000;
-
 dodge::DepthConfig without_limits(dodge::DepthConfig config) {
   config.min_range_m = config.min_size_m = 0;
   config.max_range_m = config.max_size_m = 1e6;
@@ -77,15 +75,12 @@ void MissObserver::on_tick(const World& world) {
                        scenario_.dodger.window.window_us, scenario_.dodger.cluster.max_groups);
     radius_m_ = world.object(0).bounding_radius_m;
   }
-  history_.push_back(world.snapshot());
-  while (history_.front().t_us < world.snapshot().t_us - kHistoryUs) history_.pop_front();
+  history_.add(world.snapshot());
 }
 
 const Snapshot* MissObserver::state_at(TimeUs t_us) const {
-  if (history_.empty() || t_us < history_.front().t_us) return nullptr;
-  const auto at = std::lower_bound(history_.begin(), history_.end(), t_us,
-                                   [](const Snapshot& s, TimeUs t) { return s.t_us < t; });
-  return at == history_.end() || !at->launched.front() ? nullptr : &*at;
+  const Snapshot* state = history_.at(t_us);
+  return state != nullptr && state->launched.front() ? state : nullptr;
 }
 
 Sight MissObserver::sight(const Snapshot& state, std::size_t camera) const {

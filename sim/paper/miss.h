@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,7 +33,7 @@ struct CycleSight {
 // How far the pilot got at best, from nothing to everything.
 enum class Miss { kFewEvents, kNoCluster, kOneCamera, kNoMatch, kRange, kSize, kElsewhere };
 
-// "no cluster in either camera".
+// "no cluster".
 std::string miss_text(Miss miss);
 
 // Of cycles while the object was in view; kFewEvents without any. `min_events` is what the pilot
@@ -65,7 +64,7 @@ class MissObserver : public FlightObserver {
   EventTruth truth_;
   std::optional<dodge::DepthEstimator> unlimited_;  // takes any distance and size
   double radius_m_ = 0;
-  std::deque<Snapshot> history_;
+  SnapshotHistory history_;
   std::vector<CycleSight> cycles_;
 };
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
+
+#include "sim/render/sphere_bounds.h"
 
 namespace dodgesim {
 
@@ -11,58 +13,22 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kMarginPx = 2;  // room for partly covered pixels
+constexpr double kMarginPx = 1;  // for the rounding of what the outline only just touches
 
-// Pixels [first, last) of one image axis that a sphere can touch; `across`, `ahead`: its centre.
-void bound_axis(double across, double ahead, double radius, double f, double c, int size,
-                int& first, int& last) {
-  first = 0;
-  last = size;
-  const double distance = std::hypot(across, ahead);
-  if (distance <= radius) return;
-  constexpr double kSteepest = 0.49 * std::numbers::pi;
-  const double direction = std::atan2(across, ahead);
-  const double half_angle = std::asin(radius / distance);
-  const double low = direction - half_angle, high = direction + half_angle;
-  const auto pixel = [&](double angle) {
-    return static_cast<int>(std::floor(f * std::tan(angle) + c));
-  };
-  const double limit = 2.0 * size / f;  // tangent beyond which an angle is surely outside the image
-  if (low > -kSteepest && low < kSteepest) {
-    first = std::tan(low) > limit
-                ? size
-                : std::max(0, pixel(std::max(low, -std::atan(limit))) - kMarginPx);
-  } else if (low >= kSteepest) {
-    first = size;
-  }
-  if (high > -kSteepest && high < kSteepest) {
-    last = std::tan(high) < -limit
-               ? 0
-               : std::min(size, pixel(std::min(high, std::atan(limit))) + 1 + kMarginPx);
-  } else if (high <= -kSteepest) {
-    last = 0;
-  }
-}
-
-// Tighter for long solids: bounds of the corners of the box around it, if all are in front.
-void bound_box(const Vector3d& half, const Eigen::Isometry3d& X_CG, const Intrinsics& intrinsics,
-               double near_m, Rect& bounds) {
-  Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
+// About the corners of a box, if all are in front of the camera; the whole plane otherwise.
+ImageBox box_bounds(const Vector3d& half, const Eigen::Isometry3d& X_CB,
+                    const Intrinsics& intrinsics, double near_m) {
+  ImageBox bounds;
   for (int corner = 0; corner < 8; ++corner) {
     const Vector3d sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-    const Vector3d p_C = X_CG * sign.cwiseProduct(half);
-    if (p_C.z() < near_m) return;
-    const Eigen::Vector2d pixel = intrinsics.project(p_C);
-    low = low.cwiseMin(pixel);
-    high = high.cwiseMax(pixel);
+    const Vector3d p_C = X_CB * sign.cwiseProduct(half);
+    if (p_C.z() < near_m) {
+      constexpr double kInfinity = std::numeric_limits<double>::infinity();
+      return {Eigen::Vector2d::Constant(-kInfinity), Eigen::Vector2d::Constant(kInfinity)};
+    }
+    bounds.extend(intrinsics.project(p_C));
   }
-  const auto clamp_to = [](double value, int size) {
-    return static_cast<int>(std::clamp(value, -1.0, size + 1.0));
-  };
-  bounds.x0 = std::max(bounds.x0, clamp_to(std::floor(low.x()), intrinsics.width) - kMarginPx);
-  bounds.y0 = std::max(bounds.y0, clamp_to(std::floor(low.y()), intrinsics.height) - kMarginPx);
-  bounds.x1 = std::min(bounds.x1, clamp_to(std::ceil(high.x()), intrinsics.width) + kMarginPx);
-  bounds.y1 = std::min(bounds.y1, clamp_to(std::ceil(high.y()), intrinsics.height) + kMarginPx);
+  return bounds;
 }
 
 // Quadratic form in the ray d that is positive where the ray hits: an ellipsoid, d.d - |eye x d|^2
@@ -133,13 +99,12 @@ PrimitiveView view_primitive(const Primitive& primitive, const Eigen::Isometry3d
   view.visible = center_C.z() + radius > near_m && !camera_inside(primitive, view.eye_G);
   if (!view.visible) return view;
 
-  bound_axis(center_C.x(), center_C.z(), radius, intrinsics.f, intrinsics.cx(), intrinsics.width,
-             view.bounds.x0, view.bounds.x1);
-  bound_axis(center_C.y(), center_C.z(), radius, intrinsics.f, intrinsics.cy(), intrinsics.height,
-             view.bounds.y0, view.bounds.y1);
   const bool capsule = primitive.type == mjGEOM_CAPSULE;
   const Vector3d half = primitive.size + Vector3d(0, 0, capsule ? primitive.size.x() : 0.0);
-  bound_box(half, X_GC.inverse(), intrinsics, near_m, view.bounds);
+  // The sphere about a long solid is larger than the box about it.
+  const ImageBox bounds = sphere_bounds(intrinsics, center_C, radius)
+                              .intersection(box_bounds(half, X_GC.inverse(), intrinsics, near_m));
+  view.bounds = pixels_about(bounds, kMarginPx, intrinsics);
   // Half a pixel's diagonal, at the far side of the solid.
   view.margin = 0.75 * (center_C.z() + radius) / intrinsics.f;
   if (primitive.type == mjGEOM_BOX) return view;

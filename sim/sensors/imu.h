@@ -65,7 +65,7 @@ class Imu {
   // Call at increasing instants.
   ImuReading sample(const Snapshot& truth);
 
-  // In its place, for who reads the gyroscope alone: the same w_B_radps, in half the time.
+  // Instead of sample() if only the gyroscope is needed: the same w_B_radps, in half the time.
   Eigen::Vector3d sample_gyro(const Snapshot& truth);
 
  private:

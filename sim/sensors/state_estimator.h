@@ -64,8 +64,8 @@ struct StateEstimateSpec {
   }
 };
 
-// The heading error rotates the whole estimated world, so velocities turn with it. Errors of tilt
-// are about the world's horizontal axes. All processes are discretised exactly.
+// The heading error turns attitude and velocity, not the position, which has a walk of its own.
+// Errors of tilt are about the world's horizontal axes. All processes are discretised exactly.
 class StateEstimator {
  public:
   // Throws ScenarioError if the rate does not fit the ticks.

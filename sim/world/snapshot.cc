@@ -30,4 +30,16 @@ Snapshot interpolate(const Snapshot& a, const Snapshot& b, TimeUs t_us) {
   return out;
 }
 
+void SnapshotHistory::add(const Snapshot& now) {
+  snapshots_.push_back(now);
+  while (snapshots_.front().t_us < now.t_us - kKeptUs) snapshots_.pop_front();
+}
+
+const Snapshot* SnapshotHistory::at(TimeUs t_us) const {
+  if (snapshots_.empty() || t_us < snapshots_.front().t_us) return nullptr;
+  const auto found = std::lower_bound(snapshots_.begin(), snapshots_.end(), t_us,
+                                      [](const Snapshot& s, TimeUs t) { return s.t_us < t; });
+  return found == snapshots_.end() ? nullptr : &*found;
+}
+
 }  // namespace dodgesim

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <deque>
 #include <vector>
 
 #include "sim/base/time.h"
@@ -30,6 +32,26 @@ struct Snapshot {
   Eigen::Vector3d vehicle_a_W = Eigen::Vector3d::Zero();  // acceleration of B's origin [m/s^2]
   std::vector<BodyState> objects;                         // thrown objects, by index
   std::vector<bool> launched;                             // an object is invisible before launch
+
+  bool any_launched() const {
+    return std::find(launched.begin(), launched.end(), true) != launched.end();
+  }
+};
+
+// The snapshots of the last while, for what is later told of an instant.
+class SnapshotHistory {
+ public:
+  // Longer than any sensing delay that makes sense.
+  static constexpr TimeUs kKeptUs = 1000000;
+
+  // At increasing instants.
+  void add(const Snapshot& now);
+
+  // The first at or after t_us; null if t_us is before the first kept or after the last.
+  const Snapshot* at(TimeUs t_us) const;
+
+ private:
+  std::deque<Snapshot> snapshots_;
 };
 
 // State at t_us between a and b (a.t_us <= t_us <= b.t_us): positions and velocities linear,

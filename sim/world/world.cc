@@ -19,13 +19,6 @@ using ConstMap3 = Eigen::Map<const Eigen::Vector3d>;
 
 Eigen::Quaterniond quaternion(const mjtNum* q) { return {q[0], q[1], q[2], q[3]}; }
 
-Eigen::Isometry3d pose(const mjtNum* p, const mjtNum* q) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = quaternion(q).toRotationMatrix();
-  X.translation() = ConstMap3(p);
-  return X;
-}
-
 Eigen::Quaterniond rotation(const Eigen::Vector3d& angle_rad) {
   const double angle = angle_rad.norm();
   if (angle < 1e-12) return Eigen::Quaterniond::Identity();
@@ -34,17 +27,22 @@ Eigen::Quaterniond rotation(const Eigen::Vector3d& angle_rad) {
 
 }  // namespace
 
-World::World(const WorldSpec& spec)
-    : label_(spec.models_dir + "/vehicles/" + spec.vehicle + ".xml"), model_(compose_model(spec)) {
+World::World(const WorldSpec& spec) : model_(compose_model(spec)) {
   data_.reset(mj_makeData(model_.get()));
   if (!data_) throw SimulationError("MuJoCo cannot allocate its data.");
   contype_.assign(model_->geom_contype, model_->geom_contype + model_->ngeom);
   conaffinity_.assign(model_->geom_conaffinity, model_->geom_conaffinity + model_->ngeom);
-  read_vehicle(spec.vehicle_overrides);
+  const ModelReader vehicle(*model_, spec.models_dir + "/vehicles/" + spec.vehicle + ".xml");
+  vehicle_body_ = vehicle.find(mjOBJ_BODY, "vehicle");
+  vehicle.override_vehicle(*model_, *data_, spec.vehicle_overrides);
+  vehicle_free_ = vehicle.free_body(vehicle_body_);
+  vehicle_ = vehicle.vehicle(spec.vehicle_overrides.mass_scale);
   for (int i = 0; i < static_cast<int>(spec.objects.size()); ++i) {
-    label_ =
-        spec.models_dir + "/objects/" + spec.objects[static_cast<std::size_t>(i)].kind + ".xml";
-    read_object(i);
+    const std::string& kind = spec.objects[static_cast<std::size_t>(i)].kind;
+    const ModelReader object(*model_, spec.models_dir + "/objects/" + kind + ".xml");
+    object_bodies_.push_back(object.find(mjOBJ_BODY, object_prefix(i) + "body"));
+    objects_free_.push_back(object.free_body(object_bodies_.back()));
+    objects_.push_back(object.object(object_prefix(i)));
     if (!spec.air_drag) objects_.back().drag_area_m2 = 0;
   }
   snapshot_.objects.resize(objects_.size());
@@ -55,157 +53,6 @@ World::World(const WorldSpec& spec)
   contact_bound_.emplace(*model_, moving);
   in_flight_.assign(moving.size(), true);
   reset(Eigen::Vector3d(0, 0, 1), 0, Eigen::Vector3d::Zero());
-}
-
-int World::find(mjtObj type, const std::string& name) const {
-  const int id = mj_name2id(model_.get(), type, name.c_str());
-  if (id < 0) {
-    throw ScenarioError(label_ + ": the model has no " + mju_type2Str(type) + " named '" +
-                        name.substr(name.rfind('/') + 1) + "'.");
-  }
-  return id;
-}
-
-double World::numeric(const std::string& name, int index, int count) const {
-  const int id = find(mjOBJ_NUMERIC, name);
-  if (model_->numeric_size[id] != count) {
-    throw ScenarioError(label_ + ": the numeric '" + name + "' must have " + std::to_string(count) +
-                        " values.");
-  }
-  return model_->numeric_data[model_->numeric_adr[id] + index];
-}
-
-World::FreeBody World::find_free_body(int body) const {
-  FreeBody out;
-  out.body = body;
-  const int joint = model_->body_jntadr[body];
-  if (model_->body_jntnum[body] != 1 || model_->jnt_type[joint] != mjJNT_FREE) {
-    throw ScenarioError(label_ + ": the body must have a free joint and no other.");
-  }
-  const int* parents = model_->body_parentid;
-  if (std::find(parents, parents + model_->nbody, body) != parents + model_->nbody) {
-    throw ScenarioError(label_ + ": the body must have no body within it; it is rigid, and its " +
-                        "geoms are its own.");
-  }
-  if (ConstMap3(model_->body_ipos + 3 * body).norm() > 1e-6) {
-    throw ScenarioError(label_ + ": the origin of the body must be its centre of mass.");
-  }
-  out.qpos = model_->jnt_qposadr[joint];
-  out.qvel = model_->jnt_dofadr[joint];
-  const Eigen::Matrix3d R = quaternion(model_->body_iquat + 4 * body).toRotationMatrix();
-  out.J_kgm2 = R * ConstMap3(model_->body_inertia + 3 * body).asDiagonal() * R.transpose();
-  out.J_inv = out.J_kgm2.inverse();
-  return out;
-}
-
-// Changes the model itself, so that whatever reads it agrees.
-void World::override_vehicle(const VehicleOverrides& overrides) {
-  model_->body_mass[vehicle_body_] *= overrides.mass_scale;
-  for (int axis = 0; axis < 3; ++axis) {
-    model_->body_inertia[3 * vehicle_body_ + axis] *= overrides.inertia_scale;
-  }
-  if (overrides.max_thrust_n > 0) {
-    for (int rotor = 0; rotor < model_->nu; ++rotor) {
-      model_->actuator_ctrlrange[2 * rotor + 1] = overrides.max_thrust_n;
-    }
-  }
-  if (overrides.stereo_baseline_m > 0) {
-    Map3 top(model_->cam_pos + 3 * find(mjOBJ_CAMERA, "top"));
-    Map3 bottom(model_->cam_pos + 3 * find(mjOBJ_CAMERA, "bottom"));
-    const Eigen::Vector3d middle = 0.5 * (top + bottom);
-    const Eigen::Vector3d up = (top - bottom).normalized();
-    top = middle + 0.5 * overrides.stereo_baseline_m * up;
-    bottom = middle - 0.5 * overrides.stereo_baseline_m * up;
-  }
-  if (const auto turn = overrides.lower_camera_turn()) {
-    // MuJoCo's camera has y up and looks along -z.
-    const Eigen::Vector3d axis = Eigen::Vector3d(1, -1, -1).cwiseProduct(turn->axis());
-    mjtNum* quat = model_->cam_quat + 4 * find(mjOBJ_CAMERA, "bottom");
-    const Eigen::Quaterniond q = quaternion(quat) * Eigen::AngleAxisd(turn->angle(), axis);
-    quat[0] = q.w();
-    quat[1] = q.x();
-    quat[2] = q.y();
-    quat[3] = q.z();
-  }
-  mj_setConst(model_.get(), data_.get());  // what MuJoCo derives from these
-}
-
-// The mixer knows four alike, which push along z of B and twist about it.
-void World::check_rotor(int site, int actuator) const {
-  const mjtNum* gear = model_->actuator_gear + 6 * actuator;
-  const Eigen::Vector3d up = quaternion(model_->site_quat + 4 * site) * Eigen::Vector3d::UnitZ();
-  const bool plain = model_->actuator_trntype[actuator] == mjTRN_SITE &&
-                     model_->actuator_trnid[2 * actuator] == site && up.z() > 1 - 1e-9 &&
-                     gear[0] == 0 && gear[1] == 0 && gear[2] == 1 && gear[3] == 0 && gear[4] == 0;
-  const bool alike = std::abs(gear[5]) == std::abs(model_->actuator_gear[5]) &&
-                     model_->actuator_ctrlrange[2 * actuator + 1] == model_->actuator_ctrlrange[1];
-  if (plain && alike) return;
-  throw ScenarioError(label_ + ": a rotor must be a motor at its site, with z up, a gear of " +
-                      "\"0 0 1 0 0 kappa\", and the kappa (but for its sign) and the ctrlrange " +
-                      "of the other rotors.");
-}
-
-void World::read_vehicle(const VehicleOverrides& overrides) {
-  vehicle_body_ = find(mjOBJ_BODY, "vehicle");
-  override_vehicle(overrides);
-  vehicle_free_ = find_free_body(vehicle_body_);
-  vehicle_.mass_kg = model_->body_mass[vehicle_body_];
-  vehicle_.inertia_kgm2 = vehicle_free_.J_kgm2.diagonal();
-  if (!vehicle_free_.J_kgm2.isDiagonal(1e-6)) {
-    throw ScenarioError(label_ +
-                        ": x, y and z of the vehicle must be its principal axes of inertia.");
-  }
-  for (int k = 0; k < 4; ++k) {
-    const std::string name = "rotor_" + std::to_string(k);
-    const int site = find(mjOBJ_SITE, name);
-    const int actuator = find(mjOBJ_ACTUATOR, name);
-    const double torque_m = model_->actuator_gear[6 * actuator + 5];
-    if (actuator != k) throw ScenarioError(label_ + ": rotor_0 to rotor_3 must be in this order.");
-    check_rotor(site, actuator);
-    const auto rotor = static_cast<std::size_t>(k);
-    vehicle_.rotor_p_B[rotor] = ConstMap3(model_->site_pos + 3 * site);
-    vehicle_.rotor_spin[rotor] = torque_m < 0 ? -1 : 1;
-    vehicle_.kappa_m = std::abs(torque_m);
-    vehicle_.max_thrust_n = model_->actuator_ctrlrange[2 * actuator + 1];
-    vehicle_.drag_1ps[std::min(k, 2)] = numeric("rotor_drag_1ps", std::min(k, 2), 3);
-  }
-  vehicle_.drag_kh_1pm = numeric("rotor_drag_kh_1pm", 0, 1) / overrides.mass_scale;
-  vehicle_.drag_1ps /= overrides.mass_scale;  // accelerations by the same forces
-  const double lift = 4 * vehicle_.max_thrust_n / (vehicle_.mass_kg * kGravityMps2);
-  if (lift < kLeastLift) {
-    throw ScenarioError(label_ + ": the rotors lift only " + std::to_string(lift) +
-                        " times the vehicle's weight; it needs at least 1.2 to fly" +
-                        " (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
-  }
-  for (const char* name : {"top", "bottom"}) {
-    const int camera = find(mjOBJ_CAMERA, name);
-    Eigen::Isometry3d X = pose(model_->cam_pos + 3 * camera, model_->cam_quat + 4 * camera);
-    // MuJoCo's camera looks along -z with y up; C has z forward and y down.
-    X.linear() = X.linear() * Eigen::Vector3d(1, -1, -1).asDiagonal();
-    vehicle_.X_BC.push_back(X);
-  }
-  const int range = find(mjOBJ_SITE, "range");
-  vehicle_.X_BR = pose(model_->site_pos + 3 * range, model_->site_quat + 4 * range);
-}
-
-void World::read_object(int i) {
-  const std::string prefix = object_prefix(i);
-  const int body = find(mjOBJ_BODY, prefix + "body");
-  ObjectPhysics object;
-  object.mass_kg = model_->body_mass[body];
-  const int first = model_->body_geomadr[body];
-  for (int g = first; g < first + model_->body_geomnum[body]; ++g) {
-    const double extent = ConstMap3(model_->geom_pos + 3 * g).norm() + model_->geom_rbound[g];
-    object.bounding_radius_m = std::max(object.bounding_radius_m, extent);
-  }
-  object.drag_area_m2 =
-      numeric(prefix + "drag_coefficient", 0, 1) * numeric(prefix + "frontal_area_m2", 0, 1);
-  if (!(object.drag_area_m2 >= 0)) {
-    throw ScenarioError(label_ + ": drag_coefficient times frontal_area_m2 must not be negative.");
-  }
-  objects_.push_back(object);
-  object_bodies_.push_back(body);
-  objects_free_.push_back(find_free_body(body));
 }
 
 void World::reset(const Eigen::Vector3d& p_WB, double yaw_rad, const Eigen::Vector3d& v_W) {

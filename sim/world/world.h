@@ -15,21 +15,13 @@
 #include "sim/base/mujoco.h"
 #include "sim/world/compose.h"
 #include "sim/world/contact_bound.h"
+#include "sim/world/model_reader.h"
 #include "sim/world/snapshot.h"
 #include "sim/world/vehicle_parameters.h"
 
 namespace dodgesim {
 
-// What the rotors must lift at least to fly, in weights of the vehicle.
-inline constexpr double kLeastLift = 1.2;
 inline constexpr double kAirDensityKgpm3 = 1.2;  // dry air at 20 degrees C, 1013 hPa
-
-// A thrown object's constants at its size.
-struct ObjectPhysics {
-  double mass_kg = 0;
-  double drag_area_m2 = 0;       // Cd * A: the drag force is 1/2 rho Cd A |v| v
-  double bounding_radius_m = 0;  // of the sphere about its centre of mass that encloses it
-};
 
 // Where two bodies are in each other.
 struct Overlap {
@@ -75,23 +67,6 @@ class World {
   bool can_collide(int geom) const { return contype_[static_cast<std::size_t>(geom)] != 0; }
 
  private:
-  // One free rigid body in MuJoCo's state vectors.
-  struct FreeBody {
-    int body = 0;
-    int qpos = 0;            // first of 7: position in W, quaternion (w x y z)
-    int qvel = 0;            // first of 6: velocity in W, angular velocity in the body's frame
-    Eigen::Matrix3d J_kgm2;  // about the centre of mass, in the body's frame
-    Eigen::Matrix3d J_inv;
-  };
-
-  void check_rotor(int site, int actuator) const;
-  FreeBody find_free_body(int body) const;
-  void read_vehicle(const VehicleOverrides& overrides);
-  void override_vehicle(const VehicleOverrides& overrides);
-  void read_object(int i);
-  double numeric(const std::string& name, int index, int count) const;
-  int find(mjtObj type, const std::string& name) const;
-
   BodyState state(const FreeBody& body) const;
   void set_state(const FreeBody& body, const BodyState& state);
   void set_collisions(int i, bool on);
@@ -102,7 +77,6 @@ class World {
   void check_accelerations() const;
   void fill_snapshot();
 
-  std::string label_;
   MjModelPtr model_;
   MjDataPtr data_;
   std::vector<int> contype_, conaffinity_;  // by geom, as the model files say

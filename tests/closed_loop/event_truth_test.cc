@@ -23,7 +23,7 @@ class CausesTest : public ::testing::Test {
   }
 
   // Counts the events of 20 ms by cause.
-  std::map<Cause, int> film(const Vector3d& ball_v_W, double yaw_rate_rps) {
+  std::map<Cause, int> film(const Vector3d& ball_v_W, double yaw_rate_radps) {
     world_.reset({-2, 0, 2}, 0, Vector3d::Zero());
     BodyState ball;
     ball.p_W = {-0.2, 0.1, 2.1};
@@ -37,8 +37,8 @@ class CausesTest : public ::testing::Test {
       next.t_us = tick * kTickUs;
       next.objects[0].v_W = ball_v_W;
       next.objects[0].p_W = ball.p_W + seconds(next.t_us) * ball_v_W;
-      next.vehicle.w_W = {0, 0, yaw_rate_rps};
-      next.vehicle.q_W = Eigen::AngleAxisd(seconds(next.t_us) * yaw_rate_rps, Vector3d::UnitZ());
+      next.vehicle.w_W = {0, 0, yaw_rate_radps};
+      next.vehicle.q_W = Eigen::AngleAxisd(seconds(next.t_us) * yaw_rate_radps, Vector3d::UnitZ());
       rig.advance(now, next, [&](int, const Packet& packet) {
         EXPECT_EQ(packet.causes.size(), setup_.keep_causes ? packet.events.size() : 0);
         for (const Cause cause : packet.causes) ++counts[cause];

@@ -76,7 +76,7 @@ TEST(ExplainThrow, APilotThatAsksForASlowEscapeCommandsTooLittle) {
 }
 
 TEST(ExplainThrow, AControllerThatDoesNotFollowDoesNotUseTheThrust) {
-  const std::string dull = "controller: {evading_speed_limit_mps: 0.3}\n";
+  const std::string dull = "controller: {evading_velocity_gain_1ps: 0.3}\n";
   const ThrowResult result = fly_throw(head_on("oracle", "speed_mps: 4", 0.2, dull), 0);
   ASSERT_TRUE(result.flown.hit);
   EXPECT_EQ(result.cause, "not enough thrust");

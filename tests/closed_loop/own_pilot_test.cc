@@ -42,7 +42,7 @@ Sight sight_of(const std::string& cluster) {
 }
 
 TEST(OwnPilot, KeepsABallApartFromItsBackground) {
-  const Sight own = sight_of("{}"), paper = sight_of("{weight_position: 0.2}");
+  const Sight own = sight_of("{}"), paper = sight_of("{weight_position_1ppx: 0.2}");
   EXPECT_GT(own.whole, 30 * kThrows);
   EXPECT_GT(own.whole, 1.1 * paper.whole);
   EXPECT_LT(own.too_large, paper.too_large);

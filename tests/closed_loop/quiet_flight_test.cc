@@ -20,9 +20,10 @@ bool evades_the_room(const std::string& pilot, int seed, int flight, const std::
 TEST(QuietFlight, DodgesimDoesNotTakeTheRoomForAnObject) {
   EXPECT_FALSE(evades_the_room("dodgesim", 78, 0, "{}"));
   // It would, if it were satisfied with less.
-  EXPECT_TRUE(evades_the_room("dodgesim", 78, 0,
-                              "{cluster: {weight_position: 0.6}, escape: {min_speed_mps: 1.5},\n"
-                              " association: {gate_sigmas: 0, min_detections: 5}}"));
+  EXPECT_TRUE(
+      evades_the_room("dodgesim", 78, 0,
+                      "{cluster: {weight_position_1ppx: 0.6}, escape: {min_speed_mps: 1.5},\n"
+                      " association: {gate_sigmas: 0, min_detections: 5}}"));
 }
 
 TEST(QuietFlight, ThePapersPilotDoesNotEvadeSingleFalseDetections) {

@@ -1,5 +1,5 @@
-// Deterministic random numbers for the tests of the flight core, which links nothing of the
-// simulator: SplitMix64, uniform doubles and Box-Muller.
+// Deterministic random numbers for tests of the flight core, without the simulator's library:
+// SplitMix64, uniform doubles and Box-Muller.
 #pragma once
 
 #include <Eigen/Dense>

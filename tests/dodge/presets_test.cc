@@ -33,18 +33,7 @@ TEST(Presets, LeaveThePaperAsItIs) {
   EXPECT_FALSE(paper.kalman.gravity);
   EXPECT_EQ(paper.kalman.lateral_size_share, 0);
   EXPECT_EQ(paper.association.gate_sigmas, 0);
-  EXPECT_EQ(paper.cluster.weight_position, 0.2);
-}
-
-// With a gate it needs no stricter rule for the second detection.
-TEST(Presets, TheBetterPilotRemembersAnObstacleLongerUntilItIsConfirmed) {
-  EXPECT_EQ(preset("dodgesim").association.tentative_timeout_us, 100000);
-  EXPECT_EQ(preset("falanga2020").association.tentative_timeout_us, 25000);
-}
-
-// Or it would not see the second of two balls.
-TEST(Presets, TheBetterPilotBrakesGently) {
-  EXPECT_EQ(preset("dodgesim").velocity_limit.calm_acceleration_mps2, 3);
+  EXPECT_EQ(paper.cluster.weight_position_1ppx, 0.2);
 }
 
 TEST(Presets, ThereAreNoOthers) { EXPECT_THROW(preset("oracle"), std::invalid_argument); }

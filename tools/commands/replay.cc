@@ -283,7 +283,7 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->type_name("FILE.mcap");
   command
       ->add_option("--stages", arguments->stages,
-                   "Write the pilot's stages, a PNG for each of its cycles")
+                   "Write the pilot's stages, a PNG for each of its cycles while an object flies")
       ->check(not_empty())
       ->type_name("DIR2");
   command

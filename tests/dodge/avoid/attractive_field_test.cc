@@ -32,6 +32,15 @@ TEST(AttractiveForce, HasAConstantMagnitudeForAnExponentOfZero) {
   EXPECT_EQ(attractive_force(config, 1.5, Vector3d::Zero()), Vector3d::Zero());
 }
 
+// Potential (35). As printed it jumps at e_0; the inner branch is raised by k_a e_0 gamma_a /
+// (gamma_a + 1), which leaves (36) as it is.
+double attractive_potential(const AttractiveConfig& config, double k_a, const Vector3d& e) {
+  const double distance = e.norm(), e_0 = config.e_0_m, gamma_a = config.gamma_a;
+  if (distance >= e_0) return k_a * distance;
+  const double inner = e_0 / (gamma_a + 1) * std::pow(distance / e_0, gamma_a + 1);
+  return k_a * (inner + e_0 * gamma_a / (gamma_a + 1));
+}
+
 TEST(AttractivePotential, IsContinuousAtTheCrossover) {
   const AttractiveConfig config;
   EXPECT_NEAR(attractive_potential(config, 1.5, {0.2, 0, 0}), 0.3, 1e-12);

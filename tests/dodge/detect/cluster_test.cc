@@ -190,7 +190,7 @@ TEST(Clusterer, RectangleFollowsASlantedObject) {
 TEST(Clusterer, MergesNearGroupsOfLikeRhoOnly) {
   ClusterConfig config = separate();
   config.eps = 3;
-  config.weight_position = 0.2;
+  config.weight_position_1ppx = 0.2;
   MaskImage image;
   image.add_block(20, 20, 5, 5, 10000);
   image.add_block(34, 20, 5, 5, 10000);  // 9 px away: cost 0.2 * 9 = 1.8
@@ -209,7 +209,7 @@ TEST(Clusterer, MergesNearGroupsOfLikeRhoOnly) {
 TEST(Clusterer, LoneGroupsAreNoiseWhenACoreNeedsNeighbours) {
   ClusterConfig config = separate();
   config.eps = 2;
-  config.weight_position = 0.2;  // 10 px
+  config.weight_position_1ppx = 0.2;  // 10 px
   config.min_points = 3;
   MaskImage image;
   for (int i = 0; i < 4; ++i) image.add_block(10 + 12 * i, 20, 4, 4);  // a chain of four
@@ -247,7 +247,8 @@ TEST(Clusterer, KeepsTheGroupsWithMostEventsWhenThereAreTooMany) {
 }
 
 TEST(Clusterer, CostIs6) {
-  const Clusterer clusterer({.weight_position = 2, .weight_velocity = 3, .weight_rho = 5}, 10, 10);
+  const Clusterer clusterer({.weight_position_1ppx = 2, .weight_velocity_1ppx = 3, .weight_rho = 5},
+                            10, 10);
   Cluster a, b;
   a.rectangle = {{0, 0}, {2, 2}, 0};
   b.rectangle = {{10, 0}, {4, 2}, 0};

@@ -60,7 +60,6 @@ TEST_F(DepthTest, StereoRecoversPositionAndSize) {
   ASSERT_EQ(detections.size(), 1U);
   const Detection& d = detections[0];
   EXPECT_EQ(d.t_us, 77);
-  EXPECT_EQ(d.camera, 0);
   EXPECT_NEAR(d.depth_m, 1.2, 1e-4);  // the cameras sit 0.1 m ahead of the body's origin
   EXPECT_NEAR(d.size_m, 0.2, 1e-4);
   EXPECT_LT((d.centre_W - (state_.p_WB + state_.q_WB * p_B)).norm(), 1e-4);

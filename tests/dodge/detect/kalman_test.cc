@@ -54,7 +54,7 @@ Kalman filtered(const KalmanConfig& config, const std::vector<Measurement>& trac
 TEST(Kalman, AgreesWithBatchLeastSquaresWithoutProcessNoise) {
   Generator random(1);
   KalmanConfig config;
-  config.acceleration_noise = 0;
+  config.acceleration_noise_mps2_sqrthz = 0;
   for (int k = 0; k < 50; ++k) {
     const std::vector<Measurement> track = random_track(random, 2 + k % 20);
     // Information form: state at the last instant, prior on the velocity only.
@@ -82,7 +82,7 @@ TEST(Kalman, AgreesWithJointGaussianConditioningWithProcessNoise) {
   // white noise, without any recursion.
   Generator random(2);
   const KalmanConfig config;
-  const double q = config.acceleration_noise * config.acceleration_noise;
+  const double q = config.acceleration_noise_mps2_sqrthz * config.acceleration_noise_mps2_sqrthz;
   for (int k = 0; k < 20; ++k) {
     const std::vector<Measurement> track = random_track(random, 2 + k);
     const auto n = static_cast<Eigen::Index>(track.size());
@@ -121,7 +121,7 @@ TEST(Kalman, AgreesWithJointGaussianConditioningWithProcessNoise) {
 TEST(Kalman, TakesMeasurementsInAnyOrderWithoutProcessNoise) {
   Generator random(6);
   KalmanConfig config;
-  config.acceleration_noise = 0;
+  config.acceleration_noise_mps2_sqrthz = 0;
   for (int k = 0; k < 50; ++k) {
     config.gravity = k % 2 == 0;
     std::vector<Measurement> track = random_track(random, 12);
@@ -154,7 +154,7 @@ TEST(Kalman, KnowsWhereTheObstacleWas) {
 TEST(Kalman, ConvergesToAConstantVelocity) {
   Generator random(3);
   KalmanConfig config;
-  config.acceleration_noise = 0;
+  config.acceleration_noise_mps2_sqrthz = 0;
   const Vector3d p(3, 0.2, 1), v(-6, 0.5, 1);
   const Matrix3d R = 0.02 * 0.02 * Matrix3d::Identity();
   Kalman filter(config, 0, p + 0.02 * random.normal_vector(), R);
@@ -186,7 +186,8 @@ TEST(Kalman, StatesItsErrorsHonestly) {
       constexpr TimeUs kStepUs = 400;
       constexpr double dt = seconds(kStepUs);
       for (int s = 0; s < steps; ++s) {
-        const Vector3d dv = config.acceleration_noise * std::sqrt(dt) * random.normal_vector();
+        const Vector3d dv =
+            config.acceleration_noise_mps2_sqrthz * std::sqrt(dt) * random.normal_vector();
         p += dt * (v + 0.5 * dv);
         v += dv;
       }
@@ -205,7 +206,7 @@ TEST(Kalman, KeepsItsCovarianceSymmetricAndPositiveDefinite) {
   Generator random(4);
   for (const double noise : {0.0, 3.0}) {
     KalmanConfig config;
-    config.acceleration_noise = noise;
+    config.acceleration_noise_mps2_sqrthz = noise;
     Kalman filter(config, 0, Vector3d::Zero(), Matrix3d::Identity());
     TimeUs t_us = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -309,7 +310,7 @@ TEST(KalmanConfig, RefusesWhatIsNotADeviation) {
     change(config);
     EXPECT_THROW(check_ranges(config), std::invalid_argument);
   };
-  refused([](KalmanConfig& c) { c.acceleration_noise = -1; });
+  refused([](KalmanConfig& c) { c.acceleration_noise_mps2_sqrthz = -1; });
   refused([](KalmanConfig& c) { c.initial_speed_sigma_mps = 0; });
   refused([](KalmanConfig& c) { c.lateral_sigma_m = std::nan(""); });
   refused([](KalmanConfig& c) { c.min_depth_sigma_m = 0; });

@@ -26,12 +26,12 @@ class TimeImageTest : public ::testing::Test {
   static CameraModel camera() { return {.width = kColumns, .height = kRows, .cx = 20, .cy = 15}; }
 
   // The window is (0, 10000].
-  void process(TimeImage& image, const std::vector<Event>& events, double rate_rps = 0) {
+  void process(TimeImage& image, const std::vector<Event>& events, double rate_radps = 0) {
     const std::span<const Event> all(events);
     const std::array<std::span<const Event>, 2> pieces = {all.first(events.size() / 2),
                                                           all.subspan(events.size() / 2)};
     image.accumulate(pieces, still_, 0, 10000);
-    image.threshold(rate_rps);
+    image.threshold(rate_radps);
     image.clean();
   }
 

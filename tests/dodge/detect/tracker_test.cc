@@ -18,10 +18,9 @@ using Eigen::Vector3d;
 constexpr double kLifetimeS = 0.8;
 
 // A ball of the given size seen from the origin.
-Detection seen(TimeUs t_us, const Vector3d& centre, double size_m = 0.2, int camera = 0) {
+Detection seen(TimeUs t_us, const Vector3d& centre, double size_m = 0.2) {
   Detection detection;
   detection.t_us = t_us;
-  detection.camera = camera;
   detection.centre_W = centre;
   detection.depth_m = centre.x();
   detection.depth_sigma_m = 0.03;
@@ -180,26 +179,15 @@ TEST(Tracker, NeverReusesAnIdentifier) {
   EXPECT_EQ(detections[0].obstacle_id, 2);
 }
 
-TEST(Tracker, TakesOneObstacleFromTwoCameras) {
-  Tracker tracker({}, {}, kLifetimeS);
-  std::vector<Detection> detections = {seen(0, Vector3d(2, 0, 0), 0.2, 0),
-                                       seen(0, Vector3d(2, 0.05, 0), 0.2, 1)};
-  tracker.update(0, detections);
-  ASSERT_EQ(tracker.obstacles().size(), 1);
-  EXPECT_EQ(tracker.obstacles()[0].obstacle.detections, 2);
-  EXPECT_EQ(detections[1].obstacle_id, detections[0].obstacle_id);
-}
-
 TEST(Tracker, IsNotMovedByADetectionThatComesLate) {
-  // The second camera saw the ball 4 ms, and 4 cm of its way, before the first.
+  // Each look is followed by one of 4 ms, and 4 cm of the ball's way, before.
   KalmanConfig kalman;
-  kalman.acceleration_noise = 0;
+  kalman.acceleration_noise_mps2_sqrthz = 0;
   Tracker tracker({}, kalman, kLifetimeS);
-  const auto ball = [](TimeUs t_us, int camera) {
-    return seen(t_us, Vector3d(4 - 10 * seconds(t_us), 0, 0), 0.2, camera);
-  };
+  const auto ball = [](TimeUs t_us) { return seen(t_us, {4 - 10 * seconds(t_us), 0, 0}); };
   for (TimeUs t_us = 10000; t_us <= 100000; t_us += 10000) {
-    update(tracker, t_us, {ball(t_us, 0), ball(t_us - 4000, 1)});
+    update(tracker, t_us, {ball(t_us)});
+    update(tracker, t_us, {ball(t_us - 4000)});
   }
   ASSERT_EQ(tracker.obstacles().size(), 1);
   const Obstacle& obstacle = tracker.obstacles()[0].obstacle;
@@ -207,7 +195,7 @@ TEST(Tracker, IsNotMovedByADetectionThatComesLate) {
   EXPECT_NEAR(obstacle.p_WO.x(), 3, 1e-3);
   EXPECT_NEAR(obstacle.v_WO.x(), -10, 0.02);
   // So late that the ball has left the place by more than the gate.
-  std::vector<Detection> late = {ball(40000, 1)};
+  std::vector<Detection> late = {ball(40000)};
   tracker.update(101000, late);
   EXPECT_EQ(late[0].obstacle_id, obstacle.id);
   EXPECT_EQ(tracker.obstacles().size(), 1);
@@ -217,7 +205,7 @@ TEST(Tracker, PredictsObstaclesToTheInstantOfEachDetection) {
   AssociationConfig association;
   association.gate_sigmas = 3;
   KalmanConfig kalman;
-  kalman.acceleration_noise = 0.1;
+  kalman.acceleration_noise_mps2_sqrthz = 0.1;
   Tracker tracker(association, kalman, kLifetimeS);
   const auto ball = [](TimeUs t_us) { return seen(t_us, {4 - 10 * seconds(t_us), 0, 0}); };
   for (TimeUs t_us = 0; t_us <= 100000; t_us += 4000) update(tracker, t_us, {ball(t_us)});
@@ -266,8 +254,7 @@ TEST(Tracker, StaysFiniteWithDetectionsOfNoSizeAndOutOfOrder) {
       const TimeUs t_us = 1000 * i - static_cast<TimeUs>(random.bits() % 20000);
       const Vector3d centre =
           random.bits() % 4 == 0 ? Vector3d::Zero().eval() : random.uniform_vector(-0.5, 0.5);
-      detection =
-          seen(t_us, centre, random.bits() % 3 == 0 ? 0 : 0.2, static_cast<int>(random.bits() % 2));
+      detection = seen(t_us, centre, random.bits() % 3 == 0 ? 0 : 0.2);
       detection.depth_sigma_m = random.bits() % 2 == 0 ? 0 : 0.1;
     }
     tracker.update(1000 * i, detections);

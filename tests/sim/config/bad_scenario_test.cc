@@ -322,6 +322,9 @@ const BadScenario kBadScenarios[] = {
      "motors: {min_thrust_n: 5}\nvehicle_overrides: {max_thrust_n: 4.9}\n",
      "bad.yaml:1:24: motors.min_thrust_n is 5, but must be less than "
      "vehicle_overrides.max_thrust_n, which is 4.9."},
+    {"PilotFasterThanTheVehicle", "pilot: oracle\ndodger:\n  velocity_limit: {max_speed_mps: 8}\n",
+     "bad.yaml:3:35: dodger.velocity_limit.max_speed_mps is 8, but must not exceed "
+     "controller.evading_speed_limit_mps, which is 5."},
     {"SweptToTooSlowARangeSensor", "sweep: {sensors.range.rate_hz: [200, 10]}\n", "bad.yaml:1:"},
 };
 

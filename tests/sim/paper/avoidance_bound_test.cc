@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/campaign/escape.h"
+#include "sim/campaign/agility.h"
 #include "sim/flight.h"
 #include "sim/world/referee.h"
 #include "tests/sim/paper/synthetic_passage.h"

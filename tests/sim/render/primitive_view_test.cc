@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+
+#include "sim/base/random.h"
+#include "sim/render/sphere_bounds.h"
 
 namespace dodgesim {
 namespace {
@@ -20,6 +24,43 @@ PrimitiveView view(mjtGeom type, const Vector3d& size, const Vector3d& p_C) {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
   X_WG.translation() = p_C;
   return view_primitive(primitive, X_WG, Eigen::Isometry3d::Identity(), kCamera, kNearM);
+}
+
+// A point on the surface of a cylinder of this radius and half height.
+Vector3d on_cylinder(const Vector3d& size, RandomStream& random) {
+  const double angle = random.uniform(-std::numbers::pi, std::numbers::pi);
+  return {size.x() * std::cos(angle), size.x() * std::sin(angle),
+          random.uniform(-size.z(), size.z())};
+}
+
+TEST(PrimitiveBounds, HoldEveryPointInTheImageAndOfSmallSolidsLittleElse) {
+  RandomStream random(3, 0, "solid");
+  int inside = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const double radius = random.uniform(0.005, 0.3);
+    const Vector3d size(radius, radius, random.uniform(0.005, 1));
+    const Vector3d centre(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-0.5, 5));
+    const PrimitiveView shown = view(mjGEOM_CYLINDER, size, centre);
+    if (!shown.visible) continue;
+    ImageBox seen;
+    for (int i = 0; i < 500; ++i) {
+      const Vector3d p_C = centre + on_cylinder(size, random);
+      if (p_C.z() < kNearM) continue;
+      seen.extend(kCamera.project(p_C));
+    }
+    const Rect touched = pixels_about(seen, 0, kCamera);
+    if (touched.empty()) continue;
+    ++inside;
+    EXPECT_LE(shown.bounds.x0, touched.x0) << trial;
+    EXPECT_LE(shown.bounds.y0, touched.y0) << trial;
+    EXPECT_GE(shown.bounds.x1, touched.x1) << trial;
+    EXPECT_GE(shown.bounds.y1, touched.y1) << trial;
+    // The corners of the box about a distant cylinder are near its outline.
+    if (centre.z() < 10 * size.norm()) continue;
+    EXPECT_LE(shown.bounds.x1 - shown.bounds.x0, touched.x1 - touched.x0 + 8) << trial;
+    EXPECT_LE(shown.bounds.y1 - shown.bounds.y0, touched.y1 - touched.y0 + 8) << trial;
+  }
+  EXPECT_GT(inside, 100);
 }
 
 int pieces(mjtGeom type, const Vector3d& size, const Vector3d& p_C) {

@@ -1,4 +1,4 @@
-#include "sim/campaign/escape.h"
+#include "sim/campaign/agility.h"
 
 #include <gtest/gtest.h>
 

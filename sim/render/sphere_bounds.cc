@@ -1,4 +1,4 @@
-#include "sim/events/sphere_bounds.h"
+#include "sim/render/sphere_bounds.h"
 
 #include <algorithm>
 #include <cmath>

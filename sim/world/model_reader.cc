@@ -1,0 +1,182 @@
+#include "sim/world/model_reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/base/error.h"
+#include "sim/base/gravity.h"
+
+namespace dodgesim {
+
+namespace {
+
+using Map3 = Eigen::Map<Eigen::Vector3d>;
+using ConstMap3 = Eigen::Map<const Eigen::Vector3d>;
+
+Eigen::Quaterniond quaternion(const mjtNum* q) { return {q[0], q[1], q[2], q[3]}; }
+
+Eigen::Isometry3d pose(const mjtNum* p, const mjtNum* q) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = quaternion(q).toRotationMatrix();
+  X.translation() = ConstMap3(p);
+  return X;
+}
+
+}  // namespace
+
+int ModelReader::find(mjtObj type, const std::string& name) const {
+  const int id = mj_name2id(&model_, type, name.c_str());
+  if (id < 0) {
+    throw ScenarioError(file_ + ": the model has no " + mju_type2Str(type) + " named '" +
+                        name.substr(name.rfind('/') + 1) + "'.");
+  }
+  return id;
+}
+
+std::span<const double> ModelReader::numeric(const std::string& name, int count) const {
+  const int id = find(mjOBJ_NUMERIC, name);
+  if (model_.numeric_size[id] != count) {
+    throw ScenarioError(file_ + ": the numeric '" + name + "' must have " + std::to_string(count) +
+                        " values.");
+  }
+  return {model_.numeric_data + model_.numeric_adr[id], static_cast<std::size_t>(count)};
+}
+
+FreeBody ModelReader::free_body(int body) const {
+  FreeBody out;
+  out.body = body;
+  const int joint = model_.body_jntadr[body];
+  if (model_.body_jntnum[body] != 1 || model_.jnt_type[joint] != mjJNT_FREE) {
+    throw ScenarioError(file_ + ": the body must have a free joint and no other.");
+  }
+  const int* parents = model_.body_parentid;
+  if (std::find(parents, parents + model_.nbody, body) != parents + model_.nbody) {
+    throw ScenarioError(file_ + ": the body must have no body within it; it is rigid, and its " +
+                        "geoms are its own.");
+  }
+  if (ConstMap3(model_.body_ipos + 3 * body).norm() > 1e-6) {
+    throw ScenarioError(file_ + ": the origin of the body must be its centre of mass.");
+  }
+  out.qpos = model_.jnt_qposadr[joint];
+  out.qvel = model_.jnt_dofadr[joint];
+  const Eigen::Matrix3d R = quaternion(model_.body_iquat + 4 * body).toRotationMatrix();
+  out.J_kgm2 = R * ConstMap3(model_.body_inertia + 3 * body).asDiagonal() * R.transpose();
+  out.J_inv = out.J_kgm2.inverse();
+  return out;
+}
+
+void ModelReader::override_vehicle(mjModel& model, mjData& data,
+                                   const VehicleOverrides& overrides) const {
+  const int body = find(mjOBJ_BODY, "vehicle");
+  model.body_mass[body] *= overrides.mass_scale;
+  for (int axis = 0; axis < 3; ++axis) {
+    model.body_inertia[3 * body + axis] *= overrides.inertia_scale;
+  }
+  if (overrides.max_thrust_n > 0) {
+    for (int rotor = 0; rotor < model.nu; ++rotor) {
+      model.actuator_ctrlrange[2 * rotor + 1] = overrides.max_thrust_n;
+    }
+  }
+  if (overrides.stereo_baseline_m > 0) {
+    Map3 top(model.cam_pos + 3 * find(mjOBJ_CAMERA, "top"));
+    Map3 bottom(model.cam_pos + 3 * find(mjOBJ_CAMERA, "bottom"));
+    const Eigen::Vector3d middle = 0.5 * (top + bottom);
+    const Eigen::Vector3d up = (top - bottom).normalized();
+    top = middle + 0.5 * overrides.stereo_baseline_m * up;
+    bottom = middle - 0.5 * overrides.stereo_baseline_m * up;
+  }
+  if (const auto turn = overrides.lower_camera_turn()) {
+    // MuJoCo's camera has y up and looks along -z.
+    const Eigen::Vector3d axis = Eigen::Vector3d(1, -1, -1).cwiseProduct(turn->axis());
+    mjtNum* quat = model.cam_quat + 4 * find(mjOBJ_CAMERA, "bottom");
+    const Eigen::Quaterniond q = quaternion(quat) * Eigen::AngleAxisd(turn->angle(), axis);
+    quat[0] = q.w();
+    quat[1] = q.x();
+    quat[2] = q.y();
+    quat[3] = q.z();
+  }
+  mj_setConst(&model, &data);  // what MuJoCo derives from these
+}
+
+// The mixer knows four alike, which push along z of B and twist about it.
+void ModelReader::check_rotor(int site, int actuator) const {
+  const mjtNum* gear = model_.actuator_gear + 6 * actuator;
+  const Eigen::Vector3d up = quaternion(model_.site_quat + 4 * site) * Eigen::Vector3d::UnitZ();
+  const bool plain = model_.actuator_trntype[actuator] == mjTRN_SITE &&
+                     model_.actuator_trnid[2 * actuator] == site && up.z() > 1 - 1e-9 &&
+                     gear[0] == 0 && gear[1] == 0 && gear[2] == 1 && gear[3] == 0 && gear[4] == 0;
+  const bool alike = std::abs(gear[5]) == std::abs(model_.actuator_gear[5]) &&
+                     model_.actuator_ctrlrange[2 * actuator + 1] == model_.actuator_ctrlrange[1];
+  if (plain && alike) return;
+  throw ScenarioError(file_ + ": a rotor must be a motor at its site, with z up, a gear of " +
+                      "\"0 0 1 0 0 kappa\", and the kappa (but for its sign) and the ctrlrange " +
+                      "of the other rotors.");
+}
+
+void ModelReader::read_rotors(VehicleParameters& vehicle) const {
+  for (std::size_t rotor = 0; rotor < 4; ++rotor) {
+    const std::string name = "rotor_" + std::to_string(rotor);
+    const int site = find(mjOBJ_SITE, name);
+    const int actuator = find(mjOBJ_ACTUATOR, name);
+    if (actuator != static_cast<int>(rotor)) {
+      throw ScenarioError(file_ + ": rotor_0 to rotor_3 must be in this order.");
+    }
+    check_rotor(site, actuator);
+    const double torque_m = model_.actuator_gear[6 * actuator + 5];
+    vehicle.rotor_p_B[rotor] = ConstMap3(model_.site_pos + 3 * site);
+    vehicle.rotor_spin[rotor] = torque_m < 0 ? -1 : 1;
+    vehicle.kappa_m = std::abs(torque_m);
+    vehicle.max_thrust_n = model_.actuator_ctrlrange[2 * actuator + 1];
+  }
+}
+
+VehicleParameters ModelReader::vehicle(double mass_scale) const {
+  VehicleParameters vehicle;
+  const int body = find(mjOBJ_BODY, "vehicle");
+  const Eigen::Matrix3d J_kgm2 = free_body(body).J_kgm2;
+  if (!J_kgm2.isDiagonal(1e-6)) {
+    throw ScenarioError(file_ +
+                        ": x, y and z of the vehicle must be its principal axes of inertia.");
+  }
+  vehicle.mass_kg = model_.body_mass[body];
+  vehicle.inertia_kgm2 = J_kgm2.diagonal();
+  read_rotors(vehicle);
+  // Accelerations by the same forces as at the model's own mass.
+  vehicle.drag_1ps = ConstMap3(numeric("rotor_drag_1ps", 3).data()) / mass_scale;
+  vehicle.drag_kh_1pm = numeric("rotor_drag_kh_1pm", 1)[0] / mass_scale;
+  const double lift = 4 * vehicle.max_thrust_n / (vehicle.mass_kg * kGravityMps2);
+  if (lift < kLeastLift) {
+    throw ScenarioError(file_ + ": the rotors lift only " + std::to_string(lift) +
+                        " times the vehicle's weight; it needs at least 1.2 to fly" +
+                        " (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
+  }
+  for (const char* name : {"top", "bottom"}) {
+    const int camera = find(mjOBJ_CAMERA, name);
+    Eigen::Isometry3d X = pose(model_.cam_pos + 3 * camera, model_.cam_quat + 4 * camera);
+    // MuJoCo's camera looks along -z with y up; C has z forward and y down.
+    X.linear() = X.linear() * Eigen::Vector3d(1, -1, -1).asDiagonal();
+    vehicle.X_BC.push_back(X);
+  }
+  const int range = find(mjOBJ_SITE, "range");
+  vehicle.X_BR = pose(model_.site_pos + 3 * range, model_.site_quat + 4 * range);
+  return vehicle;
+}
+
+ObjectPhysics ModelReader::object(const std::string& prefix) const {
+  const int body = find(mjOBJ_BODY, prefix + "body");
+  ObjectPhysics object;
+  object.mass_kg = model_.body_mass[body];
+  const int first = model_.body_geomadr[body];
+  for (int g = first; g < first + model_.body_geomnum[body]; ++g) {
+    const double extent = ConstMap3(model_.geom_pos + 3 * g).norm() + model_.geom_rbound[g];
+    object.bounding_radius_m = std::max(object.bounding_radius_m, extent);
+  }
+  object.drag_area_m2 =
+      numeric(prefix + "drag_coefficient", 1)[0] * numeric(prefix + "frontal_area_m2", 1)[0];
+  if (!(object.drag_area_m2 >= 0)) {
+    throw ScenarioError(file_ + ": drag_coefficient times frontal_area_m2 must not be negative.");
+  }
+  return object;
+}
+
+}  // namespace dodgesim
