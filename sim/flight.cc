@@ -90,7 +90,8 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
       rig_(make_rig()),
       mission_(scenario.mission),
       controller_states_(scenario.delays.state_estimate_us),
-      rate_commands_(scenario.delays.command_us + scenario.delays.flight_controller_us) {
+      rate_commands_(scenario.delays.command_us + scenario.delays.flight_controller_us),
+      detections_(scenario.delays.pilot_us()) {
   const MissionSpec& mission = scenario.mission;
   const VehicleParameters& vehicle = world_.vehicle();
   world_.reset(mission.start_m, mission.heading_deg * std::numbers::pi / 180,
@@ -237,7 +238,7 @@ void Flight::require_packet() {
 void Flight::decide() {
   const auto start = WallClock::now();
   if (computer_.run_cycle(now_us())) {
-    log_detections();
+    note_detections();
     if (observer_ != nullptr) observer_->on_cycle(now_us(), computer_.pilot());
   }
   if (const auto command = computer_.take_command(now_us())) {
@@ -273,6 +274,7 @@ void Flight::control() {
 }
 
 void Flight::judge() {
+  detections_.deliver(now_us(), [&](const LocatedDetection& detection) { log(detection); });
   referee_.observe(world_, record_.landing_us.has_value());
   witness_.observe(world_, reference_);
 }
@@ -284,10 +286,9 @@ double Flight::true_range_m() const {
   return hit ? hit->distance : std::numeric_limits<double>::infinity();
 }
 
-void Flight::log_detections() {
+void Flight::note_detections() {
   const TimeUs output_us = now_us() + scenario_.delays.pilot_us();
   for (const dodge::Detection& detection : computer_.pilot().detections()) {
-    ++record_.detections;
     DetectionRow row;
     row.t_us = detection.t_us;
     row.output_us = output_us;
@@ -296,14 +297,21 @@ void Flight::log_detections() {
     row.size_m = detection.size_m;
     row.depth_m = detection.depth_m;
     row.depth_sigma_m = detection.depth_sigma_m;
-    if (const Snapshot* truth = history_.at(detection.t_us)) add_truth(*truth, detection, row);
-    witness_.add_detection(row);
-    record_.rows.push_back(row);
+    LocatedDetection located{row};
+    if (const Snapshot* truth = history_.at(detection.t_us)) {
+      located = with_truth(*truth, detection, row);
+    }
+    if (located.of_object && !has_detected_) {
+      has_detected_ = true;
+      if (observer_ != nullptr) observer_->on_first_detection();
+    }
+    detections_.push(now_us(), located);
   }
 }
 
-void Flight::add_truth(const Snapshot& truth, const dodge::Detection& detection,
-                       DetectionRow& row) {
+Flight::LocatedDetection Flight::with_truth(const Snapshot& truth,
+                                            const dodge::Detection& detection,
+                                            DetectionRow row) const {
   const Eigen::Isometry3d X_WC = truth.vehicle.pose() * world_.vehicle().X_BC.front();
   for (std::size_t i = 0; i < truth.objects.size(); ++i) {
     if (!truth.launched[i]) continue;
@@ -315,17 +323,26 @@ void Flight::add_truth(const Snapshot& truth, const dodge::Detection& detection,
     row.position_error_m = error_m;
     row.true_depth_m = (X_WC.inverse() * p_W).z();
   }
-  if (!row.object || *row.position_error_m >= kTrueDetectionM) return;
-  const auto object = static_cast<std::size_t>(*row.object);
-  const double distance_m = (truth.objects[object].p_W - X_WC.translation()).norm();
+  if (!row.object) return {row};
+  const double radius_m = world_.object(*row.object).bounding_radius_m;
+  const Eigen::Vector3d& p_W = truth.objects[static_cast<std::size_t>(*row.object)].p_W;
+  return {row, *row.position_error_m < true_detection_m(radius_m),
+          (p_W - X_WC.translation()).norm()};
+}
+
+void Flight::log(const LocatedDetection& detection) {
+  const DetectionRow& row = detection.row;
+  ++record_.detections;
+  record_.rows.push_back(row);
+  witness_.add_detection(row, detection.of_object);
+  if (!detection.of_object) return;
   if (!record_.first_detection_us) {
     record_.first_detection_us = row.output_us;
     record_.first_detection_t_us = row.t_us;
-    record_.first_detection_distance_m = distance_m;
-    if (observer_ != nullptr) observer_->on_first_detection();
+    record_.first_detection_distance_m = detection.distance_m;
   }
-  Sighting& sighting = record_.sightings[object];
-  if (!sighting.first_us) sighting = {row.output_us, distance_m};
+  Sighting& sighting = record_.sightings[static_cast<std::size_t>(*row.object)];
+  if (!sighting.first_us) sighting = {row.output_us, detection.distance_m};
 }
 
 FlightRecord Flight::record() const {

@@ -144,8 +144,16 @@ class Flight {
   void require_packet();
   double true_range_m() const;
   const Snapshot* truth_at(TimeUs t_us) const;
-  void log_detections();
-  void add_truth(const Snapshot& truth, const dodge::Detection& detection, DetectionRow& row);
+  // What the pilot has just detected, which it gives out when its cycle is over.
+  struct LocatedDetection {
+    DetectionRow row;
+    bool of_object = false;
+    double distance_m = 0;  // of that object, from the camera
+  };
+  void note_detections();
+  LocatedDetection with_truth(const Snapshot& truth, const dodge::Detection& detection,
+                              DetectionRow row) const;
+  void log(const LocatedDetection& detection);
 
   Scenario scenario_;
   FlightPlan plan_;
@@ -169,6 +177,8 @@ class Flight {
   Eigen::Vector3d gyro_B_radps_ = Eigen::Vector3d::Zero();
   DelayLine<StateReading> controller_states_;
   DelayLine<SentCommand> rate_commands_;
+  DelayLine<LocatedDetection> detections_;        // until the pilot gives them out
+  bool has_detected_ = false;                     // a true object
   std::optional<StateReading> controller_state_;  // the last one
   VelocityReference reference_;
   bool evasion_arrived_ = false;  // and the controller has not acted since

@@ -66,8 +66,7 @@ Trajectory::Sample Witness::sample(const Snapshot& now, const VelocityReference&
   return sample;
 }
 
-void Witness::add_detection(const DetectionRow& row) {
-  const bool true_object = row.position_error_m && *row.position_error_m < kTrueDetectionM;
+void Witness::add_detection(const DetectionRow& row, bool true_object) {
   if (true_object) {
     testimony_.objects.at(static_cast<std::size_t>(*row.object))
         .detections.push_back({row.output_us, vector(row.p_W) - vector(*row.true_p_W)});

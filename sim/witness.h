@@ -2,6 +2,7 @@
 // commands, and the course for the eye.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -13,8 +14,8 @@
 
 namespace dodgesim {
 
-// A detection this near to an object is one of it.
-inline constexpr double kTrueDetectionM = 0.5;
+// A detection nearer than this to the centre of an object of that radius is one of it.
+inline double true_detection_m(double radius_m) { return std::max(0.5, radius_m + 0.35); }
 
 struct Testimony {
   struct Object {
@@ -50,7 +51,8 @@ class Witness {
 
   // Call after each tick, with the velocity that the controller is asked for.
   void observe(const World& world, const VelocityReference& reference);
-  void add_detection(const DetectionRow& row);
+  // true_object: it is one of row.object.
+  void add_detection(const DetectionRow& row, bool true_object);
   // A command has reached the flight controller.
   void add_command(const Snapshot& now, const VelocityReference& reference);
 

@@ -83,12 +83,15 @@ void check_simulation(const mjData& data, double expected_time_s) {
     int kind;
     const char* name;
   } checks[] = {{mjWARN_INERTIA, "inertia matrix"},
-                {mjWARN_CONTACTFULL, "contact buffer"},
-                {mjWARN_CNSTRFULL, "constraint buffer"},
                 {mjWARN_BADQPOS, "position"},
                 {mjWARN_BADQVEL, "velocity"},
                 {mjWARN_BADQACC, "acceleration"},
                 {mjWARN_BADCTRL, "control"}};
+  if (data.warning[mjWARN_CONTACTFULL].number + data.warning[mjWARN_CNSTRFULL].number > 0) {
+    throw SimulationError("The models touch at too many points at once for the simulation, at " +
+                          std::to_string(data.time) +
+                          " s: give those that collide fewer or simpler geoms.");
+  }
   for (const auto& check : checks) {
     if (data.warning[check.kind].number > 0) {
       throw SimulationError(std::string("The simulation diverged: MuJoCo warns of the ") +

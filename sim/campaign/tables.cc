@@ -212,7 +212,7 @@ std::string landings_of(const Part& part) {
 
 // What a rate over the throws that would have hit does not show.
 std::string asides(const Part& part) {
-  int would_miss = 0, miss_evaded = 0, walked_into = 0, crashed = 0;
+  int would_miss = 0, miss_evaded = 0, walked_into = 0, crashed = 0, crashed_undisturbed = 0;
   Rate quiet;
   for (const ThrowResult* result : part.results) {
     if (!result->flown.ok()) continue;
@@ -220,6 +220,7 @@ std::string asides(const Part& part) {
       quiet.add(result->evaded);
       crashed += result->flown.crashed ? 1 : 0;
     } else if (result->none.ok() && !result->none.hit) {
+      crashed_undisturbed += result->none.crashed ? 1 : 0;
       ++would_miss;
       miss_evaded += result->evaded ? 1 : 0;
       walked_into += result->flown.hit ? 1 : 0;
@@ -237,6 +238,12 @@ std::string asides(const Part& part) {
     text += "Of " + count_text(would_miss, "throw") + " that would have missed, " + part.pilot +
             " evaded " + std::to_string(miss_evaded) + " and was hit by " +
             std::to_string(walked_into) + ".\n\n";
+  }
+  if (crashed_undisturbed > 0) {
+    text +=
+        "In " + count_text(crashed_undisturbed, "throw") +
+        " of these the vehicle crashed with nobody dodging: it does not fly well enough to be " +
+        "hit.\n\n";
   }
   return text + landings_of(part) + errors_of(part);
 }

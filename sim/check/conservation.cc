@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sim/base/random.h"
 #include "sim/check/film.h"
@@ -16,9 +17,13 @@ constexpr double kSpeedPxps = 400;
 constexpr int kPictures = 200;
 constexpr double kShortestUs = 50, kLongestUs = 2000;  // between two pictures
 constexpr int kSteps = 4;
-constexpr TimeUs kSettlingUs = 200000;  // many time constants of the slowest pixels
-constexpr double kMostNoiseHz = 200;    // of each kind: more would fill the memory
-constexpr TimeUs kAnswerPictureUs = 20000;
+constexpr TimeUs kSettlingUs = 200000;  // after a step, at least
+constexpr double kTimeConstants = 10;   // of the slowest pixel, at least
+constexpr double kMostNoise = 40;       // events of each kind while a pixel settles: memory
+constexpr int kAnswerPictures = 10;
+
+constexpr double kNeverSlow = 1e9;  // [Hz]
+constexpr double kLongestSettlingS = 300;
 
 // How far the signal may be beyond a threshold: the low-passes are kept in single precision.
 constexpr double kSlack = 1e-5;
@@ -34,6 +39,13 @@ std::vector<TimeUs> irregular_times(std::uint64_t seed) {
 
 bool dead(const PixelState& pixel) { return !std::isfinite(pixel.threshold_on); }
 
+TimeUs settling_us(const EventCameraSpec& spec) {
+  double slowest_hz = spec.follower_hz > 0 ? spec.follower_hz : kNeverSlow;
+  if (spec.photoreceptor_hz > 0) slowest_hz = std::min(slowest_hz, spec.photoreceptor_dark_hz);
+  const double settled_s = kTimeConstants / (2 * std::numbers::pi * slowest_hz);
+  return std::max(kSettlingUs, static_cast<TimeUs>(1e6 * std::min(settled_s, kLongestSettlingS)));
+}
+
 // Which pixels fire at a step up or one of those down and up again that follow it. A step may come
 // while a pixel is held after an event of noise, so noise is an answer, too: a stuck pixel has
 // none.
@@ -41,7 +53,7 @@ std::vector<bool> answers(EventCamera& camera, const EventCameraSpec& spec,
                           const DriftingTexture& texture, TimeUs end_us, double step) {
   const Response response(spec.log_epsilon, spec.linear_below);
   const TimeUs begin_us = end_us + 1;
-  const TimeUs answer_us = kSettlingUs + 2 * spec.refractory_us;  // to each step
+  const TimeUs answer_us = settling_us(spec) + 2 * spec.refractory_us;  // to each step
   const Scene steps = [&](TimeUs t_us, std::vector<float>& luminance) {
     texture(end_us, luminance);
     if ((t_us - begin_us) / answer_us % 2 != 0) return;
@@ -49,7 +61,7 @@ std::vector<bool> answers(EventCamera& camera, const EventCameraSpec& spec,
       value = static_cast<float>(response.inverse(response.at(value) + step));
     }
   };
-  std::vector<TimeUs> times = regular_times(kAnswerPictureUs, kSteps * answer_us - 1);
+  std::vector<TimeUs> times = regular_times(answer_us / kAnswerPictures, kSteps * answer_us - 1);
   for (TimeUs& t_us : times) t_us += begin_us;
   std::vector<bool> answered(static_cast<std::size_t>(kWidth) * kHeight);
   for (const Event& event : record_on(camera, steps, times).events) {
@@ -65,7 +77,7 @@ PixelsAfterFilm measure_conservation(const EventCameraSpec& expected, std::uint6
   spec.readout_max_hz = 0;  // who waits in line is not stuck
   for (double* noise_hz :
        {&spec.leak_hz, &spec.shot_noise_on_hz, &spec.shot_noise_off_hz, &spec.hot_pixel_hz}) {
-    *noise_hz = std::min(*noise_hz, kMostNoiseHz);
+    *noise_hz = std::min(*noise_hz, 1e6 * kMostNoise / static_cast<double>(settling_us(spec)));
   }
   EventCamera camera(spec, kWidth, kHeight, seed, 0, "check", true);
   const DriftingTexture texture(kWidth, kHeight, kSpeedPxps, seed);
@@ -92,9 +104,8 @@ Check judge(const PixelsAfterFilm& after, const EventCameraSpec& expected) {
       "A drifting texture is shown at irregular instants. Then no pixel outside of its "
       "refractory period may be farther from its reference than its threshold, and a "
       "large step up, or one of the steps down and up after it, must make every pixel that is not "
-      "dead fire. The readout's limit is off, and noise at most 200 Hz of a kind. The plot shows "
-      "how far "
-      "the signals are from the references, in thresholds.",
+      "dead fire. The readout's limit is off, and noise is limited. The plot shows how far the "
+      "signals are from the references, in thresholds.",
       {},
       {}};
   double beyond = 0, stuck = 0, alive = 0;

@@ -177,6 +177,16 @@ void check_speed_limit(const Scenario& scenario, ReadContext& context) {
                            to_text(limit_mps) + ".");
 }
 
+void check_cruise_speed(const Scenario& scenario, ReadContext& context) {
+  const MissionSpec& mission = scenario.mission;
+  const double limit_mps = scenario.dodger.velocity_limit.max_speed_mps;
+  if (mission.type == "hover" || mission.speed_mps <= limit_mps) return;
+  context.problems.add(position_of(context, "mission.speed_mps"),
+                       "mission.speed_mps is " + to_text(mission.speed_mps) +
+                           ", but must not exceed dodger.velocity_limit.max_speed_mps, which is " +
+                           to_text(limit_mps) + ".");
+}
+
 // Of a rotor's thrusts that the scenario sets. What a model says is known only to the simulation.
 void check_thrust(const Scenario& scenario, ReadContext& context) {
   const double least_n = scenario.motors.min_thrust_n;
@@ -200,6 +210,7 @@ void check_keys_together(const Scenario& scenario, ReadContext& context) {
   check_range_sensor(scenario, context);
   check_thrust(scenario, context);
   check_speed_limit(scenario, context);
+  check_cruise_speed(scenario, context);
 }
 
 std::int64_t product(const VariedKeys& axes) {

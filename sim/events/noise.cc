@@ -31,15 +31,16 @@ Noise::Noise(const EventCameraSpec& spec, int width, int height, std::uint64_t s
     : width_(width),
       bright_share_(spec.shot_noise_bright_share),
       bright_luminance_(kBrightLux / spec.illuminance_lux),
+      shot_hz_(spec.shot_noise_on_hz + spec.shot_noise_off_hz),
+      hot_hz_(spec.hot_pixel_hz),
+      hot_pixels_(draw_hot_pixels(RandomStream(seed, 0, stream_name(name, "hot pixels")),
+                                  static_cast<std::uint32_t>(width * height),
+                                  spec.hot_pixel_fraction)),
       shot_(RandomStream(seed, throw_index, stream_name(name, "shot")),
-            static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height),
-            spec.shot_noise_on_hz + spec.shot_noise_off_hz,
+            static_cast<std::uint32_t>(width * height), shot_hz_,
             share(spec.shot_noise_on_hz, spec.shot_noise_off_hz)),
-      hot_(RandomStream(seed, throw_index, stream_name(name, "hot")),
-           draw_hot_pixels(RandomStream(seed, 0, stream_name(name, "hot pixels")),
-                           static_cast<std::uint32_t>(width) * static_cast<std::uint32_t>(height),
-                           spec.hot_pixel_fraction),
-           spec.hot_pixel_hz, share(spec.shot_noise_on_hz, spec.shot_noise_off_hz)) {}
+      hot_(RandomStream(seed, throw_index, stream_name(name, "hot")), hot_pixels_, hot_hz_,
+           share(spec.shot_noise_on_hz, spec.shot_noise_off_hz)) {}
 
 void Noise::reset(TimeUs t_us) {
   shot_.reset(t_us);
@@ -49,6 +50,11 @@ void Noise::reset(TimeUs t_us) {
 
 double Noise::accepted_share(float luminance) const {
   return 1 - (1 - bright_share_) * std::min(1.0, luminance / bright_luminance_);
+}
+
+double Noise::rate_hz(std::uint32_t pixel, float luminance) const {
+  const bool hot = std::binary_search(hot_pixels_.begin(), hot_pixels_.end(), pixel);
+  return shot_hz_ * accepted_share(luminance) + (hot ? hot_hz_ : 0);
 }
 
 std::span<const NoiseEvent> Noise::take(TimeUs t_us, const Rect& region, const float* luminance) {

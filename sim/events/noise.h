@@ -35,6 +35,9 @@ class Noise {
 
   void reset(TimeUs t_us);
 
+  // Of all noise of a pixel that sees this luminance [1/s].
+  double rate_hz(std::uint32_t pixel, float luminance) const;
+
   // The events up to t_us of the pixels in `region` that have not been taken before, by (pixel,
   // time). `luminance` (width x height) is what these pixels see. Valid until the next call.
   std::span<const NoiseEvent> take(TimeUs t_us, const Rect& region, const float* luminance);
@@ -44,7 +47,9 @@ class Noise {
 
   int width_;
   double bright_share_;
-  double bright_luminance_;  // from which on the share is bright_share
+  double bright_luminance_;                // from which on the share is bright_share
+  double shot_hz_, hot_hz_;                // of a pixel in the dark, of a hot pixel
+  std::vector<std::uint32_t> hot_pixels_;  // in order
   PoissonEvents shot_;
   PoissonEvents hot_;
   struct Waiting {

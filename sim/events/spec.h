@@ -56,7 +56,8 @@ void EventCameraSpec::visit(Visitor& v) {
     "log luminance and nothing else, with mismatch_sigma 0, photoreceptor_hz 0, refractory_us 0, "
     "leak_hz 0, shot_noise_on_hz 0, shot_noise_off_hz 0, hot_pixel_fraction 0, "
     "dead_pixel_fraction 0, latency_us 0, jitter_us 0 and readout_max_hz 0. low_light: "
-    "illuminance_lux 5 (a street at night; assumed). noisy, a worn or badly biased camera: "
+    "illuminance_lux 5 (a street at night; assumed), which makes slow pixels and hardly more "
+    "noise. noisy, a worn or badly biased camera: "
     "photoreceptor_hz 300 (v2e's clean camera; its noisy one has 30 to 70), photoreceptor_dark_hz "
     "30, refractory_us 500, shot_noise_on_hz 2.5 and shot_noise_off_hz 2.5 (v2e), "
     "hot_pixel_fraction 0.0012 (measured on a VGA-lite sensor), mismatch_sigma 0.05, leak_hz 0.2, "
@@ -95,20 +96,25 @@ void EventCameraSpec::visit(Visitor& v) {
     "Time a pixel is held in reset after an event (most simulators: 100 us, v2e: 500 us).");
   v("leak_hz", leak_hz, 0, 1000,
     "Mean rate of ON events of a pixel at rest, due to the leak of its reference (v2e: 0.1). Any "
-    "other event of the pixel, of noise too, starts its leak anew, so with shot noise fewer come. "
-    "With 0 the first frame sets the references. With any leak, however small, each starts below "
-    "it, by a random share, anywhere from 0 to 1, of the pixel's ON threshold, as after a long "
-    "rest: the first events, and with them those of a short film, are not those without a leak.");
+    "other event of the pixel, of noise too, starts its leak anew, so with shot noise far fewer "
+    "come: with that of sees1 about 0.01 Hz. With 0 the first frame sets the references. With any "
+    "leak, however small, each starts below it, as after a long rest in that light: by a random "
+    "share, from 0 to 1, of the pixel's ON threshold, the larger the more seldom if there is "
+    "noise. So the first events, and with them those of a short film, are not those without a "
+    "leak.");
   v("shot_noise_on_hz", shot_noise_on_hz, 0, 1000,
-    "Rate of ON events of every pixel in the dark, due to shot noise (measured on a DVXplorer).");
+    "Rate of ON events of every pixel in the dark, due to shot noise (measured on a DVXplorer). "
+    "The same for all pixels, whatever their thresholds.");
   v("shot_noise_off_hz", shot_noise_off_hz, 0, 1000,
     "Rate of OFF events of every pixel in the dark, due to shot noise (measured on a DVXplorer).");
   v("shot_noise_bright_share", shot_noise_bright_share, 0, 1,
-    "Share of these rates that is left at 1000 lux on white; they fall linearly (v2e: 0.25).");
+    "Share of these rates that is left at 1000 lux on white; they fall linearly (v2e: 0.25), so "
+    "that they hardly differ below 100 lux.");
   v("hot_pixel_fraction", hot_pixel_fraction, 0, 1,
     "Share of the pixels that are hot (measured on a DVXplorer).");
   v("hot_pixel_hz", hot_pixel_hz, 0, 100000,
-    "Rate of the noise of a hot pixel (DVXplorer: hot pixels carry 20 % of all noise).");
+    "Rate of the noise of a hot pixel (DVXplorer: hot pixels carry 20 % of all noise); ON and OFF "
+    "in the proportion of the shot noise.");
   v("dead_pixel_fraction", dead_pixel_fraction, 0, 1,
     "Share of the pixels that never make an event (assumed).");
   v("latency_us", latency_us, 0, 100000,

@@ -56,6 +56,37 @@ void expect_one_body(const std::vector<MjcfTag>& tags, const std::string& label)
   }
 }
 
+// A default of no class would be one of the other models, too.
+void refuse_root_default(const std::vector<MjcfTag>& tags, const std::string& what,
+                         const std::string& label) {
+  std::vector<std::string> open;
+  for (const MjcfTag& tag : tags) {
+    if (tag.kind == MjcfTag::Kind::kClose) {
+      if (!open.empty()) open.pop_back();
+      continue;
+    }
+    if (!open.empty() && open.back() == "default" && open.size() == 1 && tag.name != "default") {
+      throw ScenarioError(label + ":" + std::to_string(tag.line) + ": The model of " + what +
+                          " must not set a <default> without a class, which the other models " +
+                          "would take over: put <" + tag.name + "> into <default class=\"...\">.");
+    }
+    if (tag.kind == MjcfTag::Kind::kOpen) open.push_back(tag.name);
+  }
+}
+
+// What a second joint moves would fly, or turn, by itself.
+void expect_one_joint(const std::vector<MjcfTag>& tags, const std::string& label) {
+  const auto is_joint = [](const MjcfTag& tag) {
+    return tag.kind != MjcfTag::Kind::kClose && (tag.name == "joint" || tag.name == "freejoint");
+  };
+  const auto first = std::find_if(tags.begin(), tags.end(), is_joint);
+  if (first == tags.end()) return;
+  const auto second = std::find_if(first + 1, tags.end(), is_joint);
+  if (second == tags.end()) return;
+  throw ScenarioError(label + ":" + std::to_string(second->line) +
+                      ": The model of a vehicle must have one joint, the free one of its body.");
+}
+
 std::vector<MjcfTag> scaled_object(const std::string& models_dir, const ObjectSpec& spec, int i) {
   check_model_name(spec.kind, "models/objects");
   const std::string file = "objects/" + spec.kind + ".xml";
@@ -114,13 +145,21 @@ class CompiledModels {
   std::vector<Entry> entries_;
 };
 
+// At how many points an object may touch others at once, lying on the floor.
+std::size_t most_contacts(const std::vector<MjcfTag>& object) {
+  constexpr std::size_t kFew = 20, kPerGeom = 5, kMost = 200;
+  const auto geoms = std::count_if(object.begin(), object.end(), [](const MjcfTag& tag) {
+    return tag.name == "geom" && tag.kind != MjcfTag::Kind::kClose;
+  });
+  return std::clamp(kPerGeom * static_cast<std::size_t>(geoms), kFew, kMost);
+}
+
 // Air drag is computed by World: MuJoCo's own fluid model stays off (density 0). The buffers hold
-// the contacts of `objects` objects that lie on the floor, and no more: the defaults cost 14 MB
-// each world.
+// the vehicle's contacts and those of the objects, and no more: the defaults cost 14 MB each world.
 MjModelPtr compile(const std::string& inner_xml, const std::string& models_dir,
-                   const std::string& label, std::size_t objects) {
+                   const std::string& label, std::size_t object_contacts) {
   thread_local CompiledModels models;
-  const std::size_t contacts = 30 + 20 * std::max<std::size_t>(objects, 1);
+  const std::size_t contacts = 30 + object_contacts;
   return models.get(
       "<mujoco model=\"dodgesim\"><compiler angle=\"degree\"/>"
       "<option gravity=\"0 0 " +
@@ -148,20 +187,25 @@ MjModelPtr compose_model(const WorldSpec& spec) {
     refuse(tags, {"option"}, what, label);
     // The pictures of a room are drawn once and shown from many places.
     if (what == "a room") refuse(tags, {"joint", "freejoint"}, what, label);
+    if (what == "a vehicle") expect_one_joint(tags, label);
+    refuse_root_default(tags, what, label);
     parts.push_back({label, print_mjcf(tags)});
   }
+  std::size_t contacts = spec.objects.empty() ? 20 : 0;
   for (std::size_t i = 0; i < spec.objects.size(); ++i) {
+    const std::vector<MjcfTag> tags =
+        scaled_object(spec.models_dir, spec.objects[i], static_cast<int>(i));
+    contacts += most_contacts(tags);
     parts.push_back(
-        {spec.models_dir + "/objects/" + spec.objects[i].kind + ".xml",
-         print_mjcf(scaled_object(spec.models_dir, spec.objects[i], static_cast<int>(i)))});
+        {spec.models_dir + "/objects/" + spec.objects[i].kind + ".xml", print_mjcf(tags)});
   }
   std::string xml;
   for (const Part& part : parts) xml += part.xml;
   try {
-    return compile(xml, spec.models_dir, "The models in " + spec.models_dir, spec.objects.size());
+    return compile(xml, spec.models_dir, "The models in " + spec.models_dir, contacts);
   } catch (const ScenarioError&) {
     // Which file is it? Each compiles on its own unless it is the culprit.
-    for (const Part& part : parts) compile(part.xml, spec.models_dir, part.label, 1);
+    for (const Part& part : parts) compile(part.xml, spec.models_dir, part.label, contacts);
     throw;
   }
 }

@@ -54,11 +54,19 @@ FreeBody ModelReader::free_body(int body) const {
     throw ScenarioError(file_ + ": the body must have no body within it; it is rigid, and its " +
                         "geoms are its own.");
   }
+  const int dof = model_.jnt_dofadr[joint];
+  for (const mjtNum* of_joint :
+       {model_.dof_damping, model_.dof_armature, model_.dof_frictionloss}) {
+    if (std::any_of(of_joint + dof, of_joint + dof + 6, [](mjtNum v) { return v != 0; })) {
+      throw ScenarioError(file_ + ": the free joint must have no damping, armature or " +
+                          "frictionloss: nothing but air holds the body back.");
+    }
+  }
   if (ConstMap3(model_.body_ipos + 3 * body).norm() > 1e-6) {
     throw ScenarioError(file_ + ": the origin of the body must be its centre of mass.");
   }
   out.qpos = model_.jnt_qposadr[joint];
-  out.qvel = model_.jnt_dofadr[joint];
+  out.qvel = dof;
   const Eigen::Matrix3d R = quaternion(model_.body_iquat + 4 * body).toRotationMatrix();
   out.J_kgm2 = R * ConstMap3(model_.body_inertia + 3 * body).asDiagonal() * R.transpose();
   out.J_inv = out.J_kgm2.inverse();
@@ -106,14 +114,19 @@ void ModelReader::check_rotor(int site, int actuator) const {
                      model_.actuator_trnid[2 * actuator] == site && up.z() > 1 - 1e-9 &&
                      gear[0] == 0 && gear[1] == 0 && gear[2] == 1 && gear[3] == 0 && gear[4] == 0;
   const bool alike = std::abs(gear[5]) == std::abs(model_.actuator_gear[5]) &&
+                     model_.actuator_ctrlrange[2 * actuator] == 0 &&
                      model_.actuator_ctrlrange[2 * actuator + 1] == model_.actuator_ctrlrange[1];
   if (plain && alike) return;
   throw ScenarioError(file_ + ": a rotor must be a motor at its site, with z up, a gear of " +
-                      "\"0 0 1 0 0 kappa\", and the kappa (but for its sign) and the ctrlrange " +
-                      "of the other rotors.");
+                      "\"0 0 1 0 0 kappa\", a ctrlrange from 0, and the kappa (but for its sign) " +
+                      "and the ctrlrange of the other rotors.");
 }
 
 void ModelReader::read_rotors(VehicleParameters& vehicle) const {
+  if (model_.nu != 4) {
+    throw ScenarioError(file_ + ": the vehicle must have four actuators, its rotors, not " +
+                        std::to_string(model_.nu) + ".");
+  }
   for (std::size_t rotor = 0; rotor < 4; ++rotor) {
     const std::string name = "rotor_" + std::to_string(rotor);
     const int site = find(mjOBJ_SITE, name);
@@ -144,6 +157,9 @@ VehicleParameters ModelReader::vehicle(double mass_scale) const {
   // Accelerations by the same forces as at the model's own mass.
   vehicle.drag_1ps = ConstMap3(numeric("rotor_drag_1ps", 3).data()) / mass_scale;
   vehicle.drag_kh_1pm = numeric("rotor_drag_kh_1pm", 1)[0] / mass_scale;
+  if (!(vehicle.drag_1ps.minCoeff() >= 0 && vehicle.drag_kh_1pm >= 0)) {
+    throw ScenarioError(file_ + ": rotor_drag_1ps and rotor_drag_kh_1pm must not be negative.");
+  }
   const double lift = 4 * vehicle.max_thrust_n / (vehicle.mass_kg * kGravityMps2);
   if (lift < kLeastLift) {
     throw ScenarioError(file_ + ": the rotors lift only " + std::to_string(lift) +

@@ -177,6 +177,8 @@ TEST_F(EmulateTest, TheSeedDecidesOnNoiseAndMismatchAlone) {
   const std::string sees1 = events("--camera sees1 --seed 1");
   EXPECT_EQ(events("--camera sees1"), sees1);
   EXPECT_NE(events("--camera sees1 --seed 2"), sees1);
+  EXPECT_EQ(events("--camera sees1 --clip 0"), sees1);
+  EXPECT_NE(events("--camera sees1 --clip 1"), sees1);
   EXPECT_EQ(events("--camera ideal --seed 1"), events("--camera ideal --seed 2"));
   EXPECT_EQ(emulate("--camera ideal --seed -1 --out " + out_).exit_code, 2);
 }

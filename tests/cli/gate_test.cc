@@ -71,6 +71,14 @@ TEST_F(GateCommandTest, NoticesAnotherSecondObject) {
   EXPECT_THAT(gate().output, HasSubstr("objects.csv is missing"));
 }
 
+TEST_F(GateCommandTest, LeavesNoEarlierVerdictBehindWhenItEndsWithoutOne) {
+  ASSERT_EQ(gate("--update").exit_code, 0);
+  ASSERT_EQ(gate().exit_code, 0);
+  ASSERT_TRUE(fs::exists(root_ / "out/junit.xml"));
+  EXPECT_EQ(gate("--set seed=9").exit_code, 2);
+  EXPECT_FALSE(fs::exists(root_ / "out/junit.xml"));
+}
+
 // As if another libm had rounded a throw's speed; the baseline is of another machine, then.
 TEST_F(GateCommandTest, PairsThrowsOfAnotherLibm) {
   ASSERT_EQ(gate("--update").exit_code, 0);

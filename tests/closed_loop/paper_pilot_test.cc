@@ -58,6 +58,17 @@ TEST(PaperPilot, DetectsAThrowThenEvades) {
   EXPECT_LT(errors_m[errors_m.size() / 2], 0.3);
 }
 
+TEST(PaperPilot, HasNotDetectedWhatItWouldHaveSaidAfterTheHit) {
+  const std::string late = kThrow + std::string("delays: {perception_us: 600000}\n");
+  const Scenario s = scenario(late + "fly_oracle: false\n");
+  const FlightRecord record = fly(s, plan_throw(s, 0));
+  ASSERT_TRUE(record.verdict.nearest.hit);
+  for (const DetectionRow& row : record.rows) EXPECT_LE(row.output_us, record.last.t_us);
+  EXPECT_EQ(record.detections, static_cast<int>(record.rows.size()));
+  EXPECT_FALSE(record.first_detection_us);
+  EXPECT_FALSE(record.sightings.at(0).first_us);
+}
+
 // Ends the flight early: the plan says when.
 FlightRecord first_part(const Scenario& scenario, FlightPlan plan) {
   plan.end_us = plan.launches.at(0).toss.launch_us + 100000;

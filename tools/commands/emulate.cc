@@ -30,9 +30,9 @@ constexpr const char* kEmulateFooter =
   low_light  sees1 at 5 lux instead of 500
   FILE.yaml  keys of a scenario's sensors.events at its root, "preset: ideal" among them
 I is the luminance; between frames L runs linearly. The first frame sets the references. With
-a leak (leak_hz above 0: all but ideal) each starts below it, by a random share, anywhere from
-0 to 1, of the pixel's ON threshold, as after a long rest: the first ON events come sooner and
-the first OFF later. So with any leak, however small, the first events, and with them those of
+a leak (leak_hz above 0: all but ideal) each starts below it, by a random share, from 0 to 1,
+of the pixel's ON threshold, as after a long rest: the first ON events come sooner and the
+first OFF later. So with any leak, however small, the first events, and with them those of
 a short video, are not those of a camera without.
 
 Scale of I: 1 is a white surface under illuminance_lux (500 by default). ideal does not care
@@ -63,6 +63,7 @@ struct EmulateArguments {
   std::string camera;
   std::string out;
   std::uint64_t seed = 1;
+  std::uint64_t clip = 0;
   bool causes = false;
 };
 
@@ -146,7 +147,7 @@ void emulate(const EmulateArguments& arguments) {
   const auto writer = make_event_writer(
       arguments.out,
       {video.width(), video.height(), video.first_us(), video.duration_us(), arguments.causes});
-  EventCamera camera(spec, video.width(), video.height(), arguments.seed, 0, "emulate",
+  EventCamera camera(spec, video.width(), video.height(), arguments.seed, arguments.clip, "emulate",
                      arguments.causes);
   TimedEmulation timed(camera, spec.log_epsilon);
   const Counts counts = emulate(video, camera, arguments.causes, timed, *writer);
@@ -175,7 +176,12 @@ void add_emulate_command(CLI::App& program, int& exit_code) {
   command->add_option("--out", arguments->out, "Where the events go: .h5 (DSEC), .npy or .txt")
       ->required()
       ->type_name("EVENTS");
-  command->add_option("--seed", arguments->seed, "Of mismatch and noise")
+  command->add_option("--seed", arguments->seed, "Of mismatch, hot and dead pixels, and noise")
+      ->check(whole_number_between(0, UINT64_MAX))
+      ->capture_default_str();
+  command
+      ->add_option("--clip", arguments->clip,
+                   "Number of the video among those of one camera: other noise, the same pixels")
       ->check(whole_number_between(0, UINT64_MAX))
       ->capture_default_str();
   command->add_flag(

@@ -201,6 +201,10 @@ std::optional<Baseline> find_baseline(const GateArguments& arguments) {
   }
 }
 
+fs::path junit_path(const GateArguments& arguments) {
+  return arguments.junit.empty() ? arguments.options.out / "junit.xml" : arguments.junit;
+}
+
 int gate(const GateArguments& arguments) {
   const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir,
                                           parse_settings("--set", arguments.set));
@@ -208,6 +212,9 @@ int gate(const GateArguments& arguments) {
   if (!arguments.junit.empty()) {
     expect_writable("--junit", arguments.junit, fs::absolute(arguments.junit).parent_path());
   }
+  // A gate that ends without a verdict must not leave an earlier one behind.
+  std::error_code not_there;
+  fs::remove(junit_path(arguments), not_there);
   const std::optional<Baseline> baseline = find_baseline(arguments);
   const GateRules rules = rules_of(arguments);
   if (!arguments.update) expect_same_throws(scenario, *baseline, arguments.baseline);
@@ -221,8 +228,7 @@ int gate(const GateArguments& arguments) {
   const GateVerdict verdict = judge(*baseline, read_tables(out), machine_kind(out), rules);
   const std::string text = verdict_text(arguments, scenario, *baseline, verdict);
   std::cout << text << std::flush;
-  write_file(arguments.junit.empty() ? out / "junit.xml" : arguments.junit,
-             junit_xml(verdict, scenario.name, text));
+  write_file(junit_path(arguments), junit_xml(verdict, scenario.name, text));
   return verdict.passed() ? kOk : kBelowBar;
 }
 

@@ -139,7 +139,7 @@ one that `dodgesim replay --throw` takes.
 | `flown_clearance_m` | least distance between the surfaces of vehicle and objects until the flight ended, 0 after a hit |
 | `none_*`, `oracle_*` | the same seven of these pilots |
 | `first_in_view_us` | the object that was detected first (any, if none was) had its centre in a camera's image and was a pixel wide |
-| `first_detection_us`, `first_detection_t_us` | the first detection within 0.5 m of an object: when the pilot gave it out, and the instant it speaks of |
+| `first_detection_us`, `first_detection_t_us` | the first detection within 0.5 m of the centre of an object (of one larger than 30 cm: 0.35 m more than its radius), given out before the flight ended: when the pilot gave it out, and the instant it speaks of |
 | `first_detection_distance_m` | true distance from the top camera to the object at that instant |
 | `time_to_contact_us` | from `first_detection_us` to the contact of `none` (without one, to its closest approach); empty if that is with another object |
 | `first_command_us`, `evaded` | the flight controller's first command to evade; whether there was one |
@@ -184,7 +184,7 @@ What is easily misread:
 - A flight ends at the first hit, crash or touch-down. Of several objects only the first to touch has
   `hit` or `none_hit`, and the others' closest approach is that until then.
 - `object` in `detections.csv` is the nearest one even if the detection is false, which it is from a
-  `position_error_m` of 0.5 on.
+  `position_error_m` of 0.5 on, for objects larger than 30 cm of 0.35 more than their radius.
 - `first_detection_us` and what follows from it are what the pilot says it has detected. `none` and
   `oracle` have no cameras: no detections, and no events.
 

@@ -95,6 +95,16 @@ Of 1 throw that would have missed, falanga2020 evaded 1 and was hit by 0.
   EXPECT_THAT(made.csv, HasSubstr("\nall,all,4,none,3,2,0,0,"));
 }
 
+TEST(Tables, SayThatTheVehicleCrashesByItself) {
+  FlightResult crash = flown(false);
+  crash.crashed = true;
+  const std::vector<ThrowResult> results = {
+      throw_with(0, crash, crash, FlightResult{}),
+      throw_with(1, flown(true), flown(true), FlightResult{})};
+  EXPECT_THAT(tables(results).markdown,
+              HasSubstr("In 1 throw of these the vehicle crashed with nobody dodging"));
+}
+
 TEST(Tables, EveryCellOfAGridHasItsRowWhateverTheKeys) {
   std::vector<ThrowResult> results;
   for (int i = 0; i < 8; ++i) {

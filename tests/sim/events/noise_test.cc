@@ -44,6 +44,21 @@ EventCameraSpec only_hot_pixels(double fraction, double rate_hz) {
   return spec;
 }
 
+// Leak events of a film, by half seconds.
+std::vector<double> leaks_in_half_seconds(EventCamera& camera, const testing::Frames& frames) {
+  const std::vector<Cause> scene(static_cast<std::size_t>(kFieldPixels), kCauseScene);
+  std::vector<double> counts(static_cast<std::size_t>(frames.back().t_us / 500000));
+  camera.reset(0, Picture{frames.front().luminance.data(), scene.data()});
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    std::vector<Event> events;
+    camera.update(frames[i].t_us, Picture{frames[i].luminance.data(), scene.data()}, events);
+    for (const Cause cause : camera.causes()) {
+      if (cause == kCauseLeak) ++counts[static_cast<std::size_t>((frames[i].t_us - 1) / 500000)];
+    }
+  }
+  return counts;
+}
+
 TEST(ShotNoise, HasTheSetRatesOfBothPolarities) {
   const EventCameraSpec spec = only_shot_noise();
   const double duration_s = 60;
@@ -240,6 +255,31 @@ TEST(Leak, MakesOnEventsAtTheSetMeanRateWhateverTheMismatch) {
     double early = 0;
     for (const auto& [pixel, times] : stamps) early += times[0] < 250000;
     EXPECT_NEAR(early, 0.5 * kFieldPixels, 4 * std::sqrt(0.25 * kFieldPixels));
+  }
+}
+
+// Noise resets pixels, the leak those that it has spared for a whole period: a renewal process,
+// whose rates are the same from the first instant on.
+TEST(Leak, IsAsAfterALongRestFromTheStartWhateverTheNoise) {
+  EventCameraSpec spec = ideal_event_camera();
+  spec.leak_hz = 1;
+  spec.shot_noise_bright_share = 1;
+  spec.hot_pixel_hz = 8;
+  for (const double noise_hz : {0.0, 0.5, 2.0}) {
+    for (const double hot_share : {0.0, 1.0}) {
+      spec.shot_noise_on_hz = spec.shot_noise_off_hz = 0.5 * noise_hz;
+      spec.hot_pixel_fraction = hot_share;
+      const double rate_hz = noise_hz + hot_share * spec.hot_pixel_hz;
+      const double leaks_hz = rate_hz > 0 ? rate_hz / std::expm1(rate_hz) : 1;  // a period is 1 s
+      EventCamera camera(spec, kFieldWidth, kFieldHeight, 1, 0, "top", true);
+      const auto frames = film(kFieldWidth, kFieldHeight, every(100000, 4000000),
+                               [](int, int, TimeUs) { return 0.2; });
+      const double expected = leaks_hz * kFieldPixels * 0.5;
+      const std::vector<double> leaks = leaks_in_half_seconds(camera, frames);
+      for (const double count : {leaks.front(), leaks.back()}) {
+        EXPECT_NEAR(count, expected, 4 * std::sqrt(expected) + 1) << noise_hz << " " << hot_share;
+      }
+    }
   }
 }
 

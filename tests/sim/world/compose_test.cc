@@ -180,6 +180,42 @@ TEST_F(OwnModels, RoomsAndVehiclesMustNotChangeGravityAndAir) {
   EXPECT_EQ(message_of(spec_), "no error");
 }
 
+TEST_F(OwnModels, DefaultsOfARoomAreOfItsOwnClasses) {
+  spec_.room = "own";
+  write_object(object("<geom size='0.1'/>"));
+  const auto room = [&](const std::string& defaults, const std::string& attribute) {
+    std::ofstream(directory_ / "rooms" / "own.xml")
+        << "<mujoco><default>\n"
+        << defaults << "</default><worldbody><geom " << attribute
+        << " size='1'/></worldbody></mujoco>";
+    return message_of(spec_);
+  };
+  EXPECT_THAT(room("<geom rgba='1 0 0 1'/>", ""),
+              AllOf(HasSubstr("rooms/own.xml:2: "), HasSubstr("<default> without a class")));
+  EXPECT_EQ(room("<default class='wall'><geom rgba='1 0 0 1'/></default>", "class='wall'"),
+            "no error");
+}
+
+// A dodged object lies down on all of its geoms.
+TEST_F(OwnModels, AnObjectOfManyGeomsMayLieOnTheFloor) {
+  std::string slats;
+  for (int i = 0; i < 14; ++i) {
+    slats += "<geom type='box' size='0.05 0.003 0.0025' pos='0 " +
+             std::to_string(0.0066 * i - 0.043) + " 0' contype='4' conaffinity='3'/>";
+  }
+  write_object(object(slats));
+  World world(spec_);
+  BodyState thrown;
+  thrown.p_W = {3, 0, 0.05};
+  world.reset({0, 0, 2}, 0, Eigen::Vector3d::Zero());
+  world.launch(0, thrown);
+  const double hover_n = 0.25 * world.vehicle().mass_kg * kGravityMps2;
+  for (int tick = 0; tick < 1600; ++tick) {
+    ASSERT_NO_THROW(world.step({hover_n, hover_n, hover_n, hover_n})) << tick;
+  }
+  EXPECT_LT(world.snapshot().objects[0].p_W.z(), 0.03);
+}
+
 TEST_F(OwnModels, BrokenFilesGiveOneSentenceWithTheFile) {
   const std::vector<std::string> broken = {
       "",
@@ -253,6 +289,14 @@ TEST_F(OwnModels, AVehicleThatTheMixerWouldTakeForAnotherIsRefused) {
   EXPECT_THAT(with("gear=\"0 0 1", "gear=\"0.1 0 1"), a_rotor);
   EXPECT_THAT(with("0 0  0.012\"", "0 0  0.02\""), a_rotor);
   EXPECT_THAT(with("ctrlrange=\"0 9.5\"", "ctrlrange=\"0 3\""), a_rotor);
+  EXPECT_THAT(with("ctrlrange=\"0 9.5\"", "ctrlrange=\"5 9.5\""), a_rotor);
+  EXPECT_THAT(with("<motor name=\"rotor_0\"",
+                   "<motor name=\"fifth\" site=\"rotor_0\"/><motor name=\"rotor_0\""),
+              HasSubstr("four actuators, its rotors, not 5"));
+  EXPECT_THAT(with("name=\"rotor_drag_1ps\" data=\"", "name=\"rotor_drag_1ps\" data=\"-"),
+              HasSubstr("rotor_drag_kh_1pm must not be negative"));
+  EXPECT_THAT(with("</worldbody>", "<body><freejoint/><geom size=\"0.1\"/></body></worldbody>"),
+              HasSubstr("must have one joint"));
   EXPECT_THAT(with("site=\"rotor_0\"", "site=\"rotor_1\""), a_rotor);
   EXPECT_THAT(with("<site name=\"rotor_1\"", "<site euler=\"20 0 0\" name=\"rotor_1\""), a_rotor);
   EXPECT_THAT(with("diaginertia=\"0.0033 0.0040 0.0062\"",
@@ -270,6 +314,10 @@ TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
   };
   EXPECT_THAT(with("name='body'", "name='other'"), HasSubstr("no body named 'body'"));
   EXPECT_THAT(with("<freejoint/>", "<joint type='hinge'/>"), HasSubstr("free joint"));
+  for (const char* of_joint : {"damping", "armature", "frictionloss"}) {
+    EXPECT_THAT(with("<freejoint/>", std::string("<joint type='free' ") + of_joint + "='0.1'/>"),
+                HasSubstr("must have no damping, armature"));
+  }
   EXPECT_THAT(with("inertial pos='0 0 0'", "inertial pos='0 0.1 0'"), HasSubstr("centre of mass"));
   EXPECT_THAT(with("<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>", ""),
               HasSubstr("must have an <inertial>"));
