@@ -32,9 +32,7 @@ EventCamera::EventCamera(const EventCameraSpec& spec, int width, int height, std
 void EventCamera::reset(TimeUs t_us, const Picture& picture) {
   t_us_ = last_sample_us_ = t_us;
   noise_.reset(t_us);
-  pixels_.reset(t_us, picture, [&](std::size_t i) {
-    return noise_.rate_hz(static_cast<std::uint32_t>(i), picture.luminance[i]);
-  });
+  pixels_.reset(t_us, picture, noise_);
   readout_.reset(t_us);
   words_.clear();
   causes_.clear();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "sim/events/logarithm.h"
+
 namespace dodgesim {
 
 namespace {
@@ -24,6 +26,14 @@ std::vector<std::uint32_t> draw_hot_pixels(const RandomStream& device, std::uint
 
 std::string stream_name(std::string_view camera, const char* what) {
   return std::string(camera) + "/" + what;
+}
+
+// The inverse of the distribution of that time, an exponential that ends with the period.
+double since_reset_s(double u, double leak_period_s, double noise_hz) {
+  constexpr double kRare = 1e-6, kOften = 600;
+  const double resets = noise_hz * leak_period_s;
+  if (resets < kRare) return u * leak_period_s;
+  return -natural_log(1 - u * (1 - natural_exp(-std::min(resets, kOften)))) / noise_hz;
 }
 
 Noise::Noise(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,

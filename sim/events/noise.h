@@ -26,6 +26,10 @@ struct NoiseEvent {
   Cause cause = kCauseShotNoise;
 };
 
+// How long ago, at an instant after a long rest, a pixel was last reset [s]: by noise, at random,
+// or by its leak, once it has been spared for a whole period. `u` is uniform in (0, 1).
+double since_reset_s(double u, double leak_period_s, double noise_hz);
+
 class Noise {
  public:
   // `name` tells the cameras of a vehicle apart. Which pixels are hot depends on seed and name

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "sim/base/error.h"
-#include "sim/events/logarithm.h"
 
 namespace dodgesim {
 
@@ -120,18 +119,7 @@ void PixelArray::draw_thresholds(const EventCameraSpec& spec, const RandomStream
   }
 }
 
-// How long before the start a pixel at rest was last reset: by its noise, at random, or by the leak
-// when that has taken it over the threshold. `u` is uniform in (0, 1).
-double PixelArray::rested_s(double u, double threshold_on, double noise_hz) const {
-  constexpr double kRare = 1e-6, kOften = 600;
-  const double period_s = 1e-6 * threshold_on / leak_per_us_;
-  if (noise_hz * period_s < kRare) return u * period_s;
-  const double earlier = 1 - natural_exp(-std::min(noise_hz * period_s, kOften));
-  return -natural_log(1 - u * earlier) / noise_hz;
-}
-
-void PixelArray::reset(TimeUs t_us, const Picture& picture,
-                       const std::function<double(std::size_t)>& noise_hz) {
+void PixelArray::reset(TimeUs t_us, const Picture& picture, const Noise& noise) {
   for (std::size_t i = 0; i < pixels_.size(); ++i) checked(picture.luminance[i]);
   signal_->reset(picture.luminance);
   reset_us_ = t_us;
@@ -141,8 +129,10 @@ void PixelArray::reset(TimeUs t_us, const Picture& picture,
     Pixel& pixel = pixels_[i];
     double leaked = 0;
     if (leak_per_us_ > 0 && !pixel.dead()) {
+      const double noise_hz = noise.rate_hz(static_cast<std::uint32_t>(i), picture.luminance[i]);
+      const double period_s = 1e-6 * pixel.threshold_on() / leak_per_us_;
       const double u = unit_interval(start_.block(i)[0]);
-      leaked = 1e6 * leak_per_us_ * rested_s(u, pixel.threshold_on(), noise_hz(i));
+      leaked = 1e6 * leak_per_us_ * since_reset_s(u, period_s, noise_hz);
     }
     pixel.reference = signal_->value(i, 0) - leaked;
     pixel.held_until_us = kArmed;

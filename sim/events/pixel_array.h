@@ -25,7 +25,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -66,9 +65,8 @@ class PixelArray {
              const RandomStream& start, bool keep_causes);
 
   // The first picture, of the instant t_us: sets every reference, with a leak as after a long rest
-  // in this light. noise_hz(index): how often noise resets that pixel.
-  void reset(TimeUs t_us, const Picture& picture,
-             const std::function<double(std::size_t)>& noise_hz);
+  // in this light, in which the noise has reset pixels, too.
+  void reset(TimeUs t_us, const Picture& picture, const Noise& noise);
 
   // A sample of the pixels of `region`, later than all others. Appends their events since their
   // last samples, with times since origin_us, which no last sample precedes. `noise` holds their
@@ -101,7 +99,6 @@ class PixelArray {
     TimeUs first_us = 0;  // earliest stamp of the pixel
   };
 
-  double rested_s(double u, double threshold_on, double noise_hz) const;
   void draw_thresholds(const EventCameraSpec& spec, const RandomStream& device);
   void sample_row(int y, double t_us, const Rect& region, const Picture& picture,
                   std::span<const NoiseEvent>& noise);
