@@ -325,8 +325,7 @@ const BadScenario kBadScenarios[] = {
     {"PilotFasterThanTheVehicle", "pilot: oracle\ndodger:\n  velocity_limit: {max_speed_mps: 8}\n",
      "bad.yaml:3:35: dodger.velocity_limit.max_speed_mps is 8, but must not exceed "
      "controller.evading_speed_limit_mps, which is 5."},
-    {"CruiseFasterThanThePilotFlies",
-     "mission: {type: goal, goal_m: [5, 0, 2], speed_mps: 8}\n",
+    {"CruiseFasterThanThePilotFlies", "mission: {type: goal, goal_m: [5, 0, 2], speed_mps: 8}\n",
      "bad.yaml:1:53: mission.speed_mps is 8, but must not exceed "
      "dodger.velocity_limit.max_speed_mps, which is 5."},
     {"SweptToTooSlowARangeSensor", "sweep: {sensors.range.rate_hz: [200, 10]}\n", "bad.yaml:1:"},
