@@ -156,13 +156,19 @@ void check_rates(const Scenario& scenario, ReadContext& context) {
   }
 }
 
+// Of two keys whose values exclude each other; `must`: what the first's must be of the second's.
+void add_contradiction(const std::string& key, double value, const std::string& must,
+                       const std::string& other_key, double other_value, ReadContext& context) {
+  context.problems.add(position_of(context, key), key + " is " + to_text(value) + ", but must " +
+                                                      must + " " + other_key + ", which is " +
+                                                      to_text(other_value) + ".");
+}
+
 void check_range_sensor(const Scenario& scenario, ReadContext& context) {
   const RangeSpec& range = scenario.sensors.range;
   if (range.min_range_m < range.max_range_m) return;
-  context.problems.add(position_of(context, "sensors.range.min_range_m"),
-                       "sensors.range.min_range_m is " + to_text(range.min_range_m) +
-                           ", but must be less than sensors.range.max_range_m, which is " +
-                           to_text(range.max_range_m) + ".");
+  add_contradiction("sensors.range.min_range_m", range.min_range_m, "be less than",
+                    "sensors.range.max_range_m", range.max_range_m, context);
 }
 
 // A pilot that takes the vehicle for faster than it may fly predicts escapes that never happen.
@@ -170,21 +176,16 @@ void check_speed_limit(const Scenario& scenario, ReadContext& context) {
   const double limit_mps = scenario.controller.evading_speed_limit_mps;
   const double pilot_mps = scenario.dodger.velocity_limit.max_speed_mps;
   if (scenario.pilot == "none" || pilot_mps <= limit_mps) return;
-  const std::string key = "dodger.velocity_limit.max_speed_mps";
-  context.problems.add(position_of(context, key),
-                       key + " is " + to_text(pilot_mps) +
-                           ", but must not exceed controller.evading_speed_limit_mps, which is " +
-                           to_text(limit_mps) + ".");
+  add_contradiction("dodger.velocity_limit.max_speed_mps", pilot_mps, "not exceed",
+                    "controller.evading_speed_limit_mps", limit_mps, context);
 }
 
 void check_cruise_speed(const Scenario& scenario, ReadContext& context) {
   const MissionSpec& mission = scenario.mission;
   const double limit_mps = scenario.dodger.velocity_limit.max_speed_mps;
   if (mission.type == "hover" || mission.speed_mps <= limit_mps) return;
-  context.problems.add(position_of(context, "mission.speed_mps"),
-                       "mission.speed_mps is " + to_text(mission.speed_mps) +
-                           ", but must not exceed dodger.velocity_limit.max_speed_mps, which is " +
-                           to_text(limit_mps) + ".");
+  add_contradiction("mission.speed_mps", mission.speed_mps, "not exceed",
+                    "dodger.velocity_limit.max_speed_mps", limit_mps, context);
 }
 
 // Of a rotor's thrusts that the scenario sets. What a model says is known only to the simulation.
@@ -192,10 +193,8 @@ void check_thrust(const Scenario& scenario, ReadContext& context) {
   const double least_n = scenario.motors.min_thrust_n;
   const double most_n = scenario.vehicle_overrides.max_thrust_n;
   if (most_n == 0 || least_n < most_n) return;
-  context.problems.add(position_of(context, "motors.min_thrust_n"),
-                       "motors.min_thrust_n is " + to_text(least_n) +
-                           ", but must be less than vehicle_overrides.max_thrust_n, which is " +
-                           to_text(most_n) + ".");
+  add_contradiction("motors.min_thrust_n", least_n, "be less than",
+                    "vehicle_overrides.max_thrust_n", most_n, context);
 }
 
 void check_keys_together(const Scenario& scenario, ReadContext& context) {

@@ -34,44 +34,44 @@ void refuse(const std::vector<MjcfTag>& tags, std::initializer_list<const char*>
   }
 }
 
-// What stands beside an object's body would stand in the room.
-void expect_one_body(const std::vector<MjcfTag>& tags, const std::string& label) {
+// Calls visit(tag, open) for every element, where `open` holds the names of those that it is in.
+template <class Visit>
+void for_each_element(const std::vector<MjcfTag>& tags, Visit visit) {
   std::vector<std::string> open;
-  bool has_body = false;
   for (const MjcfTag& tag : tags) {
     if (tag.kind == MjcfTag::Kind::kClose) {
       if (!open.empty()) open.pop_back();
       continue;
     }
-    if (open.size() == 1 && open[0] == "worldbody") {
-      if (tag.name != "body" || has_body) {
-        throw ScenarioError(label + ":" + std::to_string(tag.line) +
-                            ": The <worldbody> of an object must hold one <body> and nothing "
-                            "else, not <" +
-                            tag.name + "> too.");
-      }
-      has_body = true;
-    }
+    visit(tag, open);
     if (tag.kind == MjcfTag::Kind::kOpen) open.push_back(tag.name);
   }
+}
+
+// What stands beside an object's body would stand in the room.
+void expect_one_body(const std::vector<MjcfTag>& tags, const std::string& label) {
+  bool has_body = false;
+  for_each_element(tags, [&](const MjcfTag& tag, const std::vector<std::string>& open) {
+    if (open != std::vector<std::string>{"worldbody"}) return;
+    if (tag.name != "body" || has_body) {
+      throw ScenarioError(label + ":" + std::to_string(tag.line) +
+                          ": The <worldbody> of an object must hold one <body> and nothing "
+                          "else, not <" +
+                          tag.name + "> too.");
+    }
+    has_body = true;
+  });
 }
 
 // A default of no class would be one of the other models, too.
 void refuse_root_default(const std::vector<MjcfTag>& tags, const std::string& what,
                          const std::string& label) {
-  std::vector<std::string> open;
-  for (const MjcfTag& tag : tags) {
-    if (tag.kind == MjcfTag::Kind::kClose) {
-      if (!open.empty()) open.pop_back();
-      continue;
-    }
-    if (!open.empty() && open.back() == "default" && open.size() == 1 && tag.name != "default") {
-      throw ScenarioError(label + ":" + std::to_string(tag.line) + ": The model of " + what +
-                          " must not set a <default> without a class, which the other models " +
-                          "would take over: put <" + tag.name + "> into <default class=\"...\">.");
-    }
-    if (tag.kind == MjcfTag::Kind::kOpen) open.push_back(tag.name);
-  }
+  for_each_element(tags, [&](const MjcfTag& tag, const std::vector<std::string>& open) {
+    if (open != std::vector<std::string>{"default"} || tag.name == "default") return;
+    throw ScenarioError(label + ":" + std::to_string(tag.line) + ": The model of " + what +
+                        " must not set a <default> without a class, which the other models " +
+                        "would take over: put <" + tag.name + "> into <default class=\"...\">.");
+  });
 }
 
 // What a second joint moves would fly, or turn, by itself.
@@ -145,13 +145,15 @@ class CompiledModels {
   std::vector<Entry> entries_;
 };
 
+constexpr std::size_t kFewContacts = 20;
+
 // At how many points an object may touch others at once, lying on the floor.
 std::size_t most_contacts(const std::vector<MjcfTag>& object) {
-  constexpr std::size_t kFew = 20, kPerGeom = 5, kMost = 200;
+  constexpr std::size_t kPerGeom = 5, kMost = 200;
   const auto geoms = std::count_if(object.begin(), object.end(), [](const MjcfTag& tag) {
     return tag.name == "geom" && tag.kind != MjcfTag::Kind::kClose;
   });
-  return std::clamp(kPerGeom * static_cast<std::size_t>(geoms), kFew, kMost);
+  return std::clamp(kPerGeom * static_cast<std::size_t>(geoms), kFewContacts, kMost);
 }
 
 // Air drag is computed by World: MuJoCo's own fluid model stays off (density 0). The buffers hold
@@ -159,7 +161,7 @@ std::size_t most_contacts(const std::vector<MjcfTag>& object) {
 MjModelPtr compile(const std::string& inner_xml, const std::string& models_dir,
                    const std::string& label, std::size_t object_contacts) {
   thread_local CompiledModels models;
-  const std::size_t contacts = 30 + object_contacts;
+  const std::size_t contacts = 30 + std::max(object_contacts, kFewContacts);
   return models.get(
       "<mujoco model=\"dodgesim\"><compiler angle=\"degree\"/>"
       "<option gravity=\"0 0 " +
@@ -191,7 +193,7 @@ MjModelPtr compose_model(const WorldSpec& spec) {
     refuse_root_default(tags, what, label);
     parts.push_back({label, print_mjcf(tags)});
   }
-  std::size_t contacts = spec.objects.empty() ? 20 : 0;
+  std::size_t contacts = 0;
   for (std::size_t i = 0; i < spec.objects.size(); ++i) {
     const std::vector<MjcfTag> tags =
         scaled_object(spec.models_dir, spec.objects[i], static_cast<int>(i));

@@ -68,6 +68,16 @@ TEST(Boschloo, IsTheLargestProbabilityOfTablesWithASmallerFisherPValue) {
   }
 }
 
+TEST(Boschloo, HoldsForThousandsOfThrows) {
+  // Normal approximation: its tail is good to a few per cent here.
+  const Proportion first{8000, 10'000}, second{7900, 10'000};
+  const double rate = 0.795, n = 1e4;
+  const double z = 100 / std::sqrt(2 * n * rate * (1 - rate));
+  EXPECT_NEAR(boschloo(first, second, kLower), 0.5 * std::erfc(z / std::sqrt(2)), 1e-3);
+  EXPECT_GT(boschloo({3000, 3000}, {2950, 3000}, kLower), 0);
+  EXPECT_LT(boschloo({3000, 3000}, {2950, 3000}, kLower), 1e-13);
+}
+
 TEST(Boschloo, MirrorsWhenGroupsOrOutcomesAreSwapped) {
   const Proportion first{11, 15}, second{4, 12}, failed_first{4, 15}, failed_second{8, 12};
   const double lower = boschloo(first, second, kLower),
