@@ -3,10 +3,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "sim/base/error.h"
+#include "sim/files/output_file.h"
+#include "sim/files/png.h"
 
 namespace dodgesim {
 
@@ -48,15 +49,12 @@ Film::Film(const std::string& path, const Intrinsics& intrinsics, double slow)
       partial_(StagedFile::partial_name(path_).string() + ".mp4"),
       picture_every_us_(std::lround(static_cast<double>(kShownEveryUs) / slow / kTickUs) * kTickUs),
       picture_(kSceneHeight,
-               kSceneWidth + intrinsics.width * (kSceneHeight / 2) / intrinsics.height, kBlack) {
+               kSceneWidth + intrinsics.width * (kSceneHeight / 2) / intrinsics.height, kBlack),
+      // Exactly `slow` times slower, whatever became of the interval in whole ticks.
+      video_(partial_, picture_.cols, picture_.rows,
+             1e6 / (slow * static_cast<double>(picture_every_us_))) {
   // One by one: copies would share their pixels.
   for (int i = 0; i < 2; ++i) eyes_.emplace_back(intrinsics.width, intrinsics.height);
-  // Exactly `slow` times slower, whatever became of the interval in whole ticks.
-  const double shown_per_second = 1e6 / (slow * static_cast<double>(picture_every_us_));
-  writer_.open(partial_, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('a', 'v', 'c', '1'),
-               shown_per_second, picture_.size());
-  if (!writer_.isOpened())
-    throw IoError("The video " + path_ + " could not be opened for writing.");
 }
 
 void Film::on_tick(const World& world) {
@@ -65,8 +63,7 @@ void Film::on_tick(const World& world) {
   if (now.t_us % picture_every_us_ != 0) return;
   if (!scene_) scene_ = std::make_unique<ScenePictures>(world, kSceneWidth, kSceneHeight);
   compose(now);
-  writer_.write(picture_);
-  ++pictures_;
+  video_.write(picture_.data);
   for (EventPicture& eye : eyes_) eye.clear();
 }
 
@@ -127,20 +124,12 @@ void Film::caption(const Snapshot& snapshot) {
 }
 
 Film::~Film() {
-  writer_.release();
   std::error_code ignored;
   std::filesystem::remove(partial_, ignored);
 }
 
 void Film::close() {
-  writer_.release();
-  // The writer reports no failure: count what can be read back.
-  cv::VideoCapture reader(partial_, cv::CAP_FFMPEG);
-  const int written = static_cast<int>(reader.get(cv::CAP_PROP_FRAME_COUNT));
-  if (!reader.isOpened() || written != pictures_) {
-    throw IoError("The video " + path_ + " holds " + std::to_string(written) + " of " +
-                  std::to_string(pictures_) + " pictures: is the disk full?");
-  }
+  video_.close();
   std::error_code error;
   std::filesystem::rename(partial_, path_, error);
   if (error) {
@@ -170,9 +159,7 @@ void StageFilm::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
   if (!bottom.empty()) cv::vconcat(picture, bottom, picture);
   char name[40];
   std::snprintf(name, sizeof name, "/stages_%09lld_us.png", static_cast<long long>(now_us));
-  if (!cv::imwrite(directory_ + name, picture)) {
-    throw IoError("The picture " + directory_ + name + " could not be written.");
-  }
+  write_file(directory_ + name, png_of(picture.data, picture.cols, picture.rows, PngPixels::kBgr));
   ++pictures_;
 }
 

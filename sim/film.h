@@ -4,13 +4,13 @@
 
 #include <memory>
 #include <opencv2/core.hpp>
-#include <opencv2/videoio.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dodge/dodger.h"
 #include "sim/files/staged_file.h"
+#include "sim/files/video_file.h"
 #include "sim/flight.h"
 #include "sim/render/scene_pictures.h"
 
@@ -60,8 +60,6 @@ class Film : public FlightObserver {
   StagedFile place_;            // keeps the name from other programs
   std::string path_, partial_;  // partial_: its name until it is whole
   TimeUs picture_every_us_;     // of flight
-  cv::VideoWriter writer_;
-  int pictures_ = 0;
   std::unique_ptr<ScenePictures> scene_;
   std::optional<PictureView> view_;  // set by the first picture
   std::vector<EventPicture> eyes_;
@@ -69,6 +67,7 @@ class Film : public FlightObserver {
   bool evading_ = false;
   int detections_ = 0;
   cv::Mat3b picture_;
+  VideoFile video_;
 };
 
 // Writes one PNG a cycle of the paper's pilot while an object is in flight: for each camera the

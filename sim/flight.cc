@@ -71,6 +71,13 @@ std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
   return models;
 }
 
+dodge::Config core_config(const Scenario& scenario, const VehicleParameters& vehicle) {
+  dodge::Config config = scenario.dodger;
+  config.p_BR = vehicle.X_BR.translation();
+  config.cameras = camera_models(scenario, vehicle);
+  return config;
+}
+
 Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer)
     : scenario_(scenario),
       plan_(plan),
@@ -112,7 +119,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
 std::uint64_t Flight::index() const { return static_cast<std::uint64_t>(plan_.throw_index); }
 
 std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
-  if (perceives(plan_.pilot)) return make_dodger();
+  if (perceives(plan_.pilot)) return make_seeing_pilot();
   const dodge::Config& core = scenario_.dodger;
   TruthPilot::Setup setup;
   setup.oracle = scenario_.oracle;
@@ -129,11 +136,10 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
   return pilot;
 }
 
-std::unique_ptr<dodge::Pilot> Flight::make_dodger() const {
-  dodge::Config config = scenario_.dodger;
-  config.p_BR = world_.vehicle().X_BR.translation();
-  config.cameras = camera_models(scenario_, world_.vehicle());
-  return std::make_unique<dodge::Dodger>(config);
+std::unique_ptr<dodge::Pilot> Flight::make_seeing_pilot() const {
+  const dodge::Config config = core_config(scenario_, world_.vehicle());
+  if (plan_.pilot != kPluginPilot) return std::make_unique<dodge::Dodger>(config);
+  return dodgesim::make_pilot(scenario_.plugin, config, scenario_.plugin_parameters);
 }
 
 std::unique_ptr<EventRig> Flight::make_rig() const {

@@ -70,6 +70,9 @@ Intrinsics intrinsics(const CameraSpec& camera);
 std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
                                               const VehicleParameters& vehicle);
 
+// What a pilot that sees is given: the keys of dodger, and the vehicle's calibration.
+dodge::Config core_config(const Scenario& scenario, const VehicleParameters& vehicle);
+
 // The first detection of an object.
 struct Sighting {
   std::optional<TimeUs> first_us;    // its output
@@ -137,7 +140,7 @@ class Flight {
 
   std::uint64_t index() const;
   std::unique_ptr<dodge::Pilot> make_pilot();
-  std::unique_ptr<dodge::Pilot> make_dodger() const;
+  std::unique_ptr<dodge::Pilot> make_seeing_pilot() const;
   std::unique_ptr<EventRig> make_rig() const;
   int cameras() const;  // in use
   Witness::Setup witness_setup() const;

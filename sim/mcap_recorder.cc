@@ -1,11 +1,11 @@
 #include "sim/mcap_recorder.h"
 
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "sim/base/error.h"
+#include "sim/files/png.h"
 #include "sim/foxglove_models.h"
 
 namespace dodgesim {
@@ -235,10 +235,9 @@ void McapRecorder::write_images(TimeUs t_us) {
   for (std::size_t i = 0; i < eyes_.size(); ++i) {
     cv::Mat1b grey;
     cv::cvtColor(eyes_[i].image(), grey, cv::COLOR_BGR2GRAY);
-    std::vector<unsigned char> png;
-    cv::imencode(".png", grey, png);
     write(camera_topic(i, "events"), t_us,
-          foxglove::compressed_image(t_us, camera_frame(i), {png.begin(), png.end()}));
+          foxglove::compressed_image(t_us, camera_frame(i),
+                                     png_of(grey.data, grey.cols, grey.rows, PngPixels::kGrey)));
     eyes_[i].clear();
   }
 }

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "dodge/dodger.h"
 #include "sim/base/error.h"
 #include "sim/files/output_file.h"
+#include "sim/files/png.h"
 #include "sim/film.h"
 
 namespace dodgesim {
@@ -103,9 +103,7 @@ void Poster::save(const std::string& path) const {
     cv::resize(strip, strip, {scene_.cols, strip.rows * scene_.cols / strip.cols});
     cv::vconcat(scene_, strip, picture);
   }
-  std::vector<unsigned char> png;
-  cv::imencode(".png", picture, png);
-  write_file(path, {reinterpret_cast<const char*>(png.data()), png.size()});
+  write_file(path, png_of(picture.data, picture.cols, picture.rows, PngPixels::kBgr));
 }
 
 }  // namespace dodgesim

@@ -92,6 +92,7 @@ std::string difference(const CampaignIdentity& a, const CampaignIdentity& b) {
     return "of another version of dodgesim (" + a.program + ", not " + b.program + ")";
   }
   if (a.models != b.models) return "of other models (room, vehicle or objects have changed)";
+  if (a.plugin != b.plugin) return "of another plug-in (the library has changed)";
   return a.truth ? "with --truth, not without" : "without --truth, not with it";
 }
 

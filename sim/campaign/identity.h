@@ -9,6 +9,7 @@ struct CampaignIdentity {
   std::string scenario;  // as it was resolved, YAML
   std::string program;   // version and commit, and what was changed since
   std::string models;    // digest of room, vehicle and objects (sim/try_models.h)
+  std::string plugin;    // digest of the library, when it flies
   bool truth = false;    // the results hold truth_rows
 
   bool operator==(const CampaignIdentity&) const = default;
@@ -18,6 +19,7 @@ struct CampaignIdentity {
     v("scenario", scenario);
     v("program", program);
     v("models", models);
+    v("plugin", plugin);
     v("truth", truth);
   }
 };

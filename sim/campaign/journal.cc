@@ -22,7 +22,7 @@ namespace {
 constexpr std::chrono::seconds kSyncEvery(1);
 
 // Changes with every change of what is written.
-constexpr char kMagic[8] = {'d', 'o', 'd', 'g', 'e', 'j', '0', '5'};
+constexpr char kMagic[8] = {'d', 'o', 'd', 'g', 'e', 'j', '0', '6'};
 
 // No throw has results of this size; a larger number is damage.
 constexpr std::uint32_t kLargestRecord = 1u << 30;

@@ -40,6 +40,7 @@ std::string manifest_json(const Scenario& scenario, const CampaignOptions& optio
                           {"cells", cell_count(scenario)},
                           {"sweep_values", sweep_count(scenario)},
                           {"models", options.models},
+                          {"plugin", options.plugin},
                           {"errors", summary.errors},
                           {"command_line", options.command_line},
                           {"jobs", options.jobs}};

@@ -143,6 +143,7 @@ CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
   summary.wall_s = seconds_since(begin);
   CampaignOptions flown = options;
   flown.models = sources.identity.models;
+  flown.plugin = sources.identity.plugin;
   write_file(options.out / "manifest.json", manifest_json(scenario, flown, summary, started));
   return summary;
 }

@@ -214,10 +214,11 @@ Json section_of(const Part& part, const ReportAxes& axes) {
 }
 
 // What flies a throw again, but for its number. A campaign that was read back does not say where
-// its models are.
-std::string replay_line(const std::string& directory, const std::string& models_dir) {
+// its models and its plug-in are.
+std::string replay_line(const std::string& directory, const Scenario& scenario) {
   std::string line = "dodgesim replay " + shell_quoted(directory);
-  if (!models_dir.empty()) line += " --models " + shell_quoted(models_dir);
+  if (!scenario.models_dir.empty()) line += " --models " + shell_quoted(scenario.models_dir);
+  if (!scenario.plugin.file.empty()) line += " --plugin " + shell_quoted(scenario.plugin.file);
   return line + " --throw ";
 }
 
@@ -250,7 +251,7 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
           {"program", "dodgesim " + campaign.program},
           {"wanted", campaign.wanted()},
           {"stop", campaign.stop ? campaign.stop->text() : ""},
-          {"replay", replay_line(directory, scenario.models_dir)},
+          {"replay", replay_line(directory, scenario)},
           {"real_time_factor", computing_s > 0 ? simulated_s / computing_s : 0.0},
           {"heat", std::move(heat)},
           {"cells", {{"keys", std::move(grid_keys)}, {"values", axes.cells}}},

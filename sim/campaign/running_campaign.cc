@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 CampaignIdentity identity_of(const Scenario& scenario, const CampaignOptions& options) {
-  return {to_yaml(scenario), build_info().name(), options.models, options.truth};
+  return {to_yaml(scenario), build_info().name(), options.models, options.plugin, options.truth};
 }
 
 // Numbers of the shard's throws.

@@ -7,6 +7,7 @@ namespace dodgesim {
 
 inline constexpr const char* kPaperPilot = "falanga2020";
 inline constexpr const char* kOwnPilot = "dodgesim";
+inline constexpr const char* kPluginPilot = "plugin";
 
 // Whether the pilot sees with the cameras; the others are told of objects, or of nothing.
 inline bool perceives(const std::string& pilot) { return pilot != "oracle" && pilot != "none"; }

@@ -13,6 +13,7 @@
 #include "dodge/presets.h"
 #include "sim/bridge/delay_spec.h"
 #include "sim/bridge/oracle_spec.h"
+#include "sim/bridge/plugin.h"
 #include "sim/config/distribution.h"
 #include "sim/config/parameter_docs.h"
 #include "sim/config/pilot.h"
@@ -165,6 +166,7 @@ struct Scenario {
   VariedKeys grid;
   VariedKeys sweep;
   std::string pilot = kPaperPilot;
+  std::string plugin_parameters;
   bool fly_oracle = true;
   std::string room = "room";
   std::string vehicle = "qav_rxl";
@@ -184,6 +186,7 @@ struct Scenario {
 
   // Not part of the file:
   std::string models_dir;                     // folder of rooms, vehicles and objects
+  Plugin plugin;                              // of the pilot plugin; empty: none was given
   std::map<std::string, std::string> places;  // "file:line:column" of the keys that were given
 
   // One for each throw or group of throws of a flight, whichever key they stand under.
@@ -213,11 +216,13 @@ struct Scenario {
       "Sequential stopping, with an interval that stays valid; without this key all throws are "
       "flown.");
     const std::string before = dodger_preset(pilot);
-    v("pilot", pilot, {kPaperPilot, kOwnPilot, "oracle", "none"},
+    v("pilot", pilot, {kPaperPilot, kOwnPilot, "oracle", "none", kPluginPilot},
       "Who flies: the paper's dodger, the same with what improves it (as a value of sweep "
-      "it takes the place of all keys of dodger), one that is told the true obstacle, or one that "
-      "never dodges.");
+      "it takes the place of all keys of dodger), one that is told the true obstacle, one that "
+      "never dodges, or your own, from the library that --plugin names.");
     if (dodger_preset(pilot) != before) dodger = dodge::preset(dodger_preset(pilot));
+    v.text("plugin_parameters", plugin_parameters,
+           "What the pilot plugin makes of this text is its own affair.");
     v("fly_oracle", fly_oracle,
       "Fly every throw with the pilot oracle too, which bounds what perception can cost.");
     v.model("room", room, "rooms", "The world around the vehicle.");

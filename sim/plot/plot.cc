@@ -4,9 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
+
+#include "sim/files/png.h"
 
 namespace dodgesim {
 
@@ -238,9 +239,8 @@ cv::Mat3b draw(const Plot& plot) {
 }
 
 std::string png_of(const Plot& plot) {
-  std::vector<unsigned char> png;
-  cv::imencode(".png", draw(plot), png);
-  return {png.begin(), png.end()};
+  const cv::Mat3b picture = draw(plot);
+  return png_of(picture.data, picture.cols, picture.rows, PngPixels::kBgr);
 }
 
 }  // namespace dodgesim

@@ -13,6 +13,7 @@ bool evades_the_room(const std::string& pilot, int seed, int flight, const std::
                                    {{"pilot", pilot, ""},
                                     {"seed", std::to_string(seed), ""},
                                     {"repeats", "100", ""},
+                                    {"duration_s", "4", ""},
                                     {"dodger", dodger, ""}});
   return fly_throw(s, flight).evaded;
 }

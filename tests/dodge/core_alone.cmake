@@ -1,7 +1,8 @@
 # No truth leaks: the flight core includes nothing from the simulator and nothing beyond Eigen and
-# OpenCV's core, and a copy of it configures and builds by itself.
-# cmake -D SOURCE_DIR=<repository> [-D BUILD=ON -D WORK_DIR=<scratch> -D GENERATOR=Ninja]
-#       -P core_alone.cmake
+# OpenCV's core, and a copy of it configures and builds by itself, as part of the example of a
+# plug-in, which dodgesim loads.
+# cmake -D SOURCE_DIR=<repository> [-D BUILD=ON -D WORK_DIR=<scratch> -D GENERATOR=Ninja
+#       -D DODGESIM=<program>] -P core_alone.cmake
 file(GLOB_RECURSE files ${SOURCE_DIR}/dodge/*.h ${SOURCE_DIR}/dodge/*.cc)
 if(NOT files)
   message(FATAL_ERROR "There are no sources in ${SOURCE_DIR}/dodge.")
@@ -21,8 +22,9 @@ endforeach()
 if(BUILD)
   file(REMOVE_RECURSE ${WORK_DIR})
   file(COPY ${SOURCE_DIR}/dodge DESTINATION ${WORK_DIR})
-  set(configure -S ${WORK_DIR}/dodge -B ${WORK_DIR}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Debug
+  set(configure -S ${WORK_DIR}/dodge/example -B ${WORK_DIR}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Debug
                 -DCMAKE_CXX_FLAGS_DEBUG=-O0  # without -g: built to see whether it builds
+                -DCMAKE_UNITY_BUILD=ON
                 -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
   foreach(step "${configure}"
                "--build;${WORK_DIR}/build;--parallel;2")
@@ -32,7 +34,10 @@ if(BUILD)
       message(FATAL_ERROR "The flight core does not build alone:\n${output}")
     endif()
   endforeach()
-  if(NOT EXISTS ${WORK_DIR}/build/libdodge.a)
-    message(FATAL_ERROR "The flight core built no library.")
+  execute_process(COMMAND ${DODGESIM} validate ${SOURCE_DIR}/scenarios/demo.yaml --set pilot=plugin
+                          --plugin ${WORK_DIR}/build/libmy_pilot.so
+                  RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(failed)
+    message(FATAL_ERROR "The example of a plug-in makes no pilot:\n${output}")
   endif()
 endif()

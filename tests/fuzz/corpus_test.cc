@@ -47,7 +47,7 @@ std::vector<Input> corpus(const std::string& target, Found found) {
     const bool is_found = entry.path().filename().string().size() == kDigits;
     if (!is_found || found == Found::kTaken) inputs.push_back(contents(entry.path()));
   }
-  const CampaignIdentity identity = {"seed: 1\n", "0.1.0", "12ab", false};
+  const CampaignIdentity identity = {"seed: 1\n", "0.1.0", "12ab", "34cd", false};
   ThrowResult result;
   result.index = 7;
   result.flown.error = "none";

@@ -31,7 +31,7 @@ std::string framed(std::string_view bytes) {
 std::string front() {
   const std::filesystem::path path = std::filesystem::temp_directory_path() /
                                      ("dodgesim_fuzz_journal_" + std::to_string(::getpid()));
-  { const Journal journal(path, CampaignIdentity{"seed: 1\n", "0.1.0", "12ab", false}); }
+  { const Journal journal(path, CampaignIdentity{"seed: 1\n", "0.1.0", "12ab", "34cd", false}); }
   std::ostringstream bytes;
   bytes << std::ifstream(path, std::ios::binary).rdbuf();
   std::filesystem::remove(path);

@@ -84,6 +84,7 @@ void append_settings(const RepeatOptions& options, std::vector<Setting>& setting
 
 PlannedCampaign plan_campaign(const Scenario& scenario, CampaignOptions options) {
   options.models = digest_of_models(scenario);
+  options.plugin = scenario.plugin.digest;
   options.stop = asked_to_stop;
   options.show_progress = ::isatty(STDERR_FILENO) == 1;
   options.gl_renderer = renderer_name;

@@ -71,6 +71,17 @@ void add_models_option(CLI::App& command, std::string& models_dir) {
       ->type_name("DIR");
 }
 
+void add_plugin_option(CLI::App& command, std::string& file) {
+  command.add_option("--plugin", file, "Shared library of the pilot plugin (dodge/plugin.h)")
+      ->check(not_empty())
+      ->type_name("FILE.so");
+}
+
+Scenario with_plugin(Scenario scenario, const std::string& file) {
+  if (!file.empty()) scenario.plugin = read_plugin(file);
+  return scenario;
+}
+
 void add_set_option(CLI::App& command, std::vector<std::string>& set) {
   command
       .add_option("--set", set,

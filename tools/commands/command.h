@@ -39,6 +39,12 @@ void add_paper_command(CLI::App& program, const std::string& command_line, int& 
 // Adds --models: where rooms, vehicles and objects are.
 void add_models_option(CLI::App& command, std::string& models_dir);
 
+// Adds --plugin: the library of the pilot plugin.
+void add_plugin_option(CLI::App& command, std::string& file);
+
+// The scenario with that library; an empty name: without one. Throws IoError.
+Scenario with_plugin(Scenario scenario, const std::string& file);
+
 // Adds --set: keys of the scenario given on the command line, as KEY=VALUE.
 void add_set_option(CLI::App& command, std::vector<std::string>& set);
 

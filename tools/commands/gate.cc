@@ -19,6 +19,7 @@
 #include "sim/config/scenario_changes.h"
 #include "sim/files/output_file.h"
 #include "sim/try_models.h"
+#include "sim/try_plugin.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -31,6 +32,7 @@ namespace fs = std::filesystem;
 struct GateArguments {
   std::string scenario;
   std::string models_dir;
+  std::string plugin;
   std::vector<std::string> set;
   fs::path baseline;
   fs::path junit;
@@ -206,8 +208,9 @@ fs::path junit_path(const GateArguments& arguments) {
 }
 
 int gate(const GateArguments& arguments) {
-  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir,
-                                          parse_settings("--set", arguments.set));
+  const Scenario scenario = with_plugin(load_scenario(arguments.scenario, arguments.models_dir,
+                                                      parse_settings("--set", arguments.set)),
+                                        arguments.plugin);
   expect_gateable(scenario, arguments);
   if (!arguments.junit.empty()) {
     expect_writable("--junit", arguments.junit, fs::absolute(arguments.junit).parent_path());
@@ -220,6 +223,7 @@ int gate(const GateArguments& arguments) {
   if (!arguments.update) expect_same_throws(scenario, *baseline, arguments.baseline);
 
   try_models({scenario});
+  try_plugin(scenario);
   const CampaignSummary summary = fly_campaign(scenario, arguments.options);
   if (!summary.complete()) return report_stop(summary, arguments.options);
   if (arguments.update) return update(arguments, rules, summary);
@@ -260,6 +264,7 @@ void add_options(CLI::App& command, GateArguments& arguments) {
   command.add_option("--junit", arguments.junit, "The verdict as JUnit XML [DIR/junit.xml]")
       ->type_name("FILE");
   add_models_option(command, arguments.models_dir);
+  add_plugin_option(command, arguments.plugin);
 }
 
 }  // namespace

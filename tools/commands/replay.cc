@@ -21,6 +21,7 @@
 #include "sim/mcap_recorder.h"
 #include "sim/poster.h"
 #include "sim/try_models.h"
+#include "sim/try_plugin.h"
 #include "tools/commands/command.h"
 #include "tools/commands/stop_signal.h"
 
@@ -31,6 +32,7 @@ namespace {
 struct ReplayArguments {
   std::string directory;
   std::string models_dir;
+  std::string plugin;
   int throw_index = 0;
   std::string video;    // empty: none
   double slow = 10;     // of the video
@@ -105,14 +107,15 @@ class EventRecorder : public FlightObserver {
   std::size_t count_ = 0;
 };
 
-// With other models it would be another throw.
+// With other models or another plug-in it would be another throw.
 void expect_models(const Scenario& campaign, const std::string& directory,
                    const JournalIndex& index) {
   CampaignIdentity now = index.identity;
   now.models = digest_of_models(campaign);
+  now.plugin = campaign.plugin.digest;
   if (now == index.identity) return;
   throw ScenarioError(directory + " holds results " + difference(index.identity, now) +
-                      "; --models says where those are that it was flown with.");
+                      "; --models and --plugin say where those are that it was flown with.");
 }
 
 // The row of throws.csv of this throw, from the journal, which also a campaign under way has.
@@ -226,14 +229,15 @@ void expect_cameras(const Scenario& scenario, const ReplayArguments& arguments) 
 
 int replay(const ReplayArguments& arguments) {
   const std::string& directory = arguments.directory;
-  const Scenario campaign =
-      load_scenario(directory + "/scenario.resolved.yaml", arguments.models_dir);
+  const Scenario campaign = with_plugin(
+      load_scenario(directory + "/scenario.resolved.yaml", arguments.models_dir), arguments.plugin);
   if (arguments.throw_index >= throw_count(campaign)) {
     throw ScenarioError(directory + " has no throw " + std::to_string(arguments.throw_index) + ".");
   }
   const JournalIndex index = read_journal(std::filesystem::path(directory) / kJournalFile);
   expect_models(campaign, directory, index);
   try_models({campaign});
+  try_plugin(campaign);
   const Scenario scenario = case_of(campaign, arguments.throw_index).scenario;
   expect_cameras(scenario, arguments);
   const std::string recorded = recorded_row(directory, index, arguments.throw_index);
@@ -303,6 +307,7 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->check(CLI::IsMember({"top", "bottom"}))
       ->capture_default_str();
   add_models_option(*command, arguments->models_dir);
+  add_plugin_option(*command, arguments->plugin);
   command->footer(
       "Exit code 1 if the throw did not fly as recorded, bit for bit.\n\n"
       "Examples:\n"

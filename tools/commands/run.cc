@@ -12,6 +12,7 @@
 #include "sim/campaign/report.h"
 #include "sim/campaign/text_table.h"
 #include "sim/try_models.h"
+#include "sim/try_plugin.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -24,6 +25,7 @@ namespace {
 struct RunArguments {
   std::string scenario;
   std::string models_dir;
+  std::string plugin;
   CampaignOptions options;
   RepeatOptions repeat;
   std::vector<std::string> set;
@@ -75,7 +77,8 @@ std::vector<Setting> settings_of(const RunArguments& arguments) {
 
 int run(const RunArguments& arguments) {
   const Scenario scenario =
-      load_scenario(arguments.scenario, arguments.models_dir, settings_of(arguments));
+      with_plugin(load_scenario(arguments.scenario, arguments.models_dir, settings_of(arguments)),
+                  arguments.plugin);
 
   CampaignOptions options = arguments.options;
   if (!arguments.shard.empty()) {
@@ -83,6 +86,7 @@ int run(const RunArguments& arguments) {
         parse_shard(arguments.shard, [](const char* name) { return std::getenv(name); });
   }
   try_models({scenario});
+  try_plugin(scenario);
   const CampaignSummary summary = fly_campaign(scenario, options);
   if (!summary.complete()) return report_stop(summary, options);
   std::cout << summary.table;
@@ -128,6 +132,7 @@ CLI::App* add_campaign_command(CLI::App& program, const std::string& name, const
                     "Also write truth.csv: of the events that the pilot takes for an obstacle's,\n"
                     "how many an object made, and of those that it made, how many are found");
   add_models_option(*command, arguments->models_dir);
+  add_plugin_option(*command, arguments->plugin);
   return command;
 }
 

@@ -5,6 +5,7 @@
 #include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
 #include "sim/try_models.h"
+#include "sim/try_plugin.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -14,14 +15,17 @@ namespace {
 struct ValidateArguments {
   std::string scenario;
   std::string models_dir;
+  std::string plugin;
   bool resolved = false;
   std::vector<std::string> set;
 };
 
 void validate(const ValidateArguments& arguments) {
-  const Scenario scenario = load_scenario(arguments.scenario, arguments.models_dir,
-                                          parse_settings("--set", arguments.set));
+  const Scenario scenario = with_plugin(load_scenario(arguments.scenario, arguments.models_dir,
+                                                      parse_settings("--set", arguments.set)),
+                                        arguments.plugin);
   try_models({scenario});
+  try_plugin(scenario);
   if (arguments.resolved) {
     std::cout << to_yaml(scenario);
     return;
@@ -50,6 +54,7 @@ void add_validate_command(CLI::App& program, int& exit_code) {
                     "Print the scenario with every value spelled out");
   add_set_option(*command, arguments->set);
   add_models_option(*command, arguments->models_dir);
+  add_plugin_option(*command, arguments->plugin);
   command->callback([arguments, &exit_code] {
     validate(*arguments);
     exit_code = kOk;

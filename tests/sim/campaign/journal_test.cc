@@ -29,7 +29,7 @@ class JournalTest : public CampaignTest {
   void put(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
 
   fs::path path_ = root_ / "results.bin";
-  CampaignIdentity identity_ = {"seed: 1\n", "0.1.0 abc", "12ab", false};
+  CampaignIdentity identity_ = {"seed: 1\n", "0.1.0 abc", "12ab", "34cd", false};
   std::vector<std::uintmax_t> ends_;  // of the records
 };
 

@@ -106,9 +106,11 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:1:20: mission.start_m is a list of 2, but must be [x, y, z]"},
     {"ListForName", "name: [a]\n", "bad.yaml:1:7: name is a list of 1, but must be text."},
     {"UnknownPilot", "pilot: falanga\n",
-     "bad.yaml:1:8: pilot is \"falanga\", but must be falanga2020, dodgesim, oracle or none."},
+     "bad.yaml:1:8: pilot is \"falanga\", but must be falanga2020, dodgesim, oracle, none or "
+     "plugin."},
     {"MisspelledPilot", "pilot: orcale\n",
-     "bad.yaml:1:8: pilot is \"orcale\", but must be falanga2020, dodgesim, oracle or none (did "
+     "bad.yaml:1:8: pilot is \"orcale\", but must be falanga2020, dodgesim, oracle, none or plugin "
+     "(did "
      "you mean "
      "oracle?)."},
     {"TagOnNumber", "after_s: !int 1\n", "bad.yaml:1:10: after_s is !int"},

@@ -149,8 +149,9 @@ TEST(Explain, FindsAKeyByItsPathOrItsLastPart) {
   EXPECT_THAT(explain(docs, "throw"), ::testing::HasSubstr("throw.launch_s\n"));
   EXPECT_THAT(explain(docs, "height_monitor"),
               ::testing::HasSubstr("dodger.height_monitor.persist_us\n"));
-  EXPECT_THAT(explain(docs, "pilot"),
-              ::testing::HasSubstr("falanga2020, dodgesim, oracle or none; default falanga2020"));
+  EXPECT_THAT(
+      explain(docs, "pilot"),
+      ::testing::HasSubstr("falanga2020, dodgesim, oracle, none or plugin; default falanga2020"));
 }
 
 TEST(Explain, SuggestsTheKeyThatWasMeant) {

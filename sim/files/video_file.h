@@ -1,0 +1,37 @@
+// Videos for people.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <string>
+
+namespace dodgesim {
+
+// MPEG-4 with H.264, which browsers open, written by the program ffmpeg: a library that can do so
+// would load 200 others at every start of dodgesim.
+class VideoFile {
+ public:
+  // Throws IoError if the file cannot be opened for writing or there is no ffmpeg.
+  VideoFile(const std::string& path, int width, int height, double pictures_per_s);
+  ~VideoFile();  // removes the file unless it was closed
+  VideoFile(const VideoFile&) = delete;
+  VideoFile& operator=(const VideoFile&) = delete;
+
+  // One more picture: rows of BGR from the top, without gaps. Throws IoError.
+  void write(const std::uint8_t* pixels);
+
+  // Throws IoError if the file does not hold every picture.
+  void close();
+
+ private:
+  bool end();  // whether ffmpeg was content
+
+  std::string path_;
+  std::size_t picture_size_;  // [bytes]
+  int pipe_ = -1;             // to ffmpeg
+  pid_t ffmpeg_ = -1;
+  bool whole_ = false;
+};
+
+}  // namespace dodgesim

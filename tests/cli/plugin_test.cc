@@ -1,0 +1,71 @@
+// Campaigns that a user's own pilot flies.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/cli/command_test.h"
+
+namespace dodgesim::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+class PluginTest : public CommandTest {
+ protected:
+  PluginTest() { write("s.yaml", "pilot: plugin\nduration_s: 0.1\nrepeats: 2\n"); }
+
+  static std::string library(const std::string& name) {
+    return DODGESIM_BINARY_DIR "/tests/plugins/lib" + name + ".so";
+  }
+  Outcome run(const std::string& options) const {
+    return dodgesim("run " + path("s.yaml") + " --out " + path("out") + " " + options);
+  }
+};
+
+TEST_F(PluginTest, FliesACampaignThatCanBeReplayed) {
+  const std::string plugin = " --plugin " + library("obedient");
+  const Outcome flown = run(plugin);
+  EXPECT_EQ(flown.exit_code, 0) << flown.output;
+  EXPECT_THAT(contents("out/table.md"), HasSubstr("plugin"));
+  const std::string replay = "replay " + path("out") + " --throw 1 --mcap " + path("1.mcap");
+  const Outcome again = dodgesim(replay + plugin);
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  const Outcome with_another = dodgesim(replay + " --plugin " + library("wrapped_dodger"));
+  EXPECT_EQ(with_another.exit_code, 2);
+  EXPECT_THAT(with_another.output, HasSubstr("of another plug-in"));
+}
+
+TEST_F(PluginTest, AnotherLibraryIsAnotherCampaign) {
+  ASSERT_EQ(run("--plugin " + library("obedient")).exit_code, 0);
+  const Outcome another = run("--resume --plugin " + library("wrapped_dodger"));
+  EXPECT_EQ(another.exit_code, 2);
+  EXPECT_THAT(another.output, HasSubstr("of another plug-in"));
+}
+
+TEST_F(PluginTest, ThatThrowsAnExceptionCostsTheThrow) {
+  const Outcome outcome = run("--set plugin_parameters=fail --plugin " + library("obedient"));
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.output, HasSubstr("2 throws could not be flown"));
+  EXPECT_THAT(outcome.output, HasSubstr("Throw 0: I have lost my way."));
+}
+
+TEST_F(PluginTest, IsRefusedBeforeTheFirstThrow) {
+  const struct {
+    std::string options, sentence;
+  } refused[] = {
+      {"", "s.yaml:1:8: pilot is plugin, but no library is given: add --plugin FILE.so."},
+      {"--set pilot=none --plugin " + library("obedient"), "--set pilot=plugin makes it fly"},
+      {"--set plugin_parameters=crash --plugin " + library("obedient"), "crashes while it makes"},
+      {"--set plugin_parameters=refuse --plugin " + library("obedient"),
+       "libobedient.so made no pilot: I take no such parameters."},
+      {"--plugin " + library("without_a_pilot"), "has no dodge_plugin_interface()"}};
+  for (const auto& [options, sentence] : refused) {
+    const Outcome outcome = run(options);
+    EXPECT_EQ(outcome.exit_code, 2) << options;
+    EXPECT_THAT(outcome.output, HasSubstr(sentence));
+    EXPECT_FALSE(std::filesystem::exists(path("out"))) << options;
+  }
+  EXPECT_EQ(run("--plugin missing.so").exit_code, 4);
+}
+
+}  // namespace
+}  // namespace dodgesim::testing
