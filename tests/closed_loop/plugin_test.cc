@@ -7,9 +7,10 @@
 namespace dodgesim {
 namespace {
 
-Scenario flown_by(const std::string& library, const std::string& keys) {
+Scenario flown_by_plugin(const std::string& parameters, const std::string& keys) {
   Scenario flown = scenario("seed: 11\npilot: plugin\nfly_oracle: false\n" + keys);
-  flown.plugin = read_plugin(DODGESIM_BINARY_DIR "/tests/plugins/lib" + library + ".so");
+  flown.plugin = read_plugin(DODGESIM_BINARY_DIR "/tests/plugins/libobedient.so");
+  flown.plugin_parameters = parameters;
   return flown;
 }
 
@@ -17,7 +18,7 @@ TEST(PilotPlugin, ThatIsThePapersFliesAsThePapers) {
   const std::string keys =
       "throw: {distance_m: 3, speed_mps: 7, launch_s: 0.3, size_m: 0.3}\nafter_s: 0.1\n"
       "sensors: {events: {preset: sees1}}\n";
-  const Scenario plugged = flown_by("wrapped_dodger", keys);
+  const Scenario plugged = flown_by_plugin("dodger", keys);
   Scenario built_in = plugged;
   built_in.pilot = kPaperPilot;
   ThrowResult theirs = fly_throw(plugged, 0), ours = fly_throw(built_in, 0);
@@ -28,7 +29,7 @@ TEST(PilotPlugin, ThatIsThePapersFliesAsThePapers) {
 }
 
 TEST(PilotPlugin, GivesTheCommandsThatTheVehicleFollows) {
-  Scenario flown = flown_by("obedient", "duration_s: 0.6\n");
+  Scenario flown = flown_by_plugin("", "duration_s: 0.6\n");
   FlightPlan plan = plan_throw(flown, 0);
   plan.pilot = flown.pilot;
   EXPECT_GT(fly(flown, plan).last.vehicle.p_W.y(), 0.3);

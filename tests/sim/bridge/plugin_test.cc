@@ -41,7 +41,7 @@ TEST(Plugin, MakesAPilotForEachFlight) {
 TEST(Plugin, IsHandedTheConfigurationAndItsParameters) {
   dodge::Config config;
   config.position.depth = "stereo";  // without cameras, which the pilot itself refuses
-  EXPECT_THROW(make_pilot(read_plugin(library("wrapped_dodger")), config, ""),
+  EXPECT_THROW(make_pilot(read_plugin(library("obedient")), config, "dodger"),
                std::invalid_argument);
   EXPECT_THAT([] { pilot_of(library("obedient"), "refuse"); },
               ThrowsMessage<std::invalid_argument>("I take no such parameters."));
@@ -74,7 +74,7 @@ TEST(Plugin, ThatIsNoLibraryOrMissingIsRefused) {
 TEST(Plugin, ThatHasChangedIsRefused) {
   const testing::TemporaryDirectory directory;
   const fs::path file = directory / "mine.so";
-  fs::copy_file(library("wrapped_dodger"), file);
+  fs::copy_file(library("obedient"), file);
   std::ofstream(file, std::ios::app) << "unlike any that has been loaded";
   const Plugin before = read_plugin(file.string());
   EXPECT_EQ(read_plugin(file.string()).digest, before.digest);

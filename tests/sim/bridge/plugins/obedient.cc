@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "dodge/dodger.h"
 #include "dodge/plugin.h"
 
 namespace {
@@ -26,10 +27,11 @@ class Leftward : public dodge::Pilot {
   bool fails_;
 };
 
-std::unique_ptr<dodge::Pilot> make(const dodge::Config&, const std::string& parameters) {
+std::unique_ptr<dodge::Pilot> make(const dodge::Config& config, const std::string& parameters) {
   if (parameters == "nothing") return nullptr;
   if (parameters == "refuse") throw std::invalid_argument("I take no such parameters.");
   if (parameters == "crash") std::abort();
+  if (parameters == "dodger") return std::make_unique<dodge::Dodger>(config);
   return std::make_unique<Leftward>(parameters == "fail");
 }
 
