@@ -21,6 +21,10 @@ class TimedEmulation {
   // EventCamera::update(), timed.
   void update(TimeUs t_us, const std::vector<float>& luminance, std::vector<Event>& out);
 
+  // The same for what is seen between two pictures, which is no picture of its own: its time counts
+  // to that of the next.
+  void update_between(TimeUs t_us, const std::vector<float>& luminance, std::vector<Event>& out);
+
   std::int64_t frames() const { return frames_; }
   std::int64_t events() const { return events_; }
   double emulation_s() const { return emulation_s_; }

@@ -11,6 +11,7 @@
 #include "sim/bench/timed_emulation.h"
 #include "sim/campaign/progress.h"
 #include "sim/config/event_camera_file.h"
+#include "sim/events/light_between.h"
 #include "sim/files/event_writer.h"
 #include "sim/files/staged_file.h"
 #include "sim/files/video.h"
@@ -48,8 +49,9 @@ EVENTS:
 t of .npy and .txt is of the clock of T.npy. The recording ends with the last frame: what latency
 or the readout would stamp later is not in it. The file appears when it is whole.
 
-Frames have up to 4096 rows and columns, and are at most 1073 s apart. Memory holds one of them
-and the events up to the next, however long the video is. The speeds printed are of the
+Frames have up to 4096 rows and columns, and are at most 1073 s apart. A camera with leak or noise
+sees at least a picture every 50 ms, along the straight line of L between two frames. Memory holds
+the frames and the events up to the next picture, however long the video is. The speeds printed are of the
 emulation alone, beside cv::log of the same frames in the same run, on one thread; with --causes
 none are printed.
 
@@ -72,33 +74,65 @@ struct Counts {
   std::int64_t off = 0;
 };
 
-// Emulates the whole video, and writes the causes of its events or else measures in `timed` how
-// long it takes.
-Counts emulate(Video& video, EventCamera& camera, bool causes, TimedEmulation& timed,
-               EventWriter& writer) {
-  Counts counts;
-  Progress progress(video.frame_count(), ::isatty(STDERR_FILENO) == 1, "frames");
-  TimeUs t_us = 0;
-  std::vector<float> luminance;
-  video.next(t_us, luminance);
-  const std::vector<Cause> shown(luminance.size(), kCauseScene);
-  camera.reset(t_us, {luminance.data(), shown.data()});
-  std::vector<Event> events;
-  std::int64_t frames = 0;
-  while (video.next(t_us, luminance)) {
+// What is done with a video: its events go to the file, with their causes or else with the time
+// that they take.
+class Emulation {
+ public:
+  Emulation(EventCamera& camera, bool causes, TimedEmulation& timed, EventWriter& writer)
+      : camera_(camera), causes_(causes), timed_(timed), writer_(writer) {}
+
+  void begin(TimeUs t_us, const std::vector<float>& luminance) {
+    shown_.assign(luminance.size(), kCauseScene);
+    camera_.reset(t_us, {luminance.data(), shown_.data()});
+  }
+
+  // `between`: two frames, and no frame itself.
+  void show(TimeUs t_us, const std::vector<float>& luminance, bool between) {
     if (asked_to_stop()) throw std::runtime_error("The emulation was stopped; nothing is written.");
-    events.clear();
-    if (causes) {
-      camera.update(t_us, {luminance.data(), shown.data()}, events);
+    events_.clear();
+    if (causes_) {
+      camera_.update(t_us, {luminance.data(), shown_.data()}, events_);
+    } else if (between) {
+      timed_.update_between(t_us, luminance, events_);
     } else {
-      timed.update(t_us, luminance, events);
+      timed_.update(t_us, luminance, events_);
     }
-    for (const Event& event : events) ++(event.polarity > 0 ? counts.on : counts.off);
-    writer.add(events, camera.causes());
+    for (const Event& event : events_) ++(event.polarity > 0 ? counts_.on : counts_.off);
+    writer_.add(events_, camera_.causes());
+  }
+
+  const Counts& counts() const { return counts_; }
+
+ private:
+  EventCamera& camera_;
+  bool causes_;
+  TimedEmulation& timed_;
+  EventWriter& writer_;
+  std::vector<Cause> shown_;
+  std::vector<Event> events_;
+  Counts counts_;
+};
+
+void emulate(Video& video, const LightBetween& light, Emulation& emulation) {
+  Progress progress(video.frame_count(), ::isatty(STDERR_FILENO) == 1, "frames");
+  TimeUs before_us = 0, t_us = 0;
+  std::vector<float> before, luminance, between;
+  video.next(t_us, luminance);
+  emulation.begin(t_us, luminance);
+  std::int64_t frames = 0;
+  for (;;) {
+    std::swap(before, luminance);
+    before_us = t_us;
+    if (!video.next(t_us, luminance)) break;
+    const std::int64_t steps = light.steps(t_us - before_us);
+    for (std::int64_t k = 1; k < steps; ++k) {
+      light.at(static_cast<double>(k) / static_cast<double>(steps), before, luminance, between);
+      emulation.show(before_us + (t_us - before_us) * k / steps, between, true);
+    }
+    emulation.show(t_us, luminance, false);
     progress.show(++frames);
   }
   progress.finish();
-  return counts;
 }
 
 void report(const Video& video, const EventCamera& camera, const Counts& counts,
@@ -137,7 +171,7 @@ void refuse_same_file(const std::string& out, const std::string& input) {
 
 void emulate(const EmulateArguments& arguments) {
   watch_stop_signals();
-  // All events between two frames are held at once: rather say that they are too many than be
+  // All events between two pictures are held at once: rather say that they are too many than be
   // killed.
   limit_memory(physical_memory_mb());
   const EventCameraSpec spec = named_event_camera(arguments.camera);
@@ -150,9 +184,10 @@ void emulate(const EmulateArguments& arguments) {
   EventCamera camera(spec, video.width(), video.height(), arguments.seed, arguments.clip, "emulate",
                      arguments.causes);
   TimedEmulation timed(camera, spec.log_epsilon);
-  const Counts counts = emulate(video, camera, arguments.causes, timed, *writer);
+  Emulation emulation(camera, arguments.causes, timed, *writer);
+  emulate(video, LightBetween(spec), emulation);
   writer->finish();
-  report(video, camera, counts, timed);
+  report(video, camera, emulation.counts(), timed);
 }
 
 }  // namespace
