@@ -8,8 +8,10 @@
 
 namespace dodge {
 
-// Every flight has a pilot of its own, whose members one thread calls. The simulator records a
-// flight in which one throws an exception as failed, with the exception's text.
+// Every flight has a pilot of its own, whose members one thread calls. Whoever does the same at the
+// same inputs, without clocks, std::random_device, threads that race and what an earlier flight has
+// left in statics, makes campaigns that can be resumed, merged and replayed. The simulator records
+// a flight in which one throws an exception as failed, with the exception's text.
 class Pilot {
  public:
   virtual ~Pilot() = default;

@@ -16,13 +16,15 @@ namespace dodge {
 // is thrown as a std::exception with a sentence.
 using MakePilot = std::unique_ptr<Pilot>(const Config& config, const std::string& parameters);
 
-// Differs between a library and a simulator that were compiled with different headers of dodge/.
+// Differs between a library and a simulator that were compiled with different headers of dodge/, or
+// with options that change how these classes lie in memory (-march=native).
 inline constexpr std::uint64_t kPluginInterface = [] {
   std::uint64_t number = 1;  // raise it when classes change and no size does
   for (const std::size_t size :
        {sizeof(Config), sizeof(CameraModel), sizeof(Event), sizeof(ImuSample), sizeof(RangeReading),
         sizeof(StateEstimate), sizeof(Goal), sizeof(VelocityCommand), sizeof(Detection),
-        sizeof(Obstacle), sizeof(std::string)}) {
+        sizeof(Obstacle), sizeof(std::string), alignof(Config), alignof(StateEstimate),
+        alignof(Detection)}) {
     number = number * 1009 + size;
   }
   return number;
@@ -31,9 +33,11 @@ inline constexpr std::uint64_t kPluginInterface = [] {
 }  // namespace dodge
 
 // Stands once in the library, outside of namespaces; `make` is a dodge::MakePilot.
-#define DODGE_PLUGIN(make)                                                              \
-  extern "C" std::uint64_t dodge_plugin_interface() { return dodge::kPluginInterface; } \
-  extern "C" dodge::Pilot* dodge_plugin_pilot(const dodge::Config& config,              \
-                                              const std::string& parameters) {          \
-    return std::unique_ptr<dodge::Pilot>(make(config, parameters)).release();           \
+#define DODGE_PLUGIN(make)                                                                   \
+  extern "C" __attribute__((visibility("default"))) std::uint64_t dodge_plugin_interface() { \
+    return dodge::kPluginInterface;                                                          \
+  }                                                                                          \
+  extern "C" __attribute__((visibility("default"))) dodge::Pilot* dodge_plugin_pilot(        \
+      const dodge::Config& config, const std::string& parameters) {                          \
+    return std::unique_ptr<dodge::Pilot>(make(config, parameters)).release();                \
   }

@@ -51,7 +51,7 @@ Film::Film(const std::string& path, const Intrinsics& intrinsics, double slow)
       picture_(kSceneHeight,
                kSceneWidth + intrinsics.width * (kSceneHeight / 2) / intrinsics.height, kBlack),
       // Exactly `slow` times slower, whatever became of the interval in whole ticks.
-      video_(partial_, picture_.cols, picture_.rows,
+      video_(partial_, path_, picture_.cols, picture_.rows,
              1e6 / (slow * static_cast<double>(picture_every_us_))) {
   // One by one: copies would share their pixels.
   for (int i = 0; i < 2; ++i) eyes_.emplace_back(intrinsics.width, intrinsics.height);
@@ -159,7 +159,7 @@ void StageFilm::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
   if (!bottom.empty()) cv::vconcat(picture, bottom, picture);
   char name[40];
   std::snprintf(name, sizeof name, "/stages_%09lld_us.png", static_cast<long long>(now_us));
-  write_file(directory_ + name, png_of(picture.data, picture.cols, picture.rows, PngPixels::kBgr));
+  write_file(directory_ + name, png_of(picture));
   ++pictures_;
 }
 

@@ -139,7 +139,7 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
 std::unique_ptr<dodge::Pilot> Flight::make_seeing_pilot() const {
   const dodge::Config config = core_config(scenario_, world_.vehicle());
   if (plan_.pilot != kPluginPilot) return std::make_unique<dodge::Dodger>(config);
-  return dodgesim::make_pilot(scenario_.plugin, config, scenario_.plugin_parameters);
+  return make_plugin_pilot(scenario_.plugin, config, scenario_.plugin_parameters);
 }
 
 std::unique_ptr<EventRig> Flight::make_rig() const {

@@ -236,8 +236,7 @@ void McapRecorder::write_images(TimeUs t_us) {
     cv::Mat1b grey;
     cv::cvtColor(eyes_[i].image(), grey, cv::COLOR_BGR2GRAY);
     write(camera_topic(i, "events"), t_us,
-          foxglove::compressed_image(t_us, camera_frame(i),
-                                     png_of(grey.data, grey.cols, grey.rows, PngPixels::kGrey)));
+          foxglove::compressed_image(t_us, camera_frame(i), png_of(grey)));
     eyes_[i].clear();
   }
 }

@@ -103,7 +103,7 @@ void Poster::save(const std::string& path) const {
     cv::resize(strip, strip, {scene_.cols, strip.rows * scene_.cols / strip.cols});
     cv::vconcat(scene_, strip, picture);
   }
-  write_file(path, png_of(picture.data, picture.cols, picture.rows, PngPixels::kBgr));
+  write_file(path, png_of(picture));
 }
 
 }  // namespace dodgesim

@@ -5,6 +5,7 @@
 #include "sim/base/child_process.h"
 #include "sim/base/error.h"
 #include "sim/config/expand.h"
+#include "sim/config/writer.h"
 #include "sim/flight.h"
 
 namespace dodgesim {
@@ -13,7 +14,18 @@ namespace {
 
 constexpr int kWallMs = 30000;
 
-// The throws' scenarios that it flies, one for each text of its parameters.
+// All that the pilot is made from.
+std::string what_it_is_given(Scenario scenario) {
+  Writer writer;
+  writer.text("", scenario.plugin_parameters, "");
+  writer.text("", scenario.vehicle, "");
+  scenario.vehicle_overrides.visit(writer);
+  scenario.sensors.camera.visit(writer);
+  scenario.dodger.visit(writer);
+  return writer.yaml();
+}
+
+// The throws' scenarios that it flies, one for each that gives it something else.
 std::map<std::string, Scenario> flown_by_plugin(const Scenario& campaign) {
   std::map<std::string, Scenario> flown;
   const int throws_of_a_value = cell_count(campaign) * campaign.repeats;
@@ -21,8 +33,7 @@ std::map<std::string, Scenario> flown_by_plugin(const Scenario& campaign) {
     for (int cell = 0; cell < cell_count(campaign); ++cell) {
       Scenario scenario = case_of(campaign, sweep * throws_of_a_value + cell).scenario;
       if (scenario.pilot != kPluginPilot) continue;
-      const std::string parameters = scenario.plugin_parameters;
-      flown.try_emplace(parameters, std::move(scenario));
+      flown.try_emplace(what_it_is_given(scenario), scenario);
     }
   }
   return flown;
@@ -32,11 +43,10 @@ std::map<std::string, Scenario> flown_by_plugin(const Scenario& campaign) {
 std::string complaint_about(const Scenario& scenario) {
   try {
     const World world(world_spec(scenario, {}));
-    make_pilot(scenario.plugin, core_config(scenario, world.vehicle()), scenario.plugin_parameters);
-  } catch (const SimulationError& error) {
-    return error.what();
+    make_plugin_pilot(scenario.plugin, core_config(scenario, world.vehicle()),
+                      scenario.plugin_parameters);
   } catch (const std::exception& error) {
-    return "The plug-in " + scenario.plugin.file + " made no pilot: " + error.what();
+    return error.what();
   }
   return "";
 }
@@ -50,25 +60,26 @@ void try_making(const Scenario& scenario) {
     throw ScenarioError(subject + " takes longer than " + std::to_string(kWallMs / 1000) +
                         " s to make a pilot.");
   }
-  if (answer.said.empty()) throw ScenarioError(subject + " crashes while it makes a pilot.");
+  if (answer.said.empty()) {
+    throw ScenarioError(subject + " crashes while it makes a pilot or deletes it again.");
+  }
   if (answer.said.size() > 1) throw ScenarioError(answer.said.substr(1));
 }
 
 }  // namespace
 
 void try_plugin(const Scenario& campaign) {
-  const std::map<std::string, Scenario> flown = flown_by_plugin(campaign);
   const std::string& file = campaign.plugin.file;
-  if (flown.empty() && !file.empty()) {
+  if (!flies_plugin(campaign) && !file.empty()) {
     throw ScenarioError("--plugin " + file + ": The scenario flies other pilots; --set pilot=" +
                         kPluginPilot + " makes it fly this one.");
   }
-  if (!flown.empty() && file.empty()) {
+  if (flies_plugin(campaign) && file.empty()) {
     const auto at = campaign.places.find("pilot");
     throw ScenarioError((at == campaign.places.end() ? "" : at->second + ": ") + "pilot is " +
                         kPluginPilot + ", but no library is given: add --plugin FILE.so.");
   }
-  for (const auto& [parameters, scenario] : flown) try_making(scenario);
+  for (const auto& [given, scenario] : flown_by_plugin(campaign)) try_making(scenario);
 }
 
 }  // namespace dodgesim

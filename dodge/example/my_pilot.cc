@@ -2,7 +2,7 @@
 // camera's image suddenly has many more events than usual, it steps aside. Its plugin_parameters
 // are a number: how many times as many, 3 when the text is empty.
 #include <algorithm>
-#include <cstdio>
+#include <cstdlib>
 #include <deque>
 #include <stdexcept>
 #include <vector>
@@ -95,9 +95,11 @@ class Sidestepper : public dodge::Pilot {
 
 std::unique_ptr<dodge::Pilot> make_sidestepper(const dodge::Config& config,
                                                const std::string& parameters) {
-  double alarm_ratio = 3;
-  if (!parameters.empty() && std::sscanf(parameters.c_str(), "%lf", &alarm_ratio) != 1) {
-    throw std::invalid_argument("plugin_parameters is \"" + parameters + "\", but not a number.");
+  char* end = nullptr;
+  const double alarm_ratio = parameters.empty() ? 3 : std::strtod(parameters.c_str(), &end);
+  if (!(alarm_ratio >= 1) || (end != nullptr && *end != '\0')) {
+    throw std::invalid_argument("plugin_parameters is \"" + parameters +
+                                "\", but must be a number of at least 1.");
   }
   return std::make_unique<Sidestepper>(config.cameras.at(0), alarm_ratio);
 }

@@ -35,8 +35,9 @@ bool write_all(int fd, std::string_view text) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  const int nowhere = ::open("/dev/null", O_WRONLY);  // allocators and sanitizers print their own
-  if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+  // Allocators and sanitizers print their own, and whatever code of users the task runs.
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  for (const int printed : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, printed);
   ::_exit(write_all(fd, task()) ? 0 : 1);
 }
 

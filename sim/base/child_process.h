@@ -12,7 +12,7 @@ struct ChildAnswer {
 };
 
 // Runs `task` in a forked process, and listens for at most `wall_ms`; then the process is killed.
-// Its standard error goes nowhere, and it dies with its parent. An exception that leaves `task`
+// What it prints goes nowhere, and it dies with its parent. An exception that leaves `task`
 // ends it like a crash. Throws SimulationError if no process can be made.
 ChildAnswer ask_child(const std::function<std::string()>& task, int wall_ms);
 

@@ -1,6 +1,8 @@
 #include "sim/bridge/plugin.h"
 
 #include <dlfcn.h>
+#include <sys/mman.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 #include <array>
@@ -10,10 +12,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
-#include <sstream>
+#include <new>
 
 #include "sim/base/error.h"
+#include "sim/bridge/guarded_pilot.h"
 
 namespace dodgesim {
 
@@ -37,11 +41,7 @@ Function* function_of(void* library, const char* name, const Plugin& plugin) {
 }
 
 PilotFunction* load(const Plugin& plugin) {
-  if (read_plugin(plugin.file).digest != plugin.digest) {
-    refuse(plugin, "has changed since the campaign began.");
-  }
-  // A name without a slash would be looked for among the libraries of the system.
-  const std::string path = std::filesystem::absolute(plugin.file).string();
+  const std::string path = "/proc/self/fd/" + std::to_string(plugin.copy);
   void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     refuse(plugin, std::string("cannot be loaded: ") + ::dlerror() + ".");
@@ -49,34 +49,72 @@ PilotFunction* load(const Plugin& plugin) {
   if (function_of<InterfaceFunction>(library, "dodge_plugin_interface", plugin)() !=
       dodge::kPluginInterface) {
     refuse(plugin,
-           "was compiled with headers of dodge/ other than the simulator's: compile it anew.");
+           "was compiled with other headers of dodge/ than the simulator, or with options that "
+           "change their classes, such as -march=native: compile it anew.");
   }
   return function_of<PilotFunction>(library, "dodge_plugin_pilot", plugin);
+}
+
+// The functions of the libraries that this process has loaded, by their digest.
+PilotFunction* loaded(const Plugin& plugin) {
+  static std::map<std::string, PilotFunction*> functions;  // no thread but one makes pilots
+  PilotFunction*& function = functions[plugin.digest];
+  if (function == nullptr) function = load(plugin);
+  return function;
+}
+
+std::string bytes_of(const std::string& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
+    throw IoError("The plug-in " + file + " could not be read: it is no regular file.");
+  }
+  std::ifstream in(file, std::ios::binary);
+  const std::string reason = std::strerror(errno);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (!in.is_open() || in.bad()) {
+    throw IoError("The plug-in " + file + " could not be read: " + reason + ".");
+  }
+  return bytes;
+}
+
+// So that the library may be compiled anew while a campaign flies what it was.
+int copy_in_memory(const std::string& bytes, const std::string& file) {
+  const int copy = ::memfd_create("plugin", 0);
+  for (std::size_t written = 0; copy >= 0 && written < bytes.size();) {
+    const ssize_t n = ::write(copy, bytes.data() + written, bytes.size() - written);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) throw IoError("The plug-in " + file + " does not fit into the memory.");
+    written += static_cast<std::size_t>(n);
+  }
+  if (copy < 0) throw IoError("The plug-in " + file + ": " + std::strerror(errno) + ".");
+  return copy;
 }
 
 }  // namespace
 
 Plugin read_plugin(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream bytes;
-  if (in) bytes << in.rdbuf();
-  if (!in || !bytes) {
-    throw IoError("The plug-in " + file + " could not be read: " + std::strerror(errno) + ".");
-  }
-  const std::string text = bytes.str();
+  const std::string bytes = bytes_of(file);
   std::array<char, 17> digest{};
-  std::snprintf(digest.data(), digest.size(), "%016" PRIx64, XXH64(text.data(), text.size(), 0));
-  return {file, digest.data()};
+  std::snprintf(digest.data(), digest.size(), "%016" PRIx64, XXH64(bytes.data(), bytes.size(), 0));
+  return {file, digest.data(), copy_in_memory(bytes, file)};
 }
 
-std::unique_ptr<dodge::Pilot> make_pilot(const Plugin& plugin, const dodge::Config& config,
-                                         const std::string& parameters) {
-  static std::map<std::string, PilotFunction*> loaded;  // by digest; a process flies in one thread
-  PilotFunction*& make = loaded[plugin.digest];
-  if (make == nullptr) make = load(plugin);
-  std::unique_ptr<dodge::Pilot> pilot(make(config, parameters));
-  if (!pilot) refuse(plugin, "made no pilot.");
-  return pilot;
+std::unique_ptr<dodge::Pilot> make_plugin_pilot(const Plugin& plugin, const dodge::Config& config,
+                                                const std::string& parameters) {
+  if (plugin.file.empty()) throw SimulationError("The pilot is plugin, but no library is given.");
+  PilotFunction* const make = loaded(plugin);
+  std::unique_ptr<dodge::Pilot> pilot;
+  try {
+    pilot.reset(make(config, parameters));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    refuse(plugin, "makes no pilot: " + sentence_of(error));
+  } catch (...) {
+    refuse(plugin, "makes no pilot: it threw what is no std::exception.");
+  }
+  if (!pilot) refuse(plugin, "makes no pilot.");
+  return std::make_unique<GuardedPilot>(std::move(pilot));
 }
 
 }  // namespace dodgesim

@@ -8,19 +8,20 @@
 
 namespace dodgesim {
 
-// The library of a campaign; without one, both are empty.
+// The library of a campaign, as its file was when it was read; without one, all are empty.
 struct Plugin {
   std::string file;
-  std::string digest;  // hexadecimal digits, of the file's bytes
+  std::string digest;  // hexadecimal digits, of the bytes
+  int copy = -1;       // descriptor of a copy in memory, which this process and its children have
 };
 
 // Throws IoError if the file cannot be read.
 Plugin read_plugin(const std::string& file);
 
-// A pilot for one flight. The library stays loaded until the process ends. Throws SimulationError
-// if it is no longer the one that was read, cannot be loaded, was compiled with other headers, or
-// makes no pilot; what it throws itself leaves as it is.
-std::unique_ptr<dodge::Pilot> make_pilot(const Plugin& plugin, const dodge::Config& config,
-                                         const std::string& parameters);
+// A pilot for one flight, guarded (guarded_pilot.h). The library stays loaded until the process
+// ends. Throws SimulationError if it cannot be loaded, was compiled with other headers, or makes no
+// pilot.
+std::unique_ptr<dodge::Pilot> make_plugin_pilot(const Plugin& plugin, const dodge::Config& config,
+                                                const std::string& parameters);
 
 }  // namespace dodgesim

@@ -218,7 +218,9 @@ Json section_of(const Part& part, const ReportAxes& axes) {
 std::string replay_line(const std::string& directory, const Scenario& scenario) {
   std::string line = "dodgesim replay " + shell_quoted(directory);
   if (!scenario.models_dir.empty()) line += " --models " + shell_quoted(scenario.models_dir);
-  if (!scenario.plugin.file.empty()) line += " --plugin " + shell_quoted(scenario.plugin.file);
+  const std::string& plugin = scenario.plugin.file;
+  if (flies_plugin(scenario))
+    line += " --plugin " + (plugin.empty() ? "FILE.so" : shell_quoted(plugin));
   return line + " --throw ";
 }
 

@@ -111,6 +111,7 @@ void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
   // Ctrl-C goes to the whole terminal, a batch system's signal to the whole job: the campaign
   // decides what becomes of its workers.
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_IGN);
+  ::dup2(STDERR_FILENO, STDOUT_FILENO);  // the tables are alone on standard output
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != campaign) ::_exit(1);  // it has ended already
   if (limits.memory_mb > 0) limit_memory(limits.memory_mb);

@@ -1,5 +1,6 @@
 #include "sim/config/expand.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "sim/config/layers.h"
@@ -90,6 +91,15 @@ std::string label(const std::vector<AxisValue>& values) {
     text += (text.empty() ? "" : ", ") + value.key + " " + value.value;
   }
   return text;
+}
+
+bool flies_plugin(const Scenario& scenario) {
+  for (const VariedKey& axis : scenario.sweep) {
+    if (axis.key != "pilot") continue;
+    return std::any_of(axis.values.begin(), axis.values.end(),
+                       [](const YamlNode& value) { return value.text == kPluginPilot; });
+  }
+  return scenario.pilot == kPluginPilot;
 }
 
 std::string pilots_of(const Scenario& scenario) {

@@ -35,6 +35,9 @@ ThrowCase case_of(const Scenario& scenario, int t);
 // "delays.compute_us 3500, pilot oracle"; empty without values.
 std::string label(const std::vector<AxisValue>& values);
 
+// Whether one of the pilots is plugin.
+bool flies_plugin(const Scenario& scenario);
+
 // "pilot falanga2020", or "pilots none, oracle" of a sweep over them.
 std::string pilots_of(const Scenario& scenario);
 

@@ -217,12 +217,13 @@ struct Scenario {
       "flown.");
     const std::string before = dodger_preset(pilot);
     v("pilot", pilot, {kPaperPilot, kOwnPilot, "oracle", "none", kPluginPilot},
-      "Who flies: the paper's dodger, the same with what improves it (as a value of sweep "
-      "it takes the place of all keys of dodger), one that is told the true obstacle, one that "
-      "never dodges, or your own, from the library that --plugin names.");
+      "Who flies. falanga2020: the paper's dodger; dodgesim: the same with what improves it (as a "
+      "value of sweep it takes the place of all keys of dodger); oracle: one that is told the true "
+      "obstacle; none: one that never dodges; plugin: your own, from the library that the option "
+      "--plugin names, with falanga2020's defaults of dodger.");
     if (dodger_preset(pilot) != before) dodger = dodge::preset(dodger_preset(pilot));
     v.text("plugin_parameters", plugin_parameters,
-           "What the pilot plugin makes of this text is its own affair.");
+           "Text that is handed to the pilot plugin as it is.");
     v("fly_oracle", fly_oracle,
       "Fly every throw with the pilot oracle too, which bounds what perception can cost.");
     v.model("room", room, "rooms", "The world around the vehicle.");

@@ -1,15 +1,13 @@
-// Pictures for people.
+// PNG files: pictures of throws, plots, the events in a recording.
 #pragma once
 
-#include <cstdint>
+#include <opencv2/core.hpp>
 #include <string>
 
 namespace dodgesim {
 
-enum class PngPixels { kGrey, kBgr };
-
-// The bytes of a PNG file of 8 bits a channel. `pixels`: rows from the top, without gaps. Throws
-// IoError if libpng makes none.
-std::string png_of(const std::uint8_t* pixels, int width, int height, PngPixels format);
+// The bytes of the file. Throws IoError for a picture that is not of type CV_8UC1 (grey) or
+// CV_8UC3 (BGR) or has no pixels.
+std::string png_of(const cv::Mat& picture);
 
 }  // namespace dodgesim

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <cstdio>
 #include <string>
 
 namespace dodgesim {
@@ -12,8 +13,10 @@ namespace dodgesim {
 // would load 200 others at every start of dodgesim.
 class VideoFile {
  public:
-  // Throws IoError if the file cannot be opened for writing or there is no ffmpeg.
-  VideoFile(const std::string& path, int width, int height, double pictures_per_s);
+  // `name` is what messages call it. Throws IoError if the file cannot be opened for writing or
+  // there is no ffmpeg.
+  VideoFile(const std::string& path, std::string name, int width, int height,
+            double pictures_per_s);
   ~VideoFile();  // removes the file unless it was closed
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
@@ -26,10 +29,14 @@ class VideoFile {
 
  private:
   bool end();  // whether ffmpeg was content
+  void begin(int width, int height, double pictures_per_s);
+  [[noreturn]] void fail();
+  void discard();
 
-  std::string path_;
-  std::size_t picture_size_;  // [bytes]
-  int pipe_ = -1;             // to ffmpeg
+  std::string path_, name_;
+  std::size_t picture_size_;   // [bytes]
+  std::FILE* said_ = nullptr;  // by ffmpeg
+  int pipe_ = -1;              // to ffmpeg
   pid_t ffmpeg_ = -1;
   bool whole_ = false;
 };

@@ -238,9 +238,6 @@ cv::Mat3b draw(const Plot& plot) {
   return image;
 }
 
-std::string png_of(const Plot& plot) {
-  const cv::Mat3b picture = draw(plot);
-  return png_of(picture.data, picture.cols, picture.rows, PngPixels::kBgr);
-}
+std::string png_of(const Plot& plot) { return png_of(draw(plot)); }
 
 }  // namespace dodgesim

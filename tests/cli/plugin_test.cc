@@ -8,6 +8,7 @@ namespace dodgesim::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class PluginTest : public CommandTest {
  protected:
@@ -47,11 +48,50 @@ TEST_F(PluginTest, AnotherLibraryIsAnotherCampaign) {
   EXPECT_THAT(resumed.output, HasSubstr("of another plug-in"));
 }
 
-TEST_F(PluginTest, ThatThrowsAnExceptionCostsTheThrow) {
-  const Outcome outcome = run("--set plugin_parameters=fail --plugin " + library("obedient"));
+TEST_F(PluginTest, ThatFailsCostsTheFlightAndCanBeReplayed) {
+  const std::string plugin = " --plugin " + library("obedient");
+  write("s.yaml", "pilot: plugin\nrepeats: 1\nthrow: {launch_s: 0.1, distance_m: 2}\n");
+  const Outcome outcome = run("--set plugin_parameters=throw" + plugin);
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_THAT(outcome.output, HasSubstr("2 throws could not be flown"));
-  EXPECT_THAT(outcome.output, HasSubstr("Throw 0: I have lost my way."));
+  EXPECT_THAT(outcome.output, HasSubstr("1 throw could not be flown"));
+  EXPECT_THAT(outcome.output, HasSubstr("Throw 0: The pilot failed: I have lost my way, and"));
+  EXPECT_THAT(contents("out/table.md"), HasSubstr("1 / 1"));  // none was hit
+  const Outcome again = dodgesim("replay " + path("out") + " --throw 0" + plugin);
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.output, HasSubstr("flew as recorded"));
+}
+
+TEST_F(PluginTest, ThatDiesCostsTheThrowAndCanBeWatched) {
+  const std::string plugin = " --plugin " + library("obedient");
+  EXPECT_EQ(run("--set plugin_parameters=die" + plugin).exit_code, 3);
+  EXPECT_THAT(contents("out/table.md"), HasSubstr("killed by signal 6"));
+  const Outcome again = dodgesim("replay " + path("out") + " --throw 0" + plugin);
+  EXPECT_THAT(again.output, HasSubstr("there is nothing to compare with"));
+  EXPECT_NE(again.exit_code, 0);
+}
+
+TEST_F(PluginTest, DoesNotPrintAmongTheTables) {
+  const std::string plugin = " --plugin " + library("obedient");
+  const std::string print = "--set plugin_parameters=print" + plugin;
+  const Outcome quiet = shell("( " DODGESIM_BINARY_DIR "/dodgesim run " + path("s.yaml") +
+                              " --out " + path("out") + " " + print + " 2>/dev/null )");
+  EXPECT_EQ(quiet.exit_code, 0) << quiet.output;
+  EXPECT_THAT(quiet.output, ::testing::StartsWith("# s\n"));
+  EXPECT_THAT(quiet.output, Not(HasSubstr("Here I am.")));
+  const Outcome resolved = dodgesim("validate --resolved " + path("s.yaml") + " " + print);
+  EXPECT_THAT(resolved.output, Not(HasSubstr("I am made.")));
+}
+
+TEST_F(PluginTest, IsNeededForItsOwnThrowsOnly) {
+  write("s.yaml", "duration_s: 0.1\nsweep: {pilot: [none, plugin]}\n");
+  const std::string plugin = " --plugin " + library("obedient");
+  ASSERT_EQ(run(plugin).exit_code, 0);
+  const std::string replay = "replay " + path("out") + " --throw ";
+  EXPECT_EQ(dodgesim(replay + "0").exit_code, 0);
+  const Outcome without = dodgesim(replay + "1");
+  EXPECT_EQ(without.exit_code, 2);
+  EXPECT_THAT(without.output, HasSubstr("add --plugin FILE.so"));
+  EXPECT_EQ(dodgesim(replay + "1" + plugin).exit_code, 0);
 }
 
 TEST_F(PluginTest, IsRefusedBeforeTheFirstThrow) {
@@ -60,9 +100,10 @@ TEST_F(PluginTest, IsRefusedBeforeTheFirstThrow) {
   } refused[] = {
       {"", "s.yaml:1:8: pilot is plugin, but no library is given: add --plugin FILE.so."},
       {"--set pilot=none --plugin " + library("obedient"), "--set pilot=plugin makes it fly"},
-      {"--set plugin_parameters=crash --plugin " + library("obedient"), "crashes while it makes"},
+      {"--set 'plugin_parameters=die at once' --plugin " + library("obedient"),
+       "crashes while it makes"},
       {"--set plugin_parameters=refuse --plugin " + library("obedient"),
-       "libobedient.so made no pilot: I take no such parameters."},
+       "libobedient.so makes no pilot: I take no such parameters."},
       {"--plugin " + library("without_a_pilot"), "has no dodge_plugin_interface()"}};
   for (const auto& [options, sentence] : refused) {
     const Outcome outcome = run(options);

@@ -18,7 +18,7 @@ TEST(PilotPlugin, ThatIsThePapersFliesAsThePapers) {
   const std::string keys =
       "throw: {distance_m: 3, speed_mps: 7, launch_s: 0.3, size_m: 0.3}\nafter_s: 0.1\n"
       "sensors: {events: {preset: sees1}}\n";
-  const Scenario plugged = flown_by_plugin("dodger", keys);
+  const Scenario plugged = flown_by_plugin("be the dodger", keys);
   Scenario built_in = plugged;
   built_in.pilot = kPaperPilot;
   ThrowResult theirs = fly_throw(plugged, 0), ours = fly_throw(built_in, 0);

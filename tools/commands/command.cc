@@ -72,7 +72,9 @@ void add_models_option(CLI::App& command, std::string& models_dir) {
 }
 
 void add_plugin_option(CLI::App& command, std::string& file) {
-  command.add_option("--plugin", file, "Shared library of the pilot plugin (dodge/plugin.h)")
+  command
+      .add_option("--plugin", file,
+                  "Your pilot's shared library (dodge/plugin.h), for pilot: plugin")
       ->check(not_empty())
       ->type_name("FILE.so");
 }

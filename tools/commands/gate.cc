@@ -92,15 +92,18 @@ void expect_same_throws(const Scenario& scenario, const Baseline& baseline, cons
 }
 
 void list_changes(const std::string& heading, const std::vector<ChangedThrow>& changes,
-                  const fs::path& out, std::ostream& text) {
+                  const GateArguments& arguments, std::ostream& text) {
   if (changes.empty()) return;
   constexpr std::size_t kMost = 10;
+  const std::string plugin =
+      arguments.plugin.empty() ? "" : " --plugin " + shell_quoted(arguments.plugin);
   text << heading << ":\n";
   for (std::size_t i = 0; i < std::min(changes.size(), kMost); ++i) {
     const ChangedThrow& change = changes[i];
     text << "  throw " << change.number << " (" << change.label << "): " << change.before
-         << ", now " << change.after << "\n    dodgesim replay " << shell_quoted(out.string())
-         << " --throw " << change.number << " --picture throw" << change.number << ".png\n";
+         << ", now " << change.after << "\n    dodgesim replay "
+         << shell_quoted(arguments.options.out.string()) << plugin << " --throw " << change.number
+         << " --picture throw" << change.number << ".png\n";
   }
   if (changes.size() <= kMost) return;
   text << "  and throws";
@@ -119,8 +122,8 @@ std::string verdict_text(const GateArguments& arguments, const Scenario& scenari
   text << comparison_text(verdict.comparison,
                           arguments.baseline.string() + " (commit " + baseline.commit + ")",
                           arguments.options.out.string());
-  list_changes("Lost", verdict.comparison.lost, arguments.options.out, text);
-  list_changes("Gained", verdict.comparison.gained, arguments.options.out, text);
+  list_changes("Lost", verdict.comparison.lost, arguments, text);
+  list_changes("Gained", verdict.comparison.gained, arguments, text);
   for (const GateCheck& check : verdict.checks) {
     const char* result = check.result == GateCheck::Result::kPassed   ? "passed"
                          : check.result == GateCheck::Result::kFailed ? "FAILED"

@@ -114,6 +114,9 @@ int paper(const PaperArguments& arguments) {
   scenarios.reserve(flights.size());
   for (const PaperFlight& flight : flights) {
     scenarios.push_back(scenario_of(flight, arguments.models_dir));
+    if (!flies_plugin(scenarios.back())) continue;
+    throw ScenarioError(
+        "pilot is plugin, but the paper's tables are of its pilot, of dodgesim and of oracle.");
   }
 
   protect_measured(arguments, experiments);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -107,32 +108,31 @@ class EventRecorder : public FlightObserver {
   std::size_t count_ = 0;
 };
 
-// With other models or another plug-in it would be another throw.
-void expect_models(const Scenario& campaign, const std::string& directory,
+// With other models or, if one flies it, another plug-in it would be another throw.
+void expect_models(const Scenario& campaign, const std::string& pilot, const std::string& directory,
                    const JournalIndex& index) {
   CampaignIdentity now = index.identity;
   now.models = digest_of_models(campaign);
-  now.plugin = campaign.plugin.digest;
+  if (pilot == kPluginPilot) now.plugin = campaign.plugin.digest;
   if (now == index.identity) return;
   throw ScenarioError(directory + " holds results " + difference(index.identity, now) +
                       "; --models and --plugin say where those are that it was flown with.");
 }
 
-// The row of throws.csv of this throw, from the journal, which also a campaign under way has.
-std::string recorded_row(const std::filesystem::path& directory, const JournalIndex& index,
-                         int throw_index) {
+// The row of throws.csv of this throw, from the journal, which also a campaign under way has;
+// nothing if its worker died, as it may again.
+std::optional<std::string> recorded_row(const std::filesystem::path& directory,
+                                        const JournalIndex& index, int throw_index) {
   const auto record = index.throws.find(throw_index);
   if (record == index.throws.end()) {
     throw ScenarioError(directory.string() + " has no result of throw " +
                         std::to_string(throw_index) + ".");
   }
   const ThrowResult result = read_result(directory / kJournalFile, record->second);
-  if (result.lost()) {
-    throw ScenarioError("Throw " + std::to_string(throw_index) +
-                        " was lost, there is nothing to compare with: " + result.flown.error +
-                        " run --resume flies it again.");
-  }
-  return csv_row(result);
+  if (!result.lost()) return csv_row(result);
+  std::cerr << "Throw " << throw_index
+            << " was lost, there is nothing to compare with: " << result.flown.error << "\n";
+  return std::nullopt;
 }
 
 std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
@@ -235,12 +235,12 @@ int replay(const ReplayArguments& arguments) {
     throw ScenarioError(directory + " has no throw " + std::to_string(arguments.throw_index) + ".");
   }
   const JournalIndex index = read_journal(std::filesystem::path(directory) / kJournalFile);
-  expect_models(campaign, directory, index);
-  try_models({campaign});
-  try_plugin(campaign);
   const Scenario scenario = case_of(campaign, arguments.throw_index).scenario;
+  expect_models(campaign, scenario.pilot, directory, index);
+  try_models({campaign});
+  if (scenario.pilot == kPluginPilot) try_plugin(scenario);
   expect_cameras(scenario, arguments);
-  const std::string recorded = recorded_row(directory, index, arguments.throw_index);
+  const std::optional<std::string> recorded = recorded_row(directory, index, arguments.throw_index);
 
   watch_stop_signals();
   Onlookers onlookers(scenario, arguments);
@@ -250,13 +250,15 @@ int replay(const ReplayArguments& arguments) {
   }
   const bool shown = onlookers.finish(result);
   const std::string flown = csv_row(result);
+  if (!recorded) return kIncomplete;
   if (flown == recorded) {
     std::cout << "Throw " << arguments.throw_index << " flew as recorded, bit for bit.\n";
     return shown ? kOk : kIncomplete;
   }
   std::cerr << "Throw " << arguments.throw_index
-            << " did not fly as recorded: was it another commit or another kind of machine?\n"
-            << "recorded: " << recorded << "flown:    " << flown;
+            << " did not fly as recorded: was it another commit or another kind of machine, or "
+               "does its pilot not do the same twice?\n"
+            << "recorded: " << *recorded << "flown:    " << flown;
   return kBelowBar;
 }
 

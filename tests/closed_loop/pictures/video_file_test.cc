@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/videoio.hpp>
 
 #include "sim/base/error.h"
@@ -14,6 +15,7 @@ namespace dodgesim {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::HasSubstr;
 
 class VideoFileTest : public ::testing::Test {
  protected:
@@ -26,7 +28,7 @@ class VideoFileTest : public ::testing::Test {
 TEST_F(VideoFileTest, ShowsThePicturesInTheirColours) {
   cv::Mat3b picture(47, 61, cv::Vec3b(200, 30, 30));
   picture.colRange(31, 61).setTo(cv::Vec3b(30, 30, 200));
-  VideoFile video(path(), picture.cols, picture.rows, 12.5);
+  VideoFile video(path(), "video", picture.cols, picture.rows, 12.5);
   for (int i = 0; i < 5; ++i) video.write(picture.data);
   video.close();
   cv::VideoCapture reader(path(), cv::CAP_FFMPEG);
@@ -43,20 +45,50 @@ TEST_F(VideoFileTest, ShowsThePicturesInTheirColours) {
 }
 
 TEST_F(VideoFileTest, ThatIsNotClosedIsRemoved) {
-  { const VideoFile video(path(), 16, 16, 25); }
+  { const VideoFile video(path(), "video", 16, 16, 25); }
   EXPECT_FALSE(fs::exists(path()));
 }
 
 TEST_F(VideoFileTest, WithoutAPlaceIsAnIoError) {
-  EXPECT_THROW(VideoFile((directory_ / "no" / "video.mp4").string(), 16, 16, 25), IoError);
+  EXPECT_THROW(VideoFile((directory_ / "no" / "video.mp4").string(), "video", 16, 16, 25), IoError);
 }
 
+// Only these programs are there.
+class Programs {
+ public:
+  explicit Programs(const std::string& folder) : before_(std::getenv("PATH")) {
+    ::setenv("PATH", folder.c_str(), 1);
+  }
+  ~Programs() { ::setenv("PATH", before_.c_str(), 1); }
+  Programs(const Programs&) = delete;
+  Programs& operator=(const Programs&) = delete;
+
+ private:
+  std::string before_;
+};
+
 TEST_F(VideoFileTest, NeedsFfmpeg) {
-  const std::string programs = std::getenv("PATH");
-  ::setenv("PATH", directory_.path().c_str(), 1);
-  EXPECT_THAT([this] { VideoFile(path(), 16, 16, 25); },
-              ::testing::ThrowsMessage<IoError>(::testing::HasSubstr("the program ffmpeg")));
-  ::setenv("PATH", programs.c_str(), 1);
+  const Programs none(directory_.path().string());
+  EXPECT_THAT([this] { VideoFile(path(), "film", 16, 16, 25); },
+              ::testing::ThrowsMessage<IoError>(::testing::AllOf(
+                  HasSubstr("The video film"), HasSubstr("the program ffmpeg is needed"))));
+  EXPECT_FALSE(fs::exists(path()));
+}
+
+TEST_F(VideoFileTest, SaysWhatFfmpegSays) {
+  std::ofstream(directory_ / "ffmpeg")
+      << "#!/bin/sh\necho first >&2\necho no such codec >&2\nexit 1\n";
+  fs::permissions(directory_ / "ffmpeg", fs::perms::owner_all);
+  const Programs broken(directory_.path().string());
+  const std::vector<std::uint8_t> picture(3 * 16 * 16);
+  VideoFile video(path(), "film", 16, 16, 25);
+  EXPECT_THAT(
+      [&] {
+        for (;;) video.write(picture.data());
+      },
+      ::testing::ThrowsMessage<IoError>(
+          "The video film could not be written by ffmpeg: no such codec."));
+  EXPECT_THROW(video.close(), IoError);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "dodge/dodger.h"
 #include "sim/base/error.h"
 #include "tests/sim/files/temporary_directory.h"
 
@@ -22,11 +23,15 @@ std::string library(const std::string& name) {
 }
 
 std::unique_ptr<dodge::Pilot> pilot_of(const std::string& file, const std::string& parameters) {
-  return make_pilot(read_plugin(file), dodge::Config(), parameters);
+  return make_plugin_pilot(read_plugin(file), dodge::Config(), parameters);
+}
+
+std::unique_ptr<dodge::Pilot> told_to(const std::string& parameters) {
+  return pilot_of(library("obedient"), parameters);
 }
 
 TEST(Plugin, MakesAPilot) {
-  const auto pilot = pilot_of(library("obedient"), "");
+  const auto pilot = told_to("");
   const dodge::VelocityCommand command = pilot->update(7);
   EXPECT_EQ(command.t_us, 7);
   EXPECT_EQ(command.v_W.y(), 2);
@@ -34,22 +39,36 @@ TEST(Plugin, MakesAPilot) {
 }
 
 TEST(Plugin, MakesAPilotForEachFlight) {
-  const auto first = pilot_of(library("obedient"), ""), second = pilot_of(library("obedient"), "");
+  const auto first = told_to(""), second = told_to("");
   EXPECT_NE(first.get(), second.get());
 }
 
 TEST(Plugin, IsHandedTheConfigurationAndItsParameters) {
+  EXPECT_THAT([] { told_to("refuse"); },
+              ThrowsMessage<SimulationError>(
+                  AllOf(HasSubstr("libobedient.so makes no pilot: I take no such parameters."))));
+  // Stereo without cameras, which the paper's pilot itself refuses.
+  EXPECT_THAT([] { told_to("be the dodger"); },
+              ThrowsMessage<SimulationError>(HasSubstr("2 camera(s)")));
+}
+
+// Whose private parts may be others than the simulator's.
+TEST(Plugin, IsNoDodgerOfTheSimulators) {
   dodge::Config config;
-  config.position.depth = "stereo";  // without cameras, which the pilot itself refuses
-  EXPECT_THROW(make_pilot(read_plugin(library("obedient")), config, "dodger"),
-               std::invalid_argument);
-  EXPECT_THAT([] { pilot_of(library("obedient"), "refuse"); },
-              ThrowsMessage<std::invalid_argument>("I take no such parameters."));
+  config.position.depth = "mono";
+  config.cameras.resize(1);
+  config.cameras[0].fx = config.cameras[0].fy = 190;
+  config.cameras[0].width = 320;
+  config.cameras[0].height = 240;
+  const auto pilot = make_plugin_pilot(read_plugin(library("obedient")), config, "be the dodger");
+  EXPECT_EQ(dynamic_cast<dodge::Dodger*>(pilot.get()), nullptr);
 }
 
 TEST(Plugin, WithoutAPilotIsRefused) {
-  EXPECT_THAT([] { pilot_of(library("obedient"), "nothing"); },
-              ThrowsMessage<SimulationError>(HasSubstr("libobedient.so made no pilot")));
+  EXPECT_THAT([] { told_to("make nothing"); },
+              ThrowsMessage<SimulationError>(HasSubstr("libobedient.so makes no pilot.")));
+  EXPECT_THAT([] { told_to("refuse with a number"); },
+              ThrowsMessage<SimulationError>(HasSubstr("what is no std::exception")));
   EXPECT_THAT([] { pilot_of(library("without_a_pilot"), ""); },
               ThrowsMessage<SimulationError>(HasSubstr("has no dodge_plugin_interface()")));
 }
@@ -62,16 +81,20 @@ TEST(Plugin, OfOtherHeadersIsRefused) {
 TEST(Plugin, ThatIsNoLibraryOrMissingIsRefused) {
   const testing::TemporaryDirectory directory;
   const std::string file = (directory / "text.so").string();
-  std::ofstream(file) << "no library";
-  EXPECT_THAT([&] { pilot_of(file, ""); }, ThrowsMessage<SimulationError>(AllOf(
-                                               HasSubstr(file), HasSubstr("cannot be loaded"))));
+  for (const std::string content : {"no library", ""}) {
+    std::ofstream(file) << content;
+    EXPECT_THAT([&] { pilot_of(file, ""); }, ThrowsMessage<SimulationError>(AllOf(
+                                                 HasSubstr(file), HasSubstr("cannot be loaded"))));
+  }
   EXPECT_THAT([&] { read_plugin(file + ".missing"); },
               ThrowsMessage<IoError>(AllOf(HasSubstr(file), HasSubstr("No such file"))));
-  EXPECT_THAT([&] { read_plugin(directory / ""); },
-              ThrowsMessage<IoError>(HasSubstr("could not be read")));
+  for (const std::string& no_file : {directory.path().string(), std::string("/dev/zero")}) {
+    EXPECT_THAT([&] { read_plugin(no_file); },
+                ThrowsMessage<IoError>(HasSubstr("it is no regular file")));
+  }
 }
 
-TEST(Plugin, ThatHasChangedIsRefused) {
+TEST(Plugin, StaysWhatItWasWhenItWasRead) {
   const testing::TemporaryDirectory directory;
   const fs::path file = directory / "mine.so";
   fs::copy_file(library("obedient"), file);
@@ -80,8 +103,24 @@ TEST(Plugin, ThatHasChangedIsRefused) {
   EXPECT_EQ(read_plugin(file.string()).digest, before.digest);
   std::ofstream(file, std::ios::app) << "x";
   EXPECT_NE(read_plugin(file.string()).digest, before.digest);
-  EXPECT_THAT([&] { make_pilot(before, dodge::Config(), ""); },
-              ThrowsMessage<SimulationError>(HasSubstr("has changed")));
+  std::ofstream{file} << "no library any more";
+  EXPECT_EQ(make_plugin_pilot(before, dodge::Config(), "")->update(7).t_us, 7);
+}
+
+TEST(GuardedPilot, WhatItThrowsIsOneSentence) {
+  const auto pilot = told_to("throw");
+  EXPECT_THAT([&] { pilot->update(0); },
+              ThrowsMessage<SimulationError>("The pilot failed: I have lost my way, and my map."));
+  EXPECT_THAT([&] { told_to("throw a number")->update(0); },
+              ThrowsMessage<SimulationError>("The pilot threw what is no std::exception."));
+}
+
+TEST(GuardedPilot, CommandsOnlyWhatCanBe) {
+  EXPECT_THAT([&] { told_to("command nothing")->update(310000); },
+              ThrowsMessage<SimulationError>(
+                  "The pilot commanded a velocity that is no number at 0.31 s."));
+  EXPECT_THAT([&] { told_to("foresee")->update(0); },
+              ThrowsMessage<SimulationError>(HasSubstr("an instant of the future")));
 }
 
 }  // namespace

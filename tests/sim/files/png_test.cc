@@ -24,21 +24,36 @@ std::vector<std::uint8_t> rgb_of(const std::string& png, int width, int height) 
 }
 
 TEST(Png, KeepsEveryPixelAndColour) {
-  const std::vector<std::uint8_t> bgr = {1, 2, 3,  4,  5,  6,  255, 0, 7,
-                                         8, 9, 10, 11, 12, 13, 0,   0, 0};
-  const std::vector<std::uint8_t> rgb = rgb_of(png_of(bgr.data(), 3, 2, PngPixels::kBgr), 3, 2);
-  ASSERT_EQ(rgb.size(), bgr.size());
-  for (std::size_t i = 0; i < rgb.size(); ++i) EXPECT_EQ(rgb[i], bgr[i - i % 3 + 2 - i % 3]) << i;
+  cv::Mat3b bgr(2, 3);
+  std::uint8_t value = 0;
+  for (cv::Vec3b& pixel : bgr) pixel = {value++, value++, static_cast<std::uint8_t>(255 - value)};
+  const std::vector<std::uint8_t> rgb = rgb_of(png_of(bgr), 3, 2);
+  for (int i = 0; i < 18; ++i) {
+    EXPECT_EQ(rgb[static_cast<std::size_t>(i)], bgr(i / 9, i / 3 % 3)[2 - i % 3]) << i;
+  }
 }
 
 TEST(Png, OfGreyIsGrey) {
-  const std::vector<std::uint8_t> grey = {0, 100, 255, 3};
-  const std::vector<std::uint8_t> rgb = rgb_of(png_of(grey.data(), 2, 2, PngPixels::kGrey), 2, 2);
-  for (std::size_t i = 0; i < rgb.size(); ++i) EXPECT_EQ(rgb[i], grey[i / 3]) << i;
+  const cv::Mat1b grey = (cv::Mat1b(2, 2) << 0, 100, 255, 3);
+  const std::vector<std::uint8_t> rgb = rgb_of(png_of(grey), 2, 2);
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_EQ(rgb[static_cast<std::size_t>(i)], grey(i / 6, i / 3 % 2)) << i;
+  }
 }
 
-TEST(Png, WithoutPixelsIsRefused) {
-  EXPECT_THROW(png_of(nullptr, 0, 0, PngPixels::kGrey), IoError);
+TEST(Png, OfAPartOfAPictureIsThatPart) {
+  cv::Mat1b whole(4, 5);
+  for (int i = 0; i < 20; ++i) whole(i / 5, i % 5) = static_cast<std::uint8_t>(i);
+  const cv::Mat1b part = whole(cv::Rect(1, 2, 3, 2));
+  const std::vector<std::uint8_t> rgb = rgb_of(png_of(part), 3, 2);
+  for (int i = 0; i < 18; ++i) {
+    EXPECT_EQ(rgb[static_cast<std::size_t>(i)], whole(2 + i / 9, 1 + i / 3 % 3)) << i;
+  }
+}
+
+TEST(Png, WithoutPixelsOrOfAnotherTypeIsRefused) {
+  EXPECT_THROW(png_of(cv::Mat1b()), IoError);
+  EXPECT_THROW(png_of(cv::Mat1f(2, 2, 0.0F)), IoError);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // A plug-in that does what its parameters say.
+#include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <stdexcept>
 
 #include "dodge/dodger.h"
@@ -7,32 +9,40 @@
 
 namespace {
 
-// Flies to its left, whatever comes; or "fails": throws an exception.
+// Flies to its left, whatever comes.
 class Leftward : public dodge::Pilot {
  public:
-  explicit Leftward(bool fails) : fails_(fails) {}
+  explicit Leftward(std::string order) : order_(std::move(order)) {}
 
   void add_events(int, std::span<const dodge::Event>) override {}
   void add_imu(const dodge::ImuSample&) override {}
   void add_state(const dodge::StateEstimate&) override {}
   void set_goal(const dodge::Goal&) override {}
   dodge::VelocityCommand update(dodge::TimeUs now_us) override {
-    if (fails_) throw std::runtime_error("I have lost my way.");
-    return {now_us, Eigen::Vector3d(0, 2, 0), true, false};
+    if (order_ == "throw") throw std::runtime_error("I have lost my way,\nand my map");
+    if (order_ == "throw a number") throw 7;
+    if (order_ == "die") std::abort();
+    if (order_ == "print") std::printf("Here I am.\n"), std::fflush(stdout);
+    dodge::VelocityCommand command{now_us, Eigen::Vector3d(0, 2, 0), true, false};
+    if (order_ == "command nothing") command.v_W.x() = std::numeric_limits<double>::quiet_NaN();
+    if (order_ == "foresee") ++command.t_us;
+    return command;
   }
   std::span<const dodge::Detection> detections() const override { return {}; }
   std::span<const dodge::Obstacle> obstacles() const override { return {}; }
 
  private:
-  bool fails_;
+  std::string order_;
 };
 
 std::unique_ptr<dodge::Pilot> make(const dodge::Config& config, const std::string& parameters) {
-  if (parameters == "nothing") return nullptr;
-  if (parameters == "refuse") throw std::invalid_argument("I take no such parameters.");
-  if (parameters == "crash") std::abort();
-  if (parameters == "dodger") return std::make_unique<dodge::Dodger>(config);
-  return std::make_unique<Leftward>(parameters == "fail");
+  if (parameters == "print") std::puts("I am made.");
+  if (parameters == "make nothing") return nullptr;
+  if (parameters == "refuse") throw std::invalid_argument("I take no such parameters");
+  if (parameters == "refuse with a number") throw 7;
+  if (parameters == "die at once") std::abort();
+  if (parameters == "be the dodger") return std::make_unique<dodge::Dodger>(config);
+  return std::make_unique<Leftward>(parameters);
 }
 
 }  // namespace

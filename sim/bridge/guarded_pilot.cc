@@ -1,0 +1,82 @@
+#include "sim/bridge/guarded_pilot.h"
+
+#include <algorithm>
+#include <new>
+#include <sstream>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+namespace {
+
+template <class Call>
+auto guarded(Call call) -> decltype(call()) {
+  try {
+    return call();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw SimulationError("The pilot failed: " + sentence_of(error));
+  } catch (...) {
+    throw SimulationError("The pilot threw what is no std::exception.");
+  }
+}
+
+[[noreturn]] void refuse(const char* what, dodge::TimeUs now_us) {
+  std::ostringstream message;
+  message << "The pilot " << what << " at " << dodge::seconds(now_us) << " s.";
+  throw SimulationError(message.str());
+}
+
+}  // namespace
+
+std::string sentence_of(const std::exception& error) {
+  std::string text = error.what();
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  if (text.empty()) return "an exception without a text.";
+  return text.back() == '.' ? text : text + ".";
+}
+
+void GuardedPilot::add_events(int camera, std::span<const dodge::Event> events) {
+  guarded([&] { pilot_->add_events(camera, events); });
+}
+
+void GuardedPilot::add_imu(const dodge::ImuSample& sample) {
+  guarded([&] { pilot_->add_imu(sample); });
+}
+
+void GuardedPilot::add_state(const dodge::StateEstimate& state) {
+  guarded([&] { pilot_->add_state(state); });
+}
+
+void GuardedPilot::add_range(const dodge::RangeReading& reading) {
+  guarded([&] { pilot_->add_range(reading); });
+}
+
+void GuardedPilot::set_goal(const dodge::Goal& goal) {
+  guarded([&] { pilot_->set_goal(goal); });
+}
+
+dodge::VelocityCommand GuardedPilot::update(dodge::TimeUs now_us) {
+  const dodge::VelocityCommand command = guarded([&] { return pilot_->update(now_us); });
+  if (!command.v_W.allFinite()) refuse("commanded a velocity that is no number", now_us);
+  if (command.t_us > now_us) refuse("gave a command an instant of the future", now_us);
+  for (const dodge::Detection& detection : detections()) {
+    if (!detection.centre_W.allFinite()) refuse("detected something that is nowhere", now_us);
+    if (detection.t_us > now_us) refuse("gave a detection an instant of the future", now_us);
+  }
+  return command;
+}
+
+std::span<const dodge::Detection> GuardedPilot::detections() const {
+  return guarded([&] { return pilot_->detections(); });
+}
+
+std::span<const dodge::Obstacle> GuardedPilot::obstacles() const {
+  return guarded([&] { return pilot_->obstacles(); });
+}
+
+}  // namespace dodgesim

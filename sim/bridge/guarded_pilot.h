@@ -1,0 +1,35 @@
+// A pilot that the simulator did not make itself.
+#pragma once
+
+#include <exception>
+#include <memory>
+#include <string>
+
+#include "dodge/pilot.h"
+
+namespace dodgesim {
+
+// The exception's text as one line that ends in a full stop.
+std::string sentence_of(const std::exception& error);
+
+// Passes everything on. What the pilot throws, and commands and detections that are no numbers or
+// come from the future, become a SimulationError, which costs the flight; std::bad_alloc leaves as
+// it is.
+class GuardedPilot : public dodge::Pilot {
+ public:
+  explicit GuardedPilot(std::unique_ptr<dodge::Pilot> pilot) : pilot_(std::move(pilot)) {}
+
+  void add_events(int camera, std::span<const dodge::Event> events) override;
+  void add_imu(const dodge::ImuSample& sample) override;
+  void add_state(const dodge::StateEstimate& state) override;
+  void add_range(const dodge::RangeReading& reading) override;
+  void set_goal(const dodge::Goal& goal) override;
+  dodge::VelocityCommand update(dodge::TimeUs now_us) override;
+  std::span<const dodge::Detection> detections() const override;
+  std::span<const dodge::Obstacle> obstacles() const override;
+
+ private:
+  std::unique_ptr<dodge::Pilot> pilot_;
+};
+
+}  // namespace dodgesim
