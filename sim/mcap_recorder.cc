@@ -1,5 +1,6 @@
 #include "sim/mcap_recorder.h"
 
+#include <array>
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -23,7 +24,7 @@ constexpr TimeUs kPathEveryUs = 40000;
 constexpr std::size_t kPathPoints = 200;  // the last four seconds
 
 constexpr double kArrowMPerMps = 0.25;  // length of a velocity's arrow
-const char* const kCameras[] = {"top", "bottom"};
+constexpr std::array<const char*, 2> kCameras = {"top", "bottom"};
 
 const Colour kRoom(0.6, 0.6, 0.6, 0.35), kObject(1.0, 0.45, 0.1, 1), kVehiclePath(0.2, 0.6, 1, 1);
 const Colour kCalm(0.3, 0.8, 0.4, 0.9), kEvading(0.95, 0.2, 0.2, 0.9);
@@ -36,10 +37,10 @@ std::string format(const char* pattern, Values... values) {
   return text;
 }
 
-std::string camera_frame(std::size_t i) { return std::string("camera_") + kCameras[i]; }
+std::string camera_frame(std::size_t i) { return std::string("camera_") + kCameras.at(i); }
 std::string object_frame(std::size_t i) { return "object_" + std::to_string(i); }
 std::string camera_topic(std::size_t i, const std::string& what) {
-  return std::string("/camera/") + kCameras[i] + "/" + what;
+  return std::string("/camera/") + kCameras.at(i) + "/" + what;
 }
 
 // Turns x towards `direction`.

@@ -14,9 +14,9 @@ namespace {
 class Sidestepper : public dodge::Pilot {
  public:
   Sidestepper(const dodge::CameraModel& camera, double alarm_ratio)
-      : columns_(camera.width / kBlockPx + 1),
+      : columns_(static_cast<std::size_t>(camera.width) / kBlockPx + 1),
         alarm_ratio_(alarm_ratio),
-        count_(static_cast<std::size_t>(columns_ * (camera.height / kBlockPx + 1))),
+        count_(columns_ * (static_cast<std::size_t>(camera.height) / kBlockPx + 1)),
         usual_(count_.size()) {}
 
   void add_events(int camera, std::span<const dodge::Event> events) override {
@@ -47,7 +47,7 @@ class Sidestepper : public dodge::Pilot {
   std::span<const dodge::Obstacle> obstacles() const override { return {}; }
 
  private:
-  static constexpr int kBlockPx = 20;                // of the image, in which events are counted
+  static constexpr std::size_t kBlockPx = 20;        // of the image, in which events are counted
   static constexpr dodge::TimeUs kWindowUs = 10000;  // for so long
   static constexpr dodge::TimeUs kLearnUs = 300000;  // what is usual, before the first step
   static constexpr dodge::TimeUs kStepUs = 400000;   // how long it steps aside
@@ -57,7 +57,7 @@ class Sidestepper : public dodge::Pilot {
   static constexpr double kLearning = 0.02;     // a cycle
 
   std::size_t block_of(const dodge::Event& event) const {
-    return static_cast<std::size_t>(event.y / kBlockPx * columns_ + event.x / kBlockPx);
+    return event.y / kBlockPx * columns_ + event.x / kBlockPx;
   }
 
   // For a block with too many events; then steps away from its side of the image, level.
@@ -65,7 +65,7 @@ class Sidestepper : public dodge::Pilot {
     const bool alert = now_us > kLearnUs && w_radps_ < kTurningRadps;
     for (std::size_t i = 0; i < count_.size(); ++i) {
       if (alert && count_[i] > kFewest + alarm_ratio_ * usual_[i]) {
-        const bool on_the_right = static_cast<int>(i) % columns_ >= columns_ / 2;
+        const bool on_the_right = i % columns_ >= columns_ / 2;
         const Eigen::Vector3d left_W = state_.q_WB * Eigen::Vector3d::UnitY();
         step_W_ = (on_the_right ? kStepMps : -kStepMps) *
                   Eigen::Vector3d(left_W.x(), left_W.y(), 0).normalized();
@@ -81,7 +81,7 @@ class Sidestepper : public dodge::Pilot {
     return way_W * std::min(1.0, goal_.speed_mps / std::max(way_W.norm(), 1e-9));
   }
 
-  int columns_;
+  std::size_t columns_;
   double alarm_ratio_;
   std::deque<dodge::Event> window_;
   std::vector<int> count_;     // of the window, in each block

@@ -61,7 +61,7 @@ void GuardedPilot::set_goal(const dodge::Goal& goal) {
 }
 
 dodge::VelocityCommand GuardedPilot::update(dodge::TimeUs now_us) {
-  const dodge::VelocityCommand command = guarded([&] { return pilot_->update(now_us); });
+  dodge::VelocityCommand command = guarded([&] { return pilot_->update(now_us); });
   if (!command.v_W.allFinite()) refuse("commanded a velocity that is no number", now_us);
   if (command.t_us > now_us) refuse("gave a command an instant of the future", now_us);
   for (const dodge::Detection& detection : detections()) {

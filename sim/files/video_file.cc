@@ -38,6 +38,7 @@ std::vector<std::string> ffmpeg_command(const std::string& path, int width, int 
 // Starts the command, apart from the terminal's Ctrl-C; the number of an error.
 int start(const std::vector<std::string>& command, int input, int errors, pid_t& process) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t files;

@@ -56,7 +56,9 @@ TEST_F(VideoFileTest, WithoutAPlaceIsAnIoError) {
 // Only these programs are there.
 class Programs {
  public:
-  explicit Programs(const std::string& folder) : before_(std::getenv("PATH")) {
+  explicit Programs(const std::string& folder) {
+    const char* before = std::getenv("PATH");
+    if (before != nullptr) before_ = before;
     ::setenv("PATH", folder.c_str(), 1);
   }
   ~Programs() { ::setenv("PATH", before_.c_str(), 1); }
