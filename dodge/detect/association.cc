@@ -10,7 +10,7 @@
 namespace dodge {
 
 namespace {
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kForbidden = std::numeric_limits<double>::infinity();
 constexpr std::size_t kUsual = 1024;  // pairs that fit, detections and obstacles
 }  // namespace
 
@@ -31,13 +31,13 @@ double Associator::cost(const MeasuredPosition& detection,
     const Eigen::Matrix3d S = obstacle.P_W + detection.R_W;
     const double sigmas_squared = offset.dot(S.llt().solve(offset));
     const bool fits = sigmas_squared <= config_.gate_sigmas * config_.gate_sigmas;
-    return fits ? sigmas_squared + std::log(S.determinant()) : kInfinity;
+    return fits ? sigmas_squared + std::log(S.determinant()) : kForbidden;
   }
   const double radius = obstacle.detections <= 1
                             ? config_.first_radius_m + config_.first_speed_mps * obstacle.unseen_s
                             : config_.radius_m;
   const double distance = offset.norm();
-  return distance <= radius ? distance : kInfinity;
+  return distance <= radius ? distance : kForbidden;
 }
 
 std::span<const int> Associator::associate(std::span<const MeasuredPosition> detections,
@@ -47,7 +47,7 @@ std::span<const int> Associator::associate(std::span<const MeasuredPosition> det
   for (std::size_t d = 0; d < detections.size(); ++d) {
     for (std::size_t o = 0; o < obstacles; ++o) {
       const double c = cost(detections[d], predicted[d * obstacles + o]);
-      if (c < kInfinity) pairs_.push_back({c, static_cast<int>(d), static_cast<int>(o)});
+      if (c < kForbidden) pairs_.push_back({c, static_cast<int>(d), static_cast<int>(o)});
     }
   }
   std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {

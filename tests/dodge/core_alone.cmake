@@ -24,7 +24,8 @@ if(BUILD)
   file(COPY ${SOURCE_DIR}/dodge DESTINATION ${WORK_DIR})
   set(configure -S ${WORK_DIR}/dodge/example -B ${WORK_DIR}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Debug
                 -DCMAKE_CXX_FLAGS_DEBUG=-O0  # without -g: built to see whether it builds
-                -DCMAKE_UNITY_BUILD=ON
+                -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0
+                -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
                 -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
   foreach(step "${configure}"
                "--build;${WORK_DIR}/build;--parallel;2;--target;dodge;my_pilot")
