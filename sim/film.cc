@@ -123,18 +123,13 @@ void Film::caption(const Snapshot& snapshot) {
   write_text(picture_, "events, bottom camera", kSceneWidth + 8, kSceneHeight / 2 + 18);
 }
 
-Film::~Film() {
-  std::error_code ignored;
-  std::filesystem::remove(partial_, ignored);
-}
-
 void Film::close() {
   video_.close();
-  std::error_code error;
+  std::error_code error, ignored;
   std::filesystem::rename(partial_, path_, error);
-  if (error) {
-    throw IoError("The video " + path_ + " could not be written: " + error.message() + ".");
-  }
+  if (!error) return;
+  std::filesystem::remove(partial_, ignored);
+  throw IoError("The video " + path_ + " could not be written: " + error.message() + ".");
 }
 
 StageFilm::StageFilm(std::string directory) : directory_(std::move(directory)) {

@@ -39,7 +39,6 @@ class Film : public FlightObserver {
   // or another program is writing it. The file gets its name, and takes the place of another, when
   // it is whole.
   Film(const std::string& path, const Intrinsics& intrinsics, double slow = 10);
-  ~Film() override;
 
   void on_tick(const World& world) override;
   void on_events(int camera, const Packet& packet) override;

@@ -1,9 +1,6 @@
 #include "sim/try_models.h"
 
 #include <algorithm>
-#include <array>
-#include <cinttypes>
-#include <cstdio>
 #include <map>
 #include <numbers>
 #include <set>
@@ -11,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sim/base/digest.h"
 #include "sim/base/error.h"
 #include "sim/base/gravity.h"
 #include "sim/config/expand.h"
@@ -82,28 +80,24 @@ void add_places(const MissionSpec& mission, std::vector<VehiclePlace>& places) {
 std::vector<Trial> trials_of(const Scenario& campaign) {
   std::map<std::string, Trial> trials;  // each kind of world once
   std::set<std::string> kinds;
-  const int throws_of_a_value = cell_count(campaign) * campaign.repeats;
-  for (int sweep = 0; sweep < sweep_count(campaign); ++sweep) {
-    for (int cell = 0; cell < cell_count(campaign); ++cell) {
-      const Scenario scenario = case_of(campaign, sweep * throws_of_a_value + cell).scenario;
-      WorldSpec world;
-      world.models_dir = scenario.models_dir;
-      world.room = scenario.room;
-      world.vehicle = scenario.vehicle;
-      world.vehicle_overrides = scenario.vehicle_overrides;
-      Trial& trial = trials.try_emplace(description(world), Trial{world, {}}).first->second;
-      add_places(scenario.mission, trial.places);
-      trial.min_thrust_n = std::max(trial.min_thrust_n, scenario.motors.min_thrust_n);
-      const bool seen = perceives(scenario.pilot);
-      trial.seen |= seen;
-      trial.stereo |= seen && scenario.dodger.position.depth == "stereo";
-      trial.max_thrust_fraction =
-          std::min(trial.max_thrust_fraction, scenario.controller.max_thrust_fraction);
-      for (const ThrowSpec& spec : scenario.throw_specs()) {
-        kinds.insert(spec.object.names.begin(), spec.object.names.end());
-      }
+  for_each_combination(campaign, [&](const Scenario& scenario) {
+    WorldSpec world;
+    world.models_dir = scenario.models_dir;
+    world.room = scenario.room;
+    world.vehicle = scenario.vehicle;
+    world.vehicle_overrides = scenario.vehicle_overrides;
+    Trial& trial = trials.try_emplace(description(world), Trial{world, {}}).first->second;
+    add_places(scenario.mission, trial.places);
+    trial.min_thrust_n = std::max(trial.min_thrust_n, scenario.motors.min_thrust_n);
+    const bool seen = perceives(scenario.pilot);
+    trial.seen |= seen;
+    trial.stereo |= seen && scenario.dodger.position.depth == "stereo";
+    trial.max_thrust_fraction =
+        std::min(trial.max_thrust_fraction, scenario.controller.max_thrust_fraction);
+    for (const ThrowSpec& spec : scenario.throw_specs()) {
+      kinds.insert(spec.object.names.begin(), spec.object.names.end());
     }
-  }
+  });
   std::vector<Trial> all;
   for (auto& [name, trial] : trials) {
     trial.world.objects.reserve(kinds.size());
@@ -211,9 +205,7 @@ void try_models(const std::vector<Scenario>& campaigns) {
 std::string digest_of_models(const Scenario& campaign) {
   std::uint64_t digest = 0;
   for (const Trial& trial : trials_of(campaign)) digest = 31 * digest + models_digest(trial.world);
-  std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016" PRIx64, digest);
-  return text.data();
+  return digits_of(digest);
 }
 
 }  // namespace dodgesim

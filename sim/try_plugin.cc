@@ -28,14 +28,9 @@ std::string what_it_is_given(Scenario scenario) {
 // The throws' scenarios that it flies, one for each that gives it something else.
 std::map<std::string, Scenario> flown_by_plugin(const Scenario& campaign) {
   std::map<std::string, Scenario> flown;
-  const int throws_of_a_value = cell_count(campaign) * campaign.repeats;
-  for (int sweep = 0; sweep < sweep_count(campaign); ++sweep) {
-    for (int cell = 0; cell < cell_count(campaign); ++cell) {
-      Scenario scenario = case_of(campaign, sweep * throws_of_a_value + cell).scenario;
-      if (scenario.pilot != kPluginPilot) continue;
-      flown.try_emplace(what_it_is_given(scenario), scenario);
-    }
-  }
+  for_each_combination(campaign, [&flown](const Scenario& scenario) {
+    if (scenario.pilot == kPluginPilot) flown.try_emplace(what_it_is_given(scenario), scenario);
+  });
   return flown;
 }
 
@@ -70,11 +65,12 @@ void try_making(const Scenario& scenario) {
 
 void try_plugin(const Scenario& campaign) {
   const std::string& file = campaign.plugin.file;
-  if (!flies_plugin(campaign) && !file.empty()) {
+  if (!flies_plugin(campaign)) {
+    if (file.empty()) return;
     throw ScenarioError("--plugin " + file + ": The scenario flies other pilots; --set pilot=" +
                         kPluginPilot + " makes it fly this one.");
   }
-  if (flies_plugin(campaign) && file.empty()) {
+  if (file.empty()) {
     const auto at = campaign.places.find("pilot");
     throw ScenarioError((at == campaign.places.end() ? "" : at->second + ": ") + "pilot is " +
                         kPluginPilot + ", but no library is given: add --plugin FILE.so.");

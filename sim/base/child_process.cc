@@ -13,23 +13,13 @@
 #include <csignal>
 #include <cstring>
 
+#include "sim/base/descriptor.h"
 #include "sim/base/error.h"
 #include "sim/base/wall_clock.h"
 
 namespace dodgesim {
 
 namespace {
-
-// Blocking, and whole unless the parent has gone.
-bool write_all(int fd, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t n = ::write(fd, text.data(), text.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(n));
-  }
-  return true;
-}
 
 [[noreturn]] void serve(int fd, const std::function<std::string()>& task) noexcept {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);

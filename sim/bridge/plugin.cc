@@ -2,22 +2,18 @@
 
 #include <dlfcn.h>
 #include <sys/mman.h>
-#include <unistd.h>
 #include <xxhash.h>
 
-#include <array>
 #include <cerrno>
-#include <cinttypes>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <new>
 
+#include "sim/base/descriptor.h"
+#include "sim/base/digest.h"
 #include "sim/base/error.h"
 #include "sim/bridge/guarded_pilot.h"
+#include "sim/files/input_file.h"
 
 namespace dodgesim {
 
@@ -63,40 +59,18 @@ PilotFunction* loaded(const Plugin& plugin) {
   return function;
 }
 
-std::string bytes_of(const std::string& file) {
-  std::error_code error;
-  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error)) {
-    throw IoError("The plug-in " + file + " could not be read: it is no regular file.");
-  }
-  std::ifstream in(file, std::ios::binary);
-  const std::string reason = std::strerror(errno);
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in.is_open() || in.bad()) {
-    throw IoError("The plug-in " + file + " could not be read: " + reason + ".");
-  }
-  return bytes;
-}
-
 // So that the library may be compiled anew while a campaign flies what it was.
 int copy_in_memory(const std::string& bytes, const std::string& file) {
   const int copy = ::memfd_create("plugin", 0);
-  for (std::size_t written = 0; copy >= 0 && written < bytes.size();) {
-    const ssize_t n = ::write(copy, bytes.data() + written, bytes.size() - written);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) throw IoError("The plug-in " + file + " does not fit into the memory.");
-    written += static_cast<std::size_t>(n);
-  }
-  if (copy < 0) throw IoError("The plug-in " + file + ": " + std::strerror(errno) + ".");
-  return copy;
+  if (copy >= 0 && write_all(copy, bytes)) return copy;
+  throw IoError("The plug-in " + file + " could not be copied: " + std::strerror(errno) + ".");
 }
 
 }  // namespace
 
 Plugin read_plugin(const std::string& file) {
-  const std::string bytes = bytes_of(file);
-  std::array<char, 17> digest{};
-  std::snprintf(digest.data(), digest.size(), "%016" PRIx64, XXH64(bytes.data(), bytes.size(), 0));
-  return {file, digest.data(), copy_in_memory(bytes, file)};
+  const std::string bytes = read_file(file);
+  return {file, digits_of(XXH64(bytes.data(), bytes.size(), 0)), copy_in_memory(bytes, file)};
 }
 
 std::unique_ptr<dodge::Pilot> make_plugin_pilot(const Plugin& plugin, const dodge::Config& config,

@@ -15,7 +15,7 @@ struct Plugin {
   int copy = -1;       // descriptor of a copy in memory, which this process and its children have
 };
 
-// Throws IoError if the file cannot be read.
+// Throws IoError if the file cannot be read or copied.
 Plugin read_plugin(const std::string& file);
 
 // A pilot for one flight, guarded (guarded_pilot.h). The library stays loaded until the process

@@ -18,8 +18,10 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <string_view>
 #include <vector>
 
+#include "sim/base/descriptor.h"
 #include "sim/base/error.h"
 #include "sim/base/memory_limit.h"
 #include "sim/base/wall_clock.h"
@@ -44,7 +46,7 @@ constexpr int kPollMs = 200;
 // when a job must end. So long does it take to believe that a throw was lost.
 constexpr std::chrono::milliseconds kGrace(500);
 
-// Whole reads and writes on a stream socket; false when the other side is gone.
+// A whole read from a stream socket; false when the other side is gone.
 bool read_all(int fd, void* data, std::size_t size) {
   auto* bytes = static_cast<char*>(data);
   while (size > 0) {
@@ -57,16 +59,9 @@ bool read_all(int fd, void* data, std::size_t size) {
   return true;
 }
 
-bool write_all(int fd, const void* data, std::size_t size) {
-  const auto* bytes = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t n = ::send(fd, bytes, size, MSG_NOSIGNAL);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    bytes += n;
-    size -= static_cast<std::size_t>(n);
-  }
-  return true;
+template <class Value>
+std::string_view bytes_of(const Value& value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
 void mark_lost(ThrowResult& result, const std::string& reason) {
@@ -125,7 +120,7 @@ void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
     const std::string body = fly_one(tasks, task, header);
     header.size = static_cast<std::uint32_t>(body.size());
     header.resident_mb = resident_mb();
-    if (!write_all(fd, &header, sizeof(header)) || !write_all(fd, body.data(), body.size())) break;
+    if (!send_all(fd, bytes_of(header)) || !send_all(fd, body)) break;
   }
   // Not exit(): the campaign's open files and their buffers are not ours to flush.
   ::_exit(0);
@@ -209,7 +204,7 @@ class Pool {
     worker.task = task;
     worker.begin = WallClock::now();
     // A worker that died between two throws is noticed when its socket reports the end.
-    write_all(worker.fd, &task, sizeof(task));
+    send_all(worker.fd, bytes_of(task));
   }
 
   int reap(Worker& worker) {

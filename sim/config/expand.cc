@@ -93,6 +93,16 @@ std::string label(const std::vector<AxisValue>& values) {
   return text;
 }
 
+void for_each_combination(const Scenario& scenario,
+                          const std::function<void(const Scenario&)>& visit) {
+  const int cells = cell_count(scenario);
+  for (int sweep = 0; sweep < sweep_count(scenario); ++sweep) {
+    for (int cell = 0; cell < cells; ++cell) {
+      visit(case_of(scenario, sweep * cells * scenario.repeats + cell).scenario);
+    }
+  }
+}
+
 bool flies_plugin(const Scenario& scenario) {
   for (const VariedKey& axis : scenario.sweep) {
     if (axis.key != "pilot") continue;

@@ -5,6 +5,7 @@
 // same noise, so that two of them can be compared throw by throw; and more repeats only add throws.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,10 @@ ThrowCase case_of(const Scenario& scenario, int t);
 
 // "delays.compute_us 3500, pilot oracle"; empty without values.
 std::string label(const std::vector<AxisValue>& values);
+
+// With the values of each cell and each value of the sweep, once.
+void for_each_combination(const Scenario& scenario,
+                          const std::function<void(const Scenario&)>& visit);
 
 // Whether one of the pilots is plugin.
 bool flies_plugin(const Scenario& scenario);

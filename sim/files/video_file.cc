@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/base/descriptor.h"
 #include "sim/base/error.h"
 
 namespace dodgesim {
@@ -110,12 +111,7 @@ void VideoFile::begin(int width, int height, double pictures_per_s) {
 }
 
 void VideoFile::write(const std::uint8_t* pixels) {
-  for (std::size_t sent = 0; sent < picture_size_;) {
-    const ssize_t n = ::send(pipe_, pixels + sent, picture_size_ - sent, MSG_NOSIGNAL);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) fail();
-    sent += static_cast<std::size_t>(n);
-  }
+  if (!send_all(pipe_, {reinterpret_cast<const char*>(pixels), picture_size_})) fail();
 }
 
 void VideoFile::close() {

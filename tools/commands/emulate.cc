@@ -51,9 +51,9 @@ or the readout would stamp later is not in it. The file appears when it is whole
 
 Frames have up to 4096 rows and columns, and are at most 1073 s apart. A camera with leak or noise
 sees at least a picture every 50 ms, along the straight line of L between two frames. Memory holds
-the frames and the events up to the next picture, however long the video is. The speeds printed are of the
-emulation alone, beside cv::log of the same frames in the same run, on one thread; with --causes
-none are printed.
+two frames and the events up to the next picture, however long the video is. The speeds printed
+are of the emulation alone, beside cv::log of the same frames in the same run, on one thread; with
+--causes none are printed.
 
 Examples:
   dodgesim emulate video.npy --timestamps t.npy --camera ideal --out events.h5

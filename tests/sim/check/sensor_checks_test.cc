@@ -63,9 +63,9 @@ TEST(SensorChecks, OfExtremeCamerasPassOrAreOff) {
   EXPECT_EQ(failed([](auto& spec) { spec.linear_below = 10; }), Names());
   EXPECT_EQ(failed([](auto& spec) { spec.dead_pixel_fraction = 1; }), Names());
   EXPECT_EQ(failed([](auto& spec) { spec.jitter_us = 5000; }), Names());
-  EXPECT_EQ(failed([](auto& spec) { spec.shot_noise_on_hz = 300; }), Names());
+  EXPECT_EQ(failed([](auto& spec) { spec.shot_noise_on_hz = 1000; }), Names());
   EXPECT_EQ(failed([](auto& spec) {
-              spec.hot_pixel_fraction = 0.02;
+              spec.hot_pixel_fraction = 0.2;
               spec.hot_pixel_hz = 20000;
             }),
             Names());
