@@ -40,7 +40,6 @@ double decay_lifetime_s(const RepulsiveConfig& config) {
 RepulsiveField::RepulsiveField(const RepulsiveConfig& config)
     : config_(config),
       khosla_(config.field == "khosla"),
-      relative_(config.obstacle_velocity == "relative"),
       cross_(config.direction == "cross"),
       gradient_(config.direction == "gradient"),
       steep_sine_(std::sin(config.steep_deg * std::numbers::pi / 180)) {
@@ -101,13 +100,9 @@ Eigen::Vector3d RepulsiveField::force(const VehicleMotion& vehicle, const Ellips
   const SurfaceDistance surface = distance_to_surface(obstacle, vehicle.p_W);
   const double eta = surface.distance_m - config_.quadrotor_radius_m;
   if (eta >= config_.eta_0_m) return Eigen::Vector3d::Zero();
-  if (config_.ignore_receding && (v_obstacle_W - vehicle.v_W).dot(surface.gradient_W) <= 0) {
-    return Eigen::Vector3d::Zero();
-  }
-  const Eigen::Vector3d v_W = relative_ ? (v_obstacle_W - vehicle.v_W).eval() : v_obstacle_W;
-  const double speed_factor = config_.scale_by_speed ? v_W.norm() : 1.0;
+  const double speed_factor = config_.scale_by_speed ? v_obstacle_W.norm() : 1.0;
   Eigen::Vector3d force = speed_factor * magnitude(eta, k_r(since_detection_s)) *
-                          direction(surface.gradient_W, v_W, vehicle.heading_W);
+                          direction(surface.gradient_W, v_obstacle_W, vehicle.heading_W);
   if (config_.upward) force.z() = std::abs(force.z());
   return force;
 }

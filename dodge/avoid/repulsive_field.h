@@ -19,12 +19,10 @@ struct RepulsiveConfig {
   double k_tau = 0.001;
   double quadrotor_radius_m = 0.15;
   bool scale_by_speed = true;
-  std::string obstacle_velocity = "world";
   std::string direction = "cross";
   bool upward = true;
   double head_on_sine = 0.05;
   double steep_deg = 45.0;
-  bool ignore_receding = false;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -47,9 +45,6 @@ struct RepulsiveConfig {
     v("quadrotor_radius_m", quadrotor_radius_m, 0.0, 10.0,
       "Taken off the distance between the vehicle's centre and the obstacle's surface.");
     v("scale_by_speed", scale_by_speed, "Whether the force grows with the obstacle's speed (32).");
-    v("obstacle_velocity", obstacle_velocity, {"world", "relative"},
-      "Velocity in (29) and (32): the obstacle's in the world as the paper writes, or relative to "
-      "the vehicle.");
     v("direction", direction, {"cross", "away", "gradient"},
       "Escape direction: the cross product (29); away from the obstacle's line of flight, in the "
       "plane of approach; or the gradient of the distance to the obstacle, as (27) has it.");
@@ -64,9 +59,6 @@ struct RepulsiveConfig {
       "A head-on obstacle that climbs or falls more steeply than this is escaped from sideways, "
       "because upward would be along its path: to the left, or to the right if the left would go "
       "down.");
-    v("ignore_receding", ignore_receding,
-      "Whether an obstacle that moves away from the vehicle stops pushing at once. The paper lets "
-      "it decay only.");
   }
 };
 
@@ -117,7 +109,7 @@ class RepulsiveField {
                                  const Eigen::Vector3d& heading_W) const;
 
   RepulsiveConfig config_;
-  bool khosla_, relative_, cross_, gradient_;
+  bool khosla_, cross_, gradient_;
   double steep_sine_;
 };
 

@@ -15,7 +15,6 @@ struct AssociationConfig {
   double radius_m = 0.35;
   double gate_sigmas = 0.0;
   int min_detections = 3;
-  double max_velocity_sigma_mps = 1000.0;
   int tentative_timeout_us = 25000;
 
   template <class Visitor>
@@ -39,9 +38,6 @@ struct AssociationConfig {
       "Detections before an obstacle is confirmed, that is, may cause an escape. One has no "
       "velocity; two false ones fall together now and then in flight through a textured room. Not "
       "given by the paper.");
-    v("max_velocity_sigma_mps", max_velocity_sigma_mps, 1e-3, 1000.0,
-      "An obstacle is confirmed only when the standard deviation of its velocity (root mean square "
-      "over the axes) has fallen below this. 1000: no such condition, as in the paper.");
     v("tentative_timeout_us", tentative_timeout_us, 0, 10000000,
       "An obstacle that is not confirmed is dropped this long after its last detection, so that "
       "unrelated noise does not add up to an obstacle, but never before it was looked for and "

@@ -176,10 +176,9 @@ void DepthEstimator::append(const Cluster& cluster, double depth_m, double depth
   for (std::size_t i = 0; i < 4; ++i) {
     detection.p_W[i] = X_WC * back_project(camera_, corners[i].x, corners[i].y, depth_m);
   }
-  const double margin_m = config_.depth_margin == "size" ? size_m : size_m + depth_sigma_m;
-  const double near_m = std::max(depth_m - margin_m, 0.0);  // never behind the camera (12)
+  const double near_m = std::max(depth_m - size_m, 0.0);  // never behind the camera (12)
   detection.p_W[4] = X_WC * back_project(camera_, middle.x(), middle.y(), near_m);
-  detection.p_W[5] = X_WC * back_project(camera_, middle.x(), middle.y(), depth_m + margin_m);
+  detection.p_W[5] = X_WC * back_project(camera_, middle.x(), middle.y(), depth_m + size_m);
   detection.centre_W = X_WC * back_project(camera_, middle.x(), middle.y(), depth_m);
   detections.push_back(detection);
 }

@@ -57,7 +57,6 @@ struct DepthConfig {
   double max_range_m = 1.5;
   double min_size_m = 0.03;
   double max_size_m = 0.8;
-  std::string depth_margin = "size";
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -76,9 +75,6 @@ struct DepthConfig {
       "Detections farther from the camera are dropped; 1.5 m in the paper, as they are too noisy.");
     v("min_size_m", min_size_m, 0, 100, "Smaller objects are not credible.");
     v("max_size_m", max_size_m, 0, 100, "Larger objects are not credible.");
-    v("depth_margin", depth_margin, {"size", "size_plus_sigma"},
-      "What is added to and taken from the depth for the near and the far point: the estimated "
-      "size as in eq. (12), or that plus the depth's standard deviation.");
   }
 };
 

@@ -97,9 +97,7 @@ void Tracker::measure(Track& track, Detection& detection) const {
   track.ellipsoid = minimum_volume_ellipsoid(detection.p_W, kMinHalfWidthM);
   track.ellipsoid.centre_W -= detection.centre_W;
   ++track.detections;
-  const double velocity_variance = track.filter.covariance().bottomRightCorner<3, 3>().trace() / 3;
-  track.confirmed |= track.detections >= association_.min_detections &&
-                     std::sqrt(velocity_variance) <= association_.max_velocity_sigma_mps;
+  track.confirmed |= track.detections >= association_.min_detections;
 }
 
 void Tracker::remove_stale(TimeUs now) {

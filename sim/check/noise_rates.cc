@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "sim/check/film.h"
 
@@ -49,6 +50,7 @@ NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, dou
   const auto end_us = std::max<TimeUs>(1, static_cast<TimeUs>(1e6 * bounded_s));
   found.duration_s = seconds(end_us);
   found.per_pixel.resize(static_cast<std::size_t>(kPixels));
+  found.per_pixel_on = found.per_pixel;
   EventCamera camera(spec, kStillWidth, kStillHeight, seed, 0, "check", true);
   const double luminance = lux / spec.illuminance_lux;
   const FilmedEvents filmed = record(camera, even_scene([=](TimeUs) { return luminance; }),
@@ -60,7 +62,15 @@ NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, dou
       continue;
     }
     ++(event.polarity > 0 ? found.on : found.off);
-    ++found.per_pixel[std::size_t{event.y} * kStillWidth + event.x];
+    const std::size_t pixel = std::size_t{event.y} * kStillWidth + event.x;
+    ++found.per_pixel[pixel];
+    if (event.polarity > 0) ++found.per_pixel_on[pixel];
+  }
+  for (int y = 0; y < kStillHeight; ++y) {
+    for (int x = 0; x < kStillWidth; ++x) {
+      const PixelState pixel = camera.pixel(x, y);
+      found.thresholds.push_back({pixel.threshold_on, pixel.threshold_off});
+    }
   }
   return found;
 }
@@ -108,27 +118,64 @@ void judge_leak(const NoiseCount& leak, const EventCameraSpec& spec, Check& chec
   check.within("noise.leak.other_causes", leak.other, 0, 0, "events", 0);
 }
 
+// Events of each pixel whose shot noise has the share of its rates in the dark.
+struct ShotExpected {
+  std::vector<double> on;
+  double on_sum = 0, off_sum = 0;
+};
+
+ShotExpected shot_expected(const NoiseCount& shot, double share, const EventCameraSpec& spec) {
+  const MeanInverse inverse = mean_inverse(shot.thresholds);
+  ShotExpected expected;
+  for (const Thresholds& pixel : shot.thresholds) {
+    const double on_hz = share * spec.shot_noise_on_hz / (pixel.on * inverse.on);
+    const double off_hz = share * spec.shot_noise_off_hz / (pixel.off * inverse.off);
+    const double events = events_expected(on_hz + off_hz, hold_s(spec), shot.duration_s);
+    const double on = pixel.dead() ? 0 : events * on_hz / std::max(1e-12, on_hz + off_hz);
+    expected.on.push_back(on);
+    expected.on_sum += on;
+    if (!pixel.dead()) expected.off_sum += events - on;
+  }
+  return expected;
+}
+
+// The share of ON events that the pixels with the lower ON thresholds make.
+void judge_by_threshold(const std::string& name, const NoiseCount& shot,
+                        const ShotExpected& expected, Check& check) {
+  std::vector<double> sorted;
+  for (const Thresholds& pixel : shot.thresholds) sorted.push_back(pixel.on);
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  double on = 0, on_expected = 0;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (shot.thresholds[i].on >= *middle) continue;
+    on += shot.per_pixel_on[i];
+    on_expected += expected.on[i];
+  }
+  if (on_expected == 0 || shot.on == 0) {
+    check.off(name, "all ON thresholds are the same, or shot_noise_on_hz is 0");
+    return;
+  }
+  const double share = on_expected / expected.on_sum;
+  check.within(name, on / shot.on, share, kSigmas * std::sqrt(share * (1 - share) / shot.on), "",
+               4);
+}
+
 void judge_shot(const std::string& name, const NoiseCount& shot, double share,
                 const EventCameraSpec& spec, Check& check) {
   if (!shot.filmed) {
     check.off(name, "shot_noise_on_hz and shot_noise_off_hz are 0");
     return;
   }
-  const double both_hz = share * (spec.shot_noise_on_hz + spec.shot_noise_off_hz);
-  const double seen = events_expected(both_hz, hold_s(spec), shot.duration_s) /
-                      std::max(1e-12, both_hz * shot.duration_s);
-  const double alive = 1 - spec.dead_pixel_fraction;
+  const ShotExpected expected = shot_expected(shot, share, spec);
   const double seconds_pixels = shot.duration_s * kPixels;
-  const auto judge_polarity = [&](const std::string& polarity, double events, double set_hz) {
-    const double rate_hz = alive * seen * share * set_hz;
-    const double dead_sd =
-        rate_hz * std::sqrt(spec.dead_pixel_fraction / std::max(1e-12, alive) / kPixels);
-    const double sigma_hz = std::hypot(std::sqrt(rate_hz / seconds_pixels), dead_sd);
-    check.within(name + "." + polarity, events / seconds_pixels, rate_hz, kSigmas * sigma_hz, "Hz",
-                 5);
+  const auto judge_polarity = [&](const std::string& polarity, double events, double mean) {
+    check.within(name + "." + polarity, events / seconds_pixels, mean / seconds_pixels,
+                 kSigmas * std::sqrt(mean) / seconds_pixels, "Hz", 5);
   };
-  judge_polarity("on", shot.on, spec.shot_noise_on_hz);
-  judge_polarity("off", shot.off, spec.shot_noise_off_hz);
+  judge_polarity("on", shot.on, expected.on_sum);
+  judge_polarity("off", shot.off, expected.off_sum);
+  judge_by_threshold(name + ".by_threshold", shot, expected, check);
   check.within(name + ".other_causes", shot.other, 0, 0, "events", 0);
 }
 
@@ -203,13 +250,15 @@ NoiseCounts measure_noise(const EventCameraSpec& camera, std::uint64_t seed) {
 }
 
 Check judge(const NoiseCounts& counts, const EventCameraSpec& expected) {
-  Check check{"Noise",
-              "A constant scene for some seconds, each kind of noise by itself. Rates are means "
-              "over all pixels, dead ones included, and hold within three standard deviations of "
-              "the counts, of the random start of the leak and of the number of dead pixels. A "
-              "pixel in its refractory period is silent, which is part of what is expected.",
-              {},
-              {}};
+  Check check{
+      "Noise",
+      "A constant scene for some seconds, each kind of noise by itself. Rates are means "
+      "over all pixels, dead ones included, and hold within three standard deviations of "
+      "the counts, of the random start of the leak and of the number of dead pixels. A "
+      "pixel in its refractory period is silent, and shot noise is in inverse proportion to "
+      "a pixel's thresholds: both are part of what is expected.",
+      {},
+      {}};
   judge_leak(counts.leak, expected, check);
   judge_shot("noise.shot.dark", counts.shot_dark, 1, expected, check);
   judge_shot("noise.shot.bright", counts.shot_bright, expected.shot_noise_bright_share, expected,

@@ -7,6 +7,7 @@
 
 #include "sim/check/check.h"
 #include "sim/events/spec.h"
+#include "sim/events/thresholds.h"
 
 namespace dodgesim {
 
@@ -14,9 +15,11 @@ namespace dodgesim {
 struct NoiseCount {
   bool filmed = false;  // false: that kind is switched off
   double duration_s = 0;
-  double on = 0, off = 0;         // events
-  double other = 0;               // events that are said to have another cause
-  std::vector<double> per_pixel;  // events of each pixel of the camera
+  double on = 0, off = 0;  // events
+  double other = 0;        // events that are said to have another cause
+  // Of each pixel of the camera.
+  std::vector<Thresholds> thresholds;
+  std::vector<double> per_pixel, per_pixel_on;  // events
 };
 
 struct NoiseCounts {

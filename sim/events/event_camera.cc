@@ -9,24 +9,33 @@ namespace dodgesim {
 
 namespace {
 
-int checked_side(int side) {
-  if (side < 1 || side > EventCamera::kMaxSide) {
-    throw std::invalid_argument("An event camera has 1 to " +
-                                std::to_string(EventCamera::kMaxSide) + " columns and rows.");
+std::size_t checked_pixels(int width, int height) {
+  for (const int side : {width, height}) {
+    if (side < 1 || side > EventCamera::kMaxSide) {
+      throw std::invalid_argument("An event camera has 1 to " +
+                                  std::to_string(EventCamera::kMaxSide) + " columns and rows.");
+    }
   }
-  return side;
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
 }  // namespace
 
 EventCamera::EventCamera(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
                          std::uint64_t throw_index, std::string_view name, bool keep_causes)
-    : width_(checked_side(width)),
-      height_(checked_side(height)),
+    : EventCamera(spec, width, height, seed, throw_index, name, keep_causes,
+                  draw_thresholds(spec, checked_pixels(width, height),
+                                  RandomStream(seed, 0, stream_name(name, "device")))) {}
+
+EventCamera::EventCamera(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
+                         std::uint64_t throw_index, std::string_view name, bool keep_causes,
+                         const std::vector<Thresholds>& thresholds)
+    : width_(width),
+      height_(height),
       keep_causes_(keep_causes),
-      pixels_(spec, width, height, RandomStream(seed, 0, stream_name(name, "device")),
+      pixels_(spec, width, height, thresholds,
               RandomStream(seed, throw_index, stream_name(name, "start")), keep_causes),
-      noise_(spec, width, height, seed, throw_index, name),
+      noise_(spec, width, thresholds, seed, throw_index, name),
       readout_(spec, width, height, RandomStream(seed, throw_index, stream_name(name, "jitter"))) {}
 
 void EventCamera::reset(TimeUs t_us, const Picture& picture) {

@@ -18,6 +18,7 @@
 #include "sim/events/pixel_array.h"
 #include "sim/events/readout.h"
 #include "sim/events/spec.h"
+#include "sim/events/thresholds.h"
 #include "sim/render/camera.h"
 
 namespace dodgesim {
@@ -72,6 +73,10 @@ class EventCamera {
   std::int64_t under_way() const { return readout_.under_way(); }
 
  private:
+  EventCamera(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
+              std::uint64_t throw_index, std::string_view name, bool keep_causes,
+              const std::vector<Thresholds>& thresholds);
+
   void sample(TimeUs t_us, const Rect& region, const Picture& picture);
   void check_time(TimeUs t_us) const;
 

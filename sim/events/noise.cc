@@ -11,15 +11,29 @@ namespace {
 
 constexpr double kBrightLux = 1000;
 
-double share(double part, double other) { return part + other > 0 ? part / (part + other) : 0.5; }
-
-std::vector<std::uint32_t> draw_hot_pixels(const RandomStream& device, std::uint32_t count,
-                                           double fraction) {
-  std::vector<std::uint32_t> hot;
-  for (std::uint32_t i = 0; fraction > 0 && i < count; ++i) {
-    if (unit_interval(device.block(i)[0]) < fraction) hot.push_back(i);
+std::vector<PixelRate> rates_of_shot_noise(const EventCameraSpec& spec,
+                                           std::span<const Thresholds> thresholds) {
+  const MeanInverse inverse = mean_inverse(thresholds);
+  std::vector<PixelRate> rates(thresholds.size());
+  for (std::uint32_t i = 0; i < rates.size(); ++i) {
+    rates[i].pixel = i;
+    if (thresholds[i].dead()) continue;
+    rates[i].on_hz = spec.shot_noise_on_hz / (thresholds[i].on * inverse.on);
+    rates[i].off_hz = spec.shot_noise_off_hz / (thresholds[i].off * inverse.off);
   }
-  return hot;
+  return rates;
+}
+
+std::vector<PixelRate> rates_of_hot_pixels(const EventCameraSpec& spec, std::size_t pixel_count,
+                                           const RandomStream& device) {
+  const double shot_hz = spec.shot_noise_on_hz + spec.shot_noise_off_hz;
+  const double on_share = shot_hz > 0 ? spec.shot_noise_on_hz / shot_hz : 0.5;
+  std::vector<PixelRate> rates;
+  for (std::uint32_t i = 0; spec.hot_pixel_fraction > 0 && i < pixel_count; ++i) {
+    if (unit_interval(device.block(i)[0]) >= spec.hot_pixel_fraction) continue;
+    rates.push_back({i, on_share * spec.hot_pixel_hz, (1 - on_share) * spec.hot_pixel_hz});
+  }
+  return rates;
 }
 
 }  // namespace
@@ -36,21 +50,16 @@ double since_reset_s(double u, double leak_period_s, double noise_hz) {
   return -natural_log(1 - u * (1 - natural_exp(-std::min(resets, kOften)))) / noise_hz;
 }
 
-Noise::Noise(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
-             std::uint64_t throw_index, std::string_view name)
+Noise::Noise(const EventCameraSpec& spec, int width, std::span<const Thresholds> thresholds,
+             std::uint64_t seed, std::uint64_t throw_index, std::string_view name)
     : width_(width),
       bright_share_(spec.shot_noise_bright_share),
       bright_luminance_(kBrightLux / spec.illuminance_lux),
-      shot_hz_(spec.shot_noise_on_hz + spec.shot_noise_off_hz),
-      hot_hz_(spec.hot_pixel_hz),
-      hot_pixels_(draw_hot_pixels(RandomStream(seed, 0, stream_name(name, "hot pixels")),
-                                  static_cast<std::uint32_t>(width * height),
-                                  spec.hot_pixel_fraction)),
-      shot_(RandomStream(seed, throw_index, stream_name(name, "shot")),
-            static_cast<std::uint32_t>(width * height), shot_hz_,
-            share(spec.shot_noise_on_hz, spec.shot_noise_off_hz)),
-      hot_(RandomStream(seed, throw_index, stream_name(name, "hot")), hot_pixels_, hot_hz_,
-           share(spec.shot_noise_on_hz, spec.shot_noise_off_hz)) {}
+      shot_rates_(rates_of_shot_noise(spec, thresholds)),
+      hot_rates_(rates_of_hot_pixels(spec, thresholds.size(),
+                                     RandomStream(seed, 0, stream_name(name, "hot pixels")))),
+      shot_(RandomStream(seed, throw_index, stream_name(name, "shot")), shot_rates_),
+      hot_(RandomStream(seed, throw_index, stream_name(name, "hot")), hot_rates_) {}
 
 void Noise::reset(TimeUs t_us) {
   shot_.reset(t_us);
@@ -63,8 +72,10 @@ double Noise::accepted_share(float luminance) const {
 }
 
 double Noise::rate_hz(std::uint32_t pixel, float luminance) const {
-  const bool hot = std::binary_search(hot_pixels_.begin(), hot_pixels_.end(), pixel);
-  return shot_hz_ * accepted_share(luminance) + (hot ? hot_hz_ : 0);
+  const auto sum = [](const PixelRate& rate) { return rate.on_hz + rate.off_hz; };
+  const auto hot = std::ranges::lower_bound(hot_rates_, pixel, {}, &PixelRate::pixel);
+  return sum(shot_rates_[pixel]) * accepted_share(luminance) +
+         (hot != hot_rates_.end() && hot->pixel == pixel ? sum(*hot) : 0);
 }
 
 std::span<const NoiseEvent> Noise::take(TimeUs t_us, const Rect& region, const float* luminance) {

@@ -1,5 +1,6 @@
 // The noise of an event camera that is not in its pixels' signal: shot noise, which falls with the
-// light, and hot pixels.
+// light and comes the more often the lower a pixel's threshold is (in inverse proportion, as v2e
+// has it: Hu et al. 2021), and hot pixels.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include "sim/events/cause.h"
 #include "sim/events/poisson_events.h"
 #include "sim/events/spec.h"
+#include "sim/events/thresholds.h"
 #include "sim/render/camera.h"
 
 namespace dodgesim {
@@ -32,10 +34,10 @@ double since_reset_s(double u, double leak_period_s, double noise_hz);
 
 class Noise {
  public:
-  // `name` tells the cameras of a vehicle apart. Which pixels are hot depends on seed and name
-  // only.
-  Noise(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
-        std::uint64_t throw_index, std::string_view name);
+  // `thresholds` are the pixels', row by row; `name` tells the cameras of a vehicle apart. Which
+  // pixels are hot depends on seed and name only.
+  Noise(const EventCameraSpec& spec, int width, std::span<const Thresholds> thresholds,
+        std::uint64_t seed, std::uint64_t throw_index, std::string_view name);
 
   void reset(TimeUs t_us);
 
@@ -51,9 +53,9 @@ class Noise {
 
   int width_;
   double bright_share_;
-  double bright_luminance_;                // from which on the share is bright_share
-  double shot_hz_, hot_hz_;                // of a pixel in the dark, of a hot pixel
-  std::vector<std::uint32_t> hot_pixels_;  // in order
+  double bright_luminance_;            // from which on the share is bright_share
+  std::vector<PixelRate> shot_rates_;  // of all pixels, in the dark
+  std::vector<PixelRate> hot_rates_;   // of the hot pixels, in order
   PoissonEvents shot_;
   PoissonEvents hot_;
   struct Waiting {

@@ -71,7 +71,8 @@ inline float checked(float luminance) {
 }  // namespace
 
 PixelArray::PixelArray(const EventCameraSpec& spec, int width, int height,
-                       const RandomStream& device, const RandomStream& start, bool keep_causes)
+                       std::span<const Thresholds> thresholds, const RandomStream& start,
+                       bool keep_causes)
     : width_(static_cast<std::size_t>(width)),
       refractory_us_(static_cast<double>(spec.refractory_us)),
       start_(start),
@@ -79,19 +80,12 @@ PixelArray::PixelArray(const EventCameraSpec& spec, int width, int height,
       row_keeps_times_(static_cast<std::size_t>(height)),
       sampled_us_(pixels_.size()),
       may_fire_((width_ + kFlags - 1) / kFlags * kFlags) {
-  draw_thresholds(spec, device);
-  double leak_per_s = 0;
-  if (spec.leak_hz > 0) {
-    // One current for all pixels, such that their mean rate is leak_hz.
-    double inverse_sum = 0;
-    double alive = 0;
-    for (const Pixel& pixel : pixels_) {
-      if (pixel.dead()) continue;
-      inverse_sum += 1.0 / pixel.threshold_on();
-      ++alive;
-    }
-    if (alive > 0) leak_per_s = spec.leak_hz * alive / inverse_sum;
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    pixels_[i].change = {-thresholds[i].off, thresholds[i].on};
   }
+  // One current for all pixels, such that their mean rate is leak_hz.
+  const double inverse = mean_inverse(thresholds).on;
+  const double leak_per_s = inverse > 0 ? spec.leak_hz / inverse : 0;
   leak_per_us_ = 1e-6 * leak_per_s;
   const double tolerance =
       kCurveShare * std::min(spec.contrast_threshold_on, spec.contrast_threshold_off);
@@ -101,21 +95,6 @@ PixelArray::PixelArray(const EventCameraSpec& spec, int width, int height,
   if (keep_causes) {
     shown_.resize(pixels_.size());
     leaking_us_.resize(pixels_.size());
-  }
-}
-
-void PixelArray::draw_thresholds(const EventCameraSpec& spec, const RandomStream& device) {
-  for (std::uint32_t i = 0; i < pixels_.size(); ++i) {
-    double on = spec.contrast_threshold_on;
-    double off = spec.contrast_threshold_off;
-    const auto random = device.block(i);
-    if (spec.mismatch_sigma > 0) {
-      on += spec.mismatch_sigma * normal_quantile(unit_interval(random[0]));
-      off += spec.mismatch_sigma * normal_quantile(unit_interval(random[1]));
-    }
-    const bool dead = unit_interval(random[2]) < spec.dead_pixel_fraction;
-    pixels_[i].change[1] = dead ? kNever : std::max(on, spec.threshold_min);
-    pixels_[i].change[0] = dead ? -kNever : -std::max(off, spec.threshold_min);
   }
 }
 

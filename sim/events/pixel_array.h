@@ -37,6 +37,7 @@
 #include "sim/events/pixel_signal.h"
 #include "sim/events/signal_piece.h"
 #include "sim/events/spec.h"
+#include "sim/events/thresholds.h"
 #include "sim/render/camera.h"
 
 namespace dodgesim {
@@ -59,10 +60,10 @@ struct Picture {
 
 class PixelArray {
  public:
-  // `device` names the fixed random properties of the pixels, `start` how near each pixel is to its
-  // next leak event at first. With `keep_causes`, every picture must say what its pixels show.
-  PixelArray(const EventCameraSpec& spec, int width, int height, const RandomStream& device,
-             const RandomStream& start, bool keep_causes);
+  // `thresholds` are the pixels', `start` names how near each is to its next leak event at first.
+  // With `keep_causes`, every picture must say what its pixels show.
+  PixelArray(const EventCameraSpec& spec, int width, int height,
+             std::span<const Thresholds> thresholds, const RandomStream& start, bool keep_causes);
 
   // The first picture, of the instant t_us: sets every reference, with a leak as after a long rest
   // in this light, in which the noise has reset pixels, too.
@@ -99,7 +100,6 @@ class PixelArray {
     TimeUs first_us = 0;  // earliest stamp of the pixel
   };
 
-  void draw_thresholds(const EventCameraSpec& spec, const RandomStream& device);
   void sample_row(int y, double t_us, const Rect& region, const Picture& picture,
                   std::span<const NoiseEvent>& noise);
   void keep_times(std::size_t y, const Rect& region, double t_us);

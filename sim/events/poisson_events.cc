@@ -1,24 +1,23 @@
 #include "sim/events/poisson_events.h"
 
-#include <utility>
-
 #include "sim/events/logarithm.h"
 
 namespace dodgesim {
 
-PoissonEvents::PoissonEvents(const RandomStream& stream, std::uint32_t pixel_count, double rate_hz,
-                             double on_share)
-    : stream_(stream),
-      pixel_count_(pixel_count),
-      mean_wait_us_(rate_hz > 0 && pixel_count > 0 ? 1e6 / (rate_hz * pixel_count) : 0),
-      on_share_(on_share) {
-  reset(0);
-}
-
-PoissonEvents::PoissonEvents(const RandomStream& stream, std::vector<std::uint32_t> pixels,
-                             double rate_hz, double on_share)
-    : PoissonEvents(stream, static_cast<std::uint32_t>(pixels.size()), rate_hz, on_share) {
-  pixels_ = std::move(pixels);
+PoissonEvents::PoissonEvents(const RandomStream& stream, const std::vector<PixelRate>& rates)
+    : stream_(stream) {
+  std::vector<double> rates_hz;
+  rates_hz.reserve(2 * rates.size());
+  double sum_hz = 0;
+  for (const PixelRate& rate : rates) {
+    pixels_.push_back(rate.pixel);
+    rates_hz.insert(rates_hz.end(), {rate.off_hz, rate.on_hz});
+    sum_hz += rate.off_hz + rate.on_hz;
+  }
+  if (sum_hz > 0) {
+    choice_ = WeightedChoice(rates_hz);
+    mean_wait_us_ = 1e6 / sum_hz;
+  }
   reset(0);
 }
 
@@ -40,9 +39,9 @@ void PoissonEvents::take_until(TimeUs t_us, std::vector<PoissonEvent>& out) {
 void PoissonEvents::draw() {
   const auto random = stream_.block(number_++);
   time_us_ -= mean_wait_us_ * natural_log(unit_interval(random[0]));
-  const std::uint64_t index = (static_cast<std::uint64_t>(random[1]) * pixel_count_) >> 32;
-  next_.pixel = pixels_.empty() ? static_cast<std::uint32_t>(index) : pixels_[index];
-  next_.on = unit_interval(random[2]) < on_share_;
+  const std::uint32_t choice = choice_.pick(random[1], random[2]);
+  next_.pixel = pixels_[choice / 2];
+  next_.on = choice % 2 == 1;
   next_.chance = unit_interval(random[3]);
   // The clock's first microsecond at or after the event.
   const auto whole = static_cast<TimeUs>(time_us_);

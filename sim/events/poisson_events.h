@@ -6,6 +6,7 @@
 
 #include "sim/base/random.h"
 #include "sim/base/time.h"
+#include "sim/base/weighted_choice.h"
 
 namespace dodgesim {
 
@@ -16,17 +17,18 @@ struct PoissonEvent {
   double chance = 0;  // uniform in (0, 1), for whoever wants to keep only a share of the events
 };
 
-// A Poisson process over a set of pixels of equal rate, drawn as one process of the summed rate
-// whose events fall on random pixels. Event number n is a pure function of the stream, so the
-// events do not depend on the instants at which the process is asked for them.
+// How often a pixel makes events [1/s].
+struct PixelRate {
+  std::uint32_t pixel = 0;
+  double on_hz = 0, off_hz = 0;
+};
+
+// A Poisson process of each pixel and polarity, drawn as one process of the summed rate whose
+// events fall on random pixels. Event number n is a pure function of the stream, so the events do
+// not depend on the instants at which the process is asked for them.
 class PoissonEvents {
  public:
-  // `rate_hz` is per pixel, both polarities together; pixels are 0 .. pixel_count - 1.
-  PoissonEvents(const RandomStream& stream, std::uint32_t pixel_count, double rate_hz,
-                double on_share);
-  // The same over the listed pixels only.
-  PoissonEvents(const RandomStream& stream, std::vector<std::uint32_t> pixels, double rate_hz,
-                double on_share);
+  PoissonEvents(const RandomStream& stream, const std::vector<PixelRate>& rates);
 
   // Starts again at event number 0; the first event follows t_us.
   void reset(TimeUs t_us);
@@ -38,10 +40,9 @@ class PoissonEvents {
   void draw();
 
   RandomStream stream_;
-  std::vector<std::uint32_t> pixels_;  // empty: all
-  std::uint32_t pixel_count_;
-  double mean_wait_us_;  // 0: the process is silent
-  double on_share_;
+  std::vector<std::uint32_t> pixels_;
+  WeightedChoice choice_;    // 2 k: pixels_[k] makes an OFF event, 2 k + 1: an ON event
+  double mean_wait_us_ = 0;  // 0: the process is silent
   std::uint64_t number_ = 0;
   double time_us_ = 0;  // of the next event, since origin_us_
   TimeUs origin_us_ = 0;

@@ -128,7 +128,6 @@ TEST_P(EveryEscape, StaysFiniteAndWithinTheLimitForAnyInput) {
     config.field = random.bits() % 4 == 0 ? "khosla" : "falanga";
     constexpr const char* kDirections[] = {"cross", "away", "gradient"};
     config.direction = kDirections[random.bits() % 3];
-    config.obstacle_velocity = random.bits() % 2 == 0 ? "relative" : "world";
     config.head_on_sine = std::abs(scalar()) / 3;
     config.steep_deg = 30 * std::abs(scalar());
     StateEstimate state;

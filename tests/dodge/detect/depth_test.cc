@@ -115,11 +115,6 @@ TEST_F(DepthTest, SixPointsAreTheCornersAndTheCentreMovedByTheSize) {
   EXPECT_NEAR(up, 0, 1e-4);
   EXPECT_LT((detections[0].p_W[4] - Eigen::Vector3d(0.9, 0, 0.075)).norm(), 1e-4);
   EXPECT_LT((detections[0].p_W[5] - Eigen::Vector3d(1.3, 0, 0.075)).norm(), 1e-4);
-
-  DepthConfig wide = centres();
-  wide.depth_margin = "size_plus_sigma";
-  detections = locate(wide, {seen_by(0, p_B, 0.2)}, {seen_by(1, p_B, 0.2)});
-  EXPECT_NEAR(detections[0].p_W[5].x(), 1.3 + detections[0].depth_sigma_m, 1e-4);
 }
 
 TEST_F(DepthTest, WholePixelsGiveDepthWithinTheQuantisationOfTheDisparity) {

@@ -101,25 +101,6 @@ TEST(Tracker, ConfirmsAnObstacleAfterTheSetNumberOfDetections) {
   }
 }
 
-TEST(Tracker, ConfirmsAnObstacleOnlyOnceItsVelocityIsKnownWellEnough) {
-  AssociationConfig config;
-  config.max_velocity_sigma_mps = 2;
-  Tracker tracker(config, {}, kLifetimeS);
-  TimeUs t_us = 0;
-  const auto sigma = [&] {
-    return std::sqrt(tracker.obstacles()[0].covariance.bottomRightCorner<3, 3>().trace() / 3);
-  };
-  do {
-    update(tracker, t_us, {seen(t_us, Vector3d(2, 0, 0))});
-    EXPECT_EQ(tracker.obstacles().at(0).confirmed, sigma() <= 2);
-    t_us += 1000;
-  } while (sigma() > 2 && t_us < 1000000);
-  EXPECT_GT(t_us, 10000);
-  EXPECT_LT(t_us, 50000);
-  update(tracker, t_us + 100000, {});  // its covariance grows, but it has been believed
-  EXPECT_TRUE(tracker.obstacles().at(0).confirmed);
-}
-
 TEST(Tracker, RemovesAnObstacleAfterItsLifetime) {
   Tracker tracker({}, {}, kLifetimeS);
   for (int i = 0; i < 3; ++i) update(tracker, 1000 * i, {seen(1000 * i, Vector3d(2, 0, 0))});

@@ -1,6 +1,7 @@
 // Leak, shot noise and hot pixels come as often as the camera says, or the check fails.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/base/random.h"
@@ -27,6 +28,12 @@ TEST(NoiseCheck, FailsForOtherRates) {
   without_leak.leak_hz = 0;
   EXPECT_EQ(failures(judge(measure_noise(EventCameraSpec(), 1), without_leak)),
             Names{"noise.leak.on"});
+}
+
+TEST(NoiseCheck, FailsForShotNoiseThatDoesNotCareAboutThresholds) {
+  NoiseCounts even = measure_noise(EventCameraSpec(), 1);
+  std::ranges::reverse(even.shot_dark.per_pixel_on);  // to pixels of other thresholds
+  EXPECT_EQ(failures(judge(even, EventCameraSpec())), Names{"noise.shot.dark.by_threshold"});
 }
 
 TEST(NoiseCheck, KnowsHowOftenALeakComesThatIsHeldForLong) {

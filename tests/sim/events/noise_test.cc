@@ -95,7 +95,9 @@ TEST(Noise, DoesNotDependOnTheInstantsOfSampling) {
 }
 
 TEST(PoissonEvents, IsPoissonInTimeAndUniformOverThePixels) {
-  PoissonEvents activity(RandomStream(3, 0, "test"), 100, 2.0, 0.5);
+  std::vector<PixelRate> rates;
+  for (std::uint32_t i = 0; i < 100; ++i) rates.push_back({i, 1.0, 1.0});
+  PoissonEvents activity(RandomStream(3, 0, "test"), rates);
   std::vector<PoissonEvent> events;
   activity.take_until(100000000, events);
   const auto n = static_cast<double>(events.size());
@@ -118,6 +120,59 @@ TEST(PoissonEvents, IsPoissonInTimeAndUniformOverThePixels) {
   for (std::uint32_t i = 0; i < 100; ++i)
     chi_square += std::pow(per_pixel[i] - n / 100, 2) / (n / 100);
   EXPECT_NEAR(chi_square, 99, 3 * std::sqrt(2 * 99.0));
+}
+
+TEST(PoissonEvents, GivesEachListedPixelAndPolarityItsRate) {
+  const std::vector<PixelRate> rates = {{7, 10, 0}, {3, 0, 0}, {5, 2, 30}};
+  PoissonEvents activity(RandomStream(3, 0, "test"), rates);
+  std::vector<PoissonEvent> events;
+  activity.take_until(1000000000, events);
+  std::map<std::pair<std::uint32_t, bool>, double> count;
+  for (const PoissonEvent& event : events) ++count[{event.pixel, event.on}];
+  EXPECT_EQ(count.size(), 3u);
+  EXPECT_NEAR((count[{7, true}]), 10000, 3 * std::sqrt(10000.0));
+  EXPECT_NEAR((count[{5, true}]), 2000, 3 * std::sqrt(2000.0));
+  EXPECT_NEAR((count[{5, false}]), 30000, 3 * std::sqrt(30000.0));
+}
+
+TEST(ShotNoise, IsInInverseProportionToThePixelsThresholdsAndSparesDeadPixels) {
+  EventCameraSpec spec = only_shot_noise();
+  spec.mismatch_sigma = 0.06;
+  spec.dead_pixel_fraction = 0.1;
+  const double duration_s = 200;
+  EventCamera camera(spec, kFieldWidth, kFieldHeight, 1, 0, "top");
+  const auto events = emulate(camera, film(kFieldWidth, kFieldHeight, every(10000000, 200000000),
+                                           [](int, int, TimeUs) { return 0.2; }));
+  std::vector<double> count(static_cast<std::size_t>(kFieldPixels));
+  for (const Event& event : events) {
+    count[std::size_t{event.y} * kFieldWidth + event.x] += event.polarity < 0 ? 1 : 0;
+  }
+  // If the rate is k/threshold, count x threshold has the same mean k T in any group of pixels.
+  double low_sum = 0, high_sum = 0, low_square = 0, high_square = 0, low = 0, high = 0;
+  double alive = 0, inverse = 0;
+  for (int y = 0; y < kFieldHeight; ++y) {
+    for (int x = 0; x < kFieldWidth; ++x) {
+      const double threshold = camera.pixel(x, y).threshold_off;
+      const double n = count[static_cast<std::size_t>(y * kFieldWidth + x)];
+      if (std::isinf(threshold)) {
+        EXPECT_EQ(n, 0);
+        continue;
+      }
+      ++alive;
+      inverse += 1 / threshold;
+      const bool is_low = threshold < 0.2;
+      (is_low ? low : high) += 1;
+      (is_low ? low_sum : high_sum) += n * threshold;
+      (is_low ? low_square : high_square) += n * threshold * n * threshold;
+    }
+  }
+  EXPECT_LT(alive, 0.95 * kFieldPixels);
+  const double expected = spec.shot_noise_off_hz * duration_s * alive / inverse;
+  const double low_mean = low_sum / low, high_mean = high_sum / high;
+  EXPECT_NEAR(low_mean, expected,
+              3 * std::sqrt(low_square / low - low_mean * low_mean) / std::sqrt(low));
+  EXPECT_NEAR(high_mean, expected,
+              3 * std::sqrt(high_square / high - high_mean * high_mean) / std::sqrt(high));
 }
 
 TEST(ShotNoise, DiffersBetweenCamerasThrowsAndSeedsAndIsTheSameOtherwise) {
