@@ -8,10 +8,10 @@
 
 namespace dodge {
 
-// Every flight has a pilot of its own, whose members one thread calls. Whoever does the same at the
-// same inputs, without clocks, std::random_device, threads that race and what an earlier flight has
-// left in statics, makes campaigns that can be resumed, merged and replayed. The simulator records
-// a flight in which one throws an exception as failed, with the exception's text.
+// Every flight has a pilot of its own, which is called from one thread only. Campaigns can be
+// resumed, merged and replayed if a pilot is a function of its inputs: no clocks, no
+// std::random_device, no races between threads, nothing left in statics by an earlier flight. A
+// flight in which a pilot throws an exception is recorded as failed, with the exception's text.
 class Pilot {
  public:
   virtual ~Pilot() = default;

@@ -6,7 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/campaign/campaign.h"
 #include "sim/config/resolve_throw.h"
-#include "sim/explain_throw.h"
+#include "sim/flight/explain_throw.h"
 #include "sim/world/room_ray.h"
 
 namespace dodgesim {

@@ -1,7 +1,7 @@
 // One throw.
 #pragma once
 
-#include "sim/flight.h"
+#include "sim/flight/flight.h"
 
 namespace dodgesim {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <string>
 
-#include "dodge/avoid/ellipsoid.h"
+#include "dodge/detect/ellipsoid.h"
 #include "dodge/types.h"
 
 namespace dodge {

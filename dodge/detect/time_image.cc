@@ -45,7 +45,7 @@ void TimeImage::add(std::span<const Event> block, const EgoMotion& ego_motion, T
   place(block, ego_motion);
   for (std::size_t i = 0; i < block.size(); ++i) {
     const int pixel = pixel_[i];
-    if (pixel < 0) continue;
+    if (pixel < 0 || count[pixel] == kMostOfPixel) continue;
     // Without a branch: whether a pixel is new cannot be predicted.
     active_[active_count_] = pixel;
     active_count_ += count[pixel] == 0 ? 1 : 0;

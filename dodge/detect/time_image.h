@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <span>
 #include <vector>
@@ -71,7 +72,7 @@ class TimeImage {
 
   // Eqs. (2), (3): empties the images and takes the events of (begin_us, end_us], given in pieces.
   // The pixel is the warped one, the time the event's own. Events outside of the image, before or
-  // after the warp, are dropped.
+  // after the warp, are dropped, and of one pixel all after the first 65,535.
   void accumulate(std::span<const std::span<const Event>> pieces, const EgoMotion& ego_motion,
                   TimeUs begin_us, TimeUs end_us);
 
@@ -93,6 +94,7 @@ class TimeImage {
 
  private:
   static constexpr std::size_t kBlock = 256;  // events that are warped together
+  static constexpr std::uint16_t kMostOfPixel = 65535;
 
   void add(std::span<const Event> block, const EgoMotion& ego_motion, TimeUs begin_us,
            float per_us);

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "dodge/avoid/ellipsoid.h"
 #include "dodge/detect/association.h"
+#include "dodge/detect/ellipsoid.h"
 #include "dodge/detect/kalman.h"
 #include "dodge/types.h"
 

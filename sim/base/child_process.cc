@@ -21,8 +21,8 @@ namespace dodgesim {
 
 namespace {
 
-[[noreturn]] void serve(int fd, const std::function<std::string()>& task) noexcept {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+[[noreturn]] void serve(int fd, const std::function<std::string()>& task, pid_t parent) noexcept {
+  die_with(parent);
   const rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
   // Allocators and sanitizers print their own, and whatever code of users the task runs.
@@ -50,15 +50,21 @@ bool listen_to(int fd, int wall_ms, std::string& said) {
 
 }  // namespace
 
+void die_with(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+}
+
 ChildAnswer ask_child(const std::function<std::string()>& task, int wall_ms) {
   int fds[2];
   if (::pipe2(fds, O_CLOEXEC) != 0) {
     throw SimulationError(std::string("A pipe could not be made: ") + std::strerror(errno) + ".");
   }
+  const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(fds[0]);
-    serve(fds[1], task);
+    serve(fds[1], task, parent);
   }
   const int error = errno;
   ::close(fds[1]);

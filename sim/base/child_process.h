@@ -1,6 +1,8 @@
 // Work that must leave nothing behind in this process: a crash, memory, threads.
 #pragma once
 
+#include <sys/types.h>
+
 #include <functional>
 #include <string>
 
@@ -15,5 +17,9 @@ struct ChildAnswer {
 // What it prints goes nowhere, and it dies with its parent. An exception that leaves `task`
 // ends it like a crash. Throws SimulationError if no process can be made.
 ChildAnswer ask_child(const std::function<std::string()>& task, int wall_ms);
+
+// In a child: lets it die with `parent`, the process that has forked it, or ends it if that has
+// ended already.
+void die_with(pid_t parent);
 
 }  // namespace dodgesim

@@ -21,14 +21,14 @@ constexpr double kTexturedPx = 0.098;  // speeds that make 3 and 0.3 events per 
 constexpr double kDriftingPx = 0.0095;
 
 struct Bench {
-  Film film;
+  MovingPicture film;
   EventCameraSpec spec;
   EventCamera camera;
   std::int64_t frame = 0;
   std::vector<float> luminance = std::vector<float>(kPixels);
   std::vector<Event> events;
 
-  Bench(Film f, const EventCameraSpec& s)
+  Bench(MovingPicture f, const EventCameraSpec& s)
       : film(std::move(f)), spec(s), camera(s, kWidth, kHeight, 1, 0, "bench") {
     film(0, luminance);
     camera.reset(0, luminance.data());
@@ -50,7 +50,7 @@ struct Bench {
 };
 
 BenchCase emulator_case(const std::string& film_name, const std::string& camera,
-                        const std::string& description, std::function<Film()> film) {
+                        const std::string& description, std::function<MovingPicture()> film) {
   const std::string name = "emulator." + film_name + "." + camera;
   const std::string what = "camera " + camera + ", " + description;
   BenchCase bench;

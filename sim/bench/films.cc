@@ -53,7 +53,7 @@ double triangle(double distance_px) {
 
 }  // namespace
 
-Film drifting_texture(int width, int height, double speed_px) {
+MovingPicture drifting_texture(int width, int height, double speed_px) {
   // planes[s] holds the texture at x + s / kSubPixels, wide enough for the whole stretch.
   const int plane_width = width + kStretchPx + 1;
   auto planes = std::make_shared<std::vector<std::vector<float>>>(kSubPixels + 1);
@@ -82,7 +82,7 @@ Film drifting_texture(int width, int height, double speed_px) {
   };
 }
 
-Film quiet_texture(int width, int height) {
+MovingPicture quiet_texture(int width, int height) {
   constexpr std::int64_t kPictures = 16;
   constexpr double kSteps = 255;
   constexpr double kDarkest = 20;  // a step is then 5 %

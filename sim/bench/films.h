@@ -8,14 +8,14 @@
 namespace dodgesim {
 
 // Fills in picture number k, width x height of linear luminance.
-using Film = std::function<void(std::int64_t k, std::vector<float>& luminance)>;
+using MovingPicture = std::function<void(std::int64_t k, std::vector<float>& luminance)>;
 
 // A random texture without detail finer than 10 px that drifts sideways by speed_px a picture,
-// forth and back over a stretch of 64 px.
-Film drifting_texture(int width, int height, double speed_px);
+// back and forth over a stretch of 64 px.
+MovingPicture drifting_texture(int width, int height, double speed_px);
 
 // The same texture at rest, in steps of 1/255, each pixel flickering between two neighbouring ones
 // that no event camera with thresholds of 0.1 or more tells apart.
-Film quiet_texture(int width, int height);
+MovingPicture quiet_texture(int width, int height);
 
 }  // namespace dodgesim

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/text_table.h"
+#include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 #include "sim/plot/plot.h"
 

@@ -1,5 +1,5 @@
-// A first-in first-out channel with a delay: what is pushed comes out once its arrival time is
-// past.
+// A first-in first-out channel with a delay: what is pushed comes out once its arrival time has
+// come.
 #pragma once
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include "dodge/pilot.h"
 #include "sim/bridge/delay_line.h"
 #include "sim/bridge/oracle_spec.h"
-#include "sim/render/camera.h"
+#include "sim/camera/camera.h"
 #include "sim/world/snapshot.h"
 
 namespace dodgesim {

@@ -46,15 +46,6 @@ bool holds_anything(const fs::path& out) {
 
 }  // namespace
 
-const fs::path& make_directory(const fs::path& out) {
-  if (out.empty()) throw IoError("The name of the directory for the results is empty.");
-  std::error_code error, unknown;
-  fs::create_directories(out, error);
-  if (fs::is_directory(out, unknown)) return out;
-  throw IoError(out.string() + " could not be created: " +
-                (error ? error.message() : "a file of that name exists") + ".");
-}
-
 DirectoryLock::DirectoryLock(const fs::path& out) {
   const fs::path path = out / kLockFile;
   fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);

@@ -10,9 +10,6 @@
 
 namespace dodgesim {
 
-// Makes it when it is missing, and returns it. Throws IoError.
-const std::filesystem::path& make_directory(const std::filesystem::path& out);
-
 // One process at a time writes to a directory. The lock ends with the process, however that ends.
 class DirectoryLock {
  public:

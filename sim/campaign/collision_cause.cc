@@ -21,6 +21,8 @@ std::string to_text(CollisionCause cause) {
       return "not detected";
     case CollisionCause::kSecondObject:
       return "second object";
+    case CollisionCause::kNotEvaded:
+      return "not evaded";
     case CollisionCause::kSeenLate:
       return "seen late";
     case CollisionCause::kWrongPosition:
@@ -61,11 +63,15 @@ CollisionCause collision_cause(const Agility& agility, const CollisionEvidence& 
   }
   if (evidence.another_detected_before) return CollisionCause::kSecondObject;
   if (evidence.perceives && !evidence.in_view) return CollisionCause::kNotSeen;
-  if (evidence.perceives && !evidence.detected) return CollisionCause::kNotDetected;
+  if (evidence.perceives && !evidence.detected_us) return CollisionCause::kNotDetected;
   if (!evidence.undisturbed) return CollisionCause::kWrongDirection;
   const auto in_time = [&times](const std::optional<double>& needed_s) {
     return times.left_s && needed_s && *times.left_s >= *needed_s;
   };
+  if (!evidence.command_us && evidence.detected_us && times.needed_s &&
+      seconds(evidence.undisturbed->contact_us - *evidence.detected_us) >= *times.needed_s) {
+    return CollisionCause::kNotEvaded;
+  }
   if (!in_time(times.needed_s)) return CollisionCause::kSeenLate;
 
   const auto led_away = [&](const Encounter& encounter) {

@@ -1,11 +1,14 @@
 // Why a flight came to harm, from the truth. A collision is held against what the vehicle's rotors
-// allow, whatever its pilot and controller made of it (escape.h):
+// allow, whatever its pilot and controller made of it (agility.h):
 //
 //   not seen              the object was never in view of a camera
 //   not detected          in view, but no detection was of it
 //   second object         the pilot had detected another object before this one
-//   seen late             when the evasive command arrived, if it did, none of the manoeuvres that
-//                         are tried would have brought the vehicle out of the way in time
+//   not evaded            at its first detection some manoeuvre was left, but no evasive command
+//                         followed: the pilot did not believe, or not mind, what it had detected
+//   seen late             when the evasive command arrived, or without one at the first detection,
+//                         none of the manoeuvres that are tried would have brought the vehicle out
+//                         of the way in time
 //   wrong position        some manoeuvre was left, but none that led where the commands did, which
 //                         would have been right had the object been where it was detected
 //   wrong direction       some manoeuvre was left, but none that led where the commands did; or
@@ -38,6 +41,7 @@ enum class CollisionCause {
   kNotSeen,
   kNotDetected,
   kSecondObject,
+  kNotEvaded,
   kSeenLate,
   kWrongPosition,
   kWrongDirection,
@@ -49,13 +53,19 @@ enum class CollisionCause {
   kFlewIntoTheRoom,
 };
 
-inline constexpr std::array kCollisionCauses = {
-    CollisionCause::kNotSeen,         CollisionCause::kNotDetected,
-    CollisionCause::kSecondObject,    CollisionCause::kSeenLate,
-    CollisionCause::kWrongPosition,   CollisionCause::kWrongDirection,
-    CollisionCause::kDirectionTurned, CollisionCause::kCommandedTooLittle,
-    CollisionCause::kNotEnoughThrust, CollisionCause::kLanding,
-    CollisionCause::kFledIntoTheRoom, CollisionCause::kFlewIntoTheRoom};
+inline constexpr std::array kCollisionCauses = {CollisionCause::kNotSeen,
+                                                CollisionCause::kNotDetected,
+                                                CollisionCause::kSecondObject,
+                                                CollisionCause::kNotEvaded,
+                                                CollisionCause::kSeenLate,
+                                                CollisionCause::kWrongPosition,
+                                                CollisionCause::kWrongDirection,
+                                                CollisionCause::kDirectionTurned,
+                                                CollisionCause::kCommandedTooLittle,
+                                                CollisionCause::kNotEnoughThrust,
+                                                CollisionCause::kLanding,
+                                                CollisionCause::kFledIntoTheRoom,
+                                                CollisionCause::kFlewIntoTheRoom};
 
 std::string to_text(CollisionCause cause);
 
@@ -67,7 +77,7 @@ struct CollisionEvidence {
   bool landing = false;   // the pilot had begun an emergency landing
   bool perceives = true;  // the pilot sees with its cameras; others are told of objects
   bool in_view = false;   // the object was, before the hit
-  bool detected = false;  // the object was, before the hit
+  std::optional<TimeUs> detected_us;  // when the pilot first gave out a detection of it
   bool another_detected_before = false;
   std::optional<Encounter> undisturbed;  // empty: nothing would have happened
   std::optional<TimeUs> command_us;      // first evasive command after the detection

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "sim/campaign/result.h"
-#include "sim/campaign/sequential.h"
 #include "sim/campaign/throw_statistics.h"
 #include "sim/config/scenario.h"
+#include "sim/statistics/sequential.h"
 
 namespace dodgesim {
 

@@ -8,7 +8,7 @@ namespace dodgesim {
 struct CampaignIdentity {
   std::string scenario;  // as it was resolved, YAML
   std::string program;   // version and commit, and what was changed since
-  std::string models;    // digest of room, vehicle and objects (sim/try_models.h)
+  std::string models;    // digest of room, vehicle and objects (sim/preflight/try_models.h)
   std::string plugin;    // digest of the library, when it flies
   bool truth = false;    // the results hold truth_rows
 

@@ -9,6 +9,7 @@
 #include "sim/campaign/load_campaign.h"
 #include "sim/campaign/manifest.h"
 #include "sim/campaign/result_files.h"
+#include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 
 namespace dodgesim {

@@ -213,17 +213,6 @@ Json section_of(const Part& part, const ReportAxes& axes) {
           {"detected", rate_of(all.detected)}, {"false_alarms", rate_of(all.false_alarms)}};
 }
 
-// What flies a throw again, but for its number. A campaign that was read back does not say where
-// its models and its plug-in are.
-std::string replay_line(const std::string& directory, const Scenario& scenario) {
-  std::string line = "dodgesim replay " + shell_quoted(directory);
-  if (!scenario.models_dir.empty()) line += " --models " + shell_quoted(scenario.models_dir);
-  const std::string& plugin = scenario.plugin.file;
-  if (flies_plugin(scenario))
-    line += " --plugin " + (plugin.empty() ? "FILE.so" : shell_quoted(plugin));
-  return line + " --throw ";
-}
-
 Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
   const Scenario& scenario = campaign.scenario;
   const std::vector<ThrowResult>& results = campaign.results;
@@ -276,6 +265,15 @@ std::string script_safe(std::string json) {
 }
 
 }  // namespace
+
+std::string replay_line(const std::string& directory, const Scenario& scenario) {
+  std::string line = "dodgesim replay " + shell_quoted(directory);
+  if (!scenario.models_dir.empty()) line += " --models " + shell_quoted(scenario.models_dir);
+  const std::string& plugin = scenario.plugin.file;
+  if (flies_plugin(scenario))
+    line += " --plugin " + (plugin.empty() ? "FILE.so" : shell_quoted(plugin));
+  return line + " --throw ";
+}
 
 std::string report_html(const LoadedCampaign& campaign, const std::string& directory) {
   const std::string data = script_safe(

@@ -122,7 +122,7 @@ struct DetectionRow {
 };
 
 // Events of the pilot's windows in one cycle or several, both cameras together; see
-// sim/event_truth.h.
+// sim/observers/event_truth.h.
 struct EventTruthCounts {
   std::int64_t events = 0;
   std::int64_t object_events = 0;        // that an object made

@@ -4,6 +4,7 @@
 #include "sim/campaign/build_info.h"
 #include "sim/campaign/manifest.h"
 #include "sim/campaign/result_files.h"
+#include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 
 namespace dodgesim {

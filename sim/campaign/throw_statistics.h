@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/quantiles.h"
 #include "sim/campaign/result.h"
+#include "sim/statistics/quantiles.h"
 
 namespace dodgesim {
 

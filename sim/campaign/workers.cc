@@ -1,7 +1,6 @@
 #include "sim/campaign/workers.h"
 
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/types.h>
 #include <sys/wait.h>
@@ -17,10 +16,11 @@
 #include <new>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <string_view>
+#include <thread>
 #include <vector>
 
+#include "sim/base/child_process.h"
 #include "sim/base/descriptor.h"
 #include "sim/base/error.h"
 #include "sim/base/memory_limit.h"
@@ -107,8 +107,7 @@ void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
   // decides what becomes of its workers.
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_IGN);
   ::dup2(STDERR_FILENO, STDOUT_FILENO);  // the tables are alone on standard output
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != campaign) ::_exit(1);  // it has ended already
+  die_with(campaign);
   if (limits.memory_mb > 0) limit_memory(limits.memory_mb);
 }
 

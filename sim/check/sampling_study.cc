@@ -8,7 +8,7 @@
 #include "sim/check/film.h"
 #include "sim/check/prescribed_throw.h"
 #include "sim/check/quantile.h"
-#include "sim/flight.h"
+#include "sim/flight/flight.h"
 
 namespace dodgesim {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sim/check/check.h"
-#include "sim/event_rig.h"
+#include "sim/flight/event_rig.h"
 
 namespace dodgesim {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "sim/event_truth.h"
 #include "sim/loop.h"
+#include "sim/observers/event_truth.h"
 
 namespace dodgesim {
 

@@ -29,7 +29,7 @@ std::string closest_name(const std::string& word, const std::vector<std::string>
   constexpr std::size_t kLongestWord = 64;
   if (word.empty() || word.size() > kLongestWord) return "";
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::size_t best_distance = std::max<std::size_t>(1, (word.size() + 1) / 3) + 1;
   for (const std::string& candidate : candidates) {
     const bool only_unit_missing = candidate.starts_with(word + "_");
     const std::size_t distance = only_unit_missing ? 1 : edit_distance(word, candidate);

@@ -30,7 +30,8 @@ int cell_count(const Scenario& scenario);   // 1 without a grid
 int sweep_count(const Scenario& scenario);  // 1 without a sweep
 int throw_count(const Scenario& scenario);
 
-// Throw t of a scenario as load_scenario() has checked it, 0 <= t < throw_count().
+// Throw t of a scenario as load_scenario() has checked it. With a sweep t < throw_count(), without
+// one any t >= 0: the draws of more repeats. Throws std::out_of_range.
 ThrowCase case_of(const Scenario& scenario, int t);
 
 // "delays.compute_us 3500, pilot oracle"; empty without values.

@@ -92,8 +92,9 @@ struct MissionSpec {
       "How near its estimated position must come to a waypoint for the vehicle to go on.");
     v("speed_mps", speed_mps, 0.1, 10,
       "Cruise speed towards the goal or a waypoint (1.5 in the paper), at most "
-      "dodger.velocity_limit.max_speed_mps. Above 2 m/s the default dodger.attractive.e_0_m of "
-      "0.2 m brakes too late and the vehicle swings through its goal; 0.4 m do for 3 m/s.");
+      "dodger.velocity_limit.max_speed_mps. The vehicle brakes within dodger.attractive.e_0_m "
+      "of its goal: with less than speed_mps^2/25 (0.36 m for 3 m/s, 1 m for 5 m/s) it overshoots, "
+      "and swings through its goal for ever. The default of 0.2 m does for 2 m/s.");
   }
 };
 
@@ -120,7 +121,8 @@ struct ThrowSpec {
       "counts as one that would have missed.");
     v("distance_m", distance_m, 0.5, 20,
       "Distance over the ground from the launch to the aim point, where the vehicle will be on "
-      "arrival.");
+      "arrival. Nothing of the room may stand in the line between: such a throw is an error, not a "
+      "miss.");
     v("bearing_deg", bearing_deg, -180, 180,
       "Where the throw comes from, seen from the vehicle: 0 ahead, positive to the left.");
     v("aim_offset_m", aim_offset_m, -2, 2,
@@ -136,9 +138,9 @@ struct ThrowSpec {
     v("count", count, 1, 16,
       "How many of these are thrown in one flight, each with draws of its own.");
     v("interval_s", interval_s, 0, 60,
-      "From one of their launches to the next; 0: all at once, at launch_s of the first, "
-      "which takes places of their own (bearing_deg, aim_offset_m): inside each other they are not "
-      "launched.");
+      "Time from one of their launches to the next. 0: all are launched together, at launch_s of "
+      "the first; then they need different places, by a drawn bearing_deg or aim_offset_m, as "
+      "objects that would overlap are not launched.");
   }
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/base/time.h"
+#include "sim/camera/camera.h"
 #include "sim/events/cause.h"
 #include "sim/events/event.h"
 #include "sim/events/event_words.h"
@@ -19,7 +20,6 @@
 #include "sim/events/readout.h"
 #include "sim/events/spec.h"
 #include "sim/events/thresholds.h"
-#include "sim/render/camera.h"
 
 namespace dodgesim {
 

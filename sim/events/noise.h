@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "sim/base/time.h"
+#include "sim/camera/camera.h"
 #include "sim/events/cause.h"
 #include "sim/events/poisson_events.h"
 #include "sim/events/spec.h"
 #include "sim/events/thresholds.h"
-#include "sim/render/camera.h"
 
 namespace dodgesim {
 

@@ -31,6 +31,7 @@
 
 #include "sim/base/random.h"
 #include "sim/base/time.h"
+#include "sim/camera/camera.h"
 #include "sim/events/crossings.h"
 #include "sim/events/event_words.h"
 #include "sim/events/noise.h"
@@ -38,7 +39,6 @@
 #include "sim/events/signal_piece.h"
 #include "sim/events/spec.h"
 #include "sim/events/thresholds.h"
-#include "sim/render/camera.h"
 
 namespace dodgesim {
 

@@ -25,9 +25,9 @@
 #include <vector>
 
 #include "sim/base/time.h"
+#include "sim/camera/camera.h"
+#include "sim/camera/sphere_bounds.h"
 #include "sim/events/spec.h"
-#include "sim/render/camera.h"
-#include "sim/render/sphere_bounds.h"
 #include "sim/world/snapshot.h"
 
 namespace dodgesim {

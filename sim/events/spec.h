@@ -105,8 +105,7 @@ void EventCameraSpec::visit(Visitor& v) {
   v("shot_noise_on_hz", shot_noise_on_hz, 0, 1000,
     "Mean rate of ON events of a pixel in the dark, due to shot noise (measured on a DVXplorer). "
     "A pixel's own is in inverse proportion to its ON threshold (v2e).");
-  v("shot_noise_off_hz", shot_noise_off_hz, 0, 1000,
-    "The same of OFF events.");
+  v("shot_noise_off_hz", shot_noise_off_hz, 0, 1000, "The same of OFF events.");
   v("shot_noise_bright_share", shot_noise_bright_share, 0, 1,
     "Share of these rates that is left at 1000 lux on white; they fall linearly (v2e: 0.25), so "
     "that they hardly differ below 100 lux.");
@@ -127,7 +126,8 @@ void EventCameraSpec::visit(Visitor& v) {
     "Events that the readout can serve in a second (assumed). Requests wait in line; a pixel that "
     "waits makes no other event, which is counted as lost. 0: no limit.");
   v("stamp_resolution_us", stamp_resolution_us, 1, 100000,
-    "Time stamps are multiples of this since the first frame, rounded up.");
+    "Time stamps are multiples of this since the first frame, rounded up from the nearest "
+    "microsecond.");
 }
 
 struct SamplingSpec {

@@ -1,7 +1,8 @@
 #include "sim/files/mcap_writer.h"
 
+#include <zlib.h>
+
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstring>
 
@@ -48,26 +49,13 @@ std::string record(Opcode opcode, std::string_view content) {
   return bytes;
 }
 
-constexpr std::array<std::uint32_t, 256> crc_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t i = 0; i < 256; ++i) {
-    std::uint32_t value = i;
-    for (int bit = 0; bit < 8; ++bit) value = (value >> 1) ^ ((value & 1) != 0 ? 0xEDB88320u : 0);
-    table[i] = value;
-  }
-  return table;
+// Of `bytes`, which follow others with the checksum `before`.
+std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0) {
+  return static_cast<std::uint32_t>(
+      ::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace
-
-std::uint32_t McapWriter::crc32(std::string_view bytes, std::uint32_t before) {
-  static constexpr std::array<std::uint32_t, 256> kTable = crc_table();
-  std::uint32_t crc = ~before;
-  for (const char c : bytes) {
-    crc = kTable[(crc ^ static_cast<unsigned char>(c)) & 0xFF] ^ (crc >> 8);
-  }
-  return ~crc;
-}
 
 void McapWriter::Interval::include(std::uint64_t time_ns, bool is_first) {
   first_ns = is_first ? time_ns : std::min(first_ns, time_ns);

@@ -34,9 +34,6 @@ class McapWriter {
   // Completes the file. Without it nothing is left behind.
   void finish();
 
-  // As zlib's crc32(): of `bytes`, which follow others with the checksum `before`.
-  static std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
-
  private:
   struct Topic {
     std::string record;  // its Channel record

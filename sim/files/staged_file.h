@@ -24,6 +24,7 @@ class StagedFile {
     return path.string() + ".partial";
   }
 
+  const std::filesystem::path& path() const { return path_; }  // what PATH names
   const std::filesystem::path& partial() const { return partial_; }
   int fd() const { return fd_; }  // open for writing until commit()
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sim/base/error.h"
+#include "sim/files/directory.h"
 #include "sim/files/input_file.h"
 #include "sim/files/output_file.h"
 
@@ -143,9 +144,7 @@ GateRules rules_or_default(const fs::path& directory) {
 }
 
 void write_baseline(const fs::path& directory, const fs::path& campaign, const GateRules& rules) {
-  std::error_code error;
-  fs::create_directories(directory, error);
-  if (error) throw IoError(directory.string() + " could not be made: " + error.message() + ".");
+  make_directory(directory);
   Json manifest = read_manifest(campaign);
   manifest.erase("time");
   manifest["gate"] = {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/paired.h"
-#include "sim/campaign/statistics.h"
-#include "sim/campaign/unpaired.h"
 #include "sim/gate/outcomes.h"
+#include "sim/statistics/interval.h"
+#include "sim/statistics/paired.h"
+#include "sim/statistics/unpaired.h"
 
 namespace dodgesim {
 

@@ -7,7 +7,7 @@
 #include "sim/base/gravity.h"
 #include "sim/base/time.h"
 #include "sim/campaign/agility.h"
-#include "sim/flight.h"
+#include "sim/flight/flight.h"
 #include "sim/world/referee.h"
 
 namespace dodgesim {

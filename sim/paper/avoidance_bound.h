@@ -32,7 +32,7 @@ double point_avoidance_s(double distance_m, double acceleration_mps2);
 // comes level and ahead at its centre.
 // A point: to the side, with all the vehicle's thrust but what keeps its height, at once.
 AvoidanceBound point_bound(const Scenario& scenario, double range_m);
-// Its rotors, by the manoeuvres of escape.h. s is the distance from the first camera, and
+// Its rotors, by the manoeuvres of agility.h. s is the distance from the first camera, and
 // the ball arrives when it touches the hull. t_a is known to a millisecond.
 AvoidanceBound rotors_bound(const Scenario& scenario, double range_m);
 

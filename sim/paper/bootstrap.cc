@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sim/base/random.h"
-#include "sim/campaign/quantiles.h"
+#include "sim/statistics/quantiles.h"
 
 namespace dodgesim {
 

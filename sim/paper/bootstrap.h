@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "sim/campaign/statistics.h"
+#include "sim/statistics/interval.h"
 
 namespace dodgesim {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/campaign/statistics.h"
+#include "sim/statistics/interval.h"
 
 namespace dodgesim {
 

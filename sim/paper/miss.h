@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "dodge/detect/depth.h"
-#include "sim/event_truth.h"
-#include "sim/flight.h"
+#include "sim/flight/flight.h"
+#include "sim/observers/event_truth.h"
 #include "sim/paper/passage.h"
 
 namespace dodgesim {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "sim/campaign/load_campaign.h"
-#include "sim/campaign/paired.h"
 #include "sim/campaign/throw_statistics.h"
+#include "sim/statistics/paired.h"
 
 namespace dodgesim {
 

@@ -4,9 +4,9 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/build_info.h"
-#include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/journal.h"
 #include "sim/campaign/result_files.h"
+#include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 
 namespace dodgesim {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/flight.h"
+#include "sim/flight/flight.h"
 
 namespace dodgesim {
 

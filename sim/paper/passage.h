@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "sim/camera/camera.h"
 #include "sim/campaign/result.h"
 #include "sim/campaign/trajectory.h"
 #include "sim/config/scenario.h"
-#include "sim/render/camera.h"
 
 namespace dodgesim {
 

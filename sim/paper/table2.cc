@@ -5,12 +5,12 @@
 #include <tuple>
 
 #include "sim/base/error.h"
-#include "sim/campaign/statistics.h"
 #include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/miss_investigator.h"
 #include "sim/paper/success.h"
+#include "sim/statistics/interval.h"
 
 namespace dodgesim {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "dodge/presets.h"
-#include "sim/flight.h"
+#include "sim/flight/flight.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/rate_grid.h"
 

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "sim/render/camera.h"
+#include "sim/camera/camera.h"
 #include "sim/render/gl_scene.h"
 #include "sim/render/static_edges.h"
 

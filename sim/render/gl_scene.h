@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "sim/render/camera.h"
+#include "sim/camera/camera.h"
 #include "sim/render/gl_objects.h"
 #include "sim/render/program_cache.h"
 #include "sim/render/scene_geometry.h"

@@ -21,7 +21,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/render/camera.h"
+#include "sim/camera/camera.h"
 
 namespace dodgesim {
 

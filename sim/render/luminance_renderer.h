@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/render/camera.h"
+#include "sim/camera/camera.h"
 #include "sim/render/flicker.h"
 #include "sim/world/snapshot.h"
 #include "sim/world/world.h"

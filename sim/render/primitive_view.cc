@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/render/sphere_bounds.h"
+#include "sim/camera/sphere_bounds.h"
 
 namespace dodgesim {
 

@@ -6,15 +6,14 @@
 #include "sim/base/error.h"
 #include "sim/base/mujoco.h"
 #include "sim/render/tessellation.h"
+#include "sim/world/compose.h"
+#include "sim/world/geom_color.h"
 
 namespace dodgesim {
 
 namespace {
 
 using Eigen::Vector3d;
-
-// Groups from here on are hidden in MuJoCo's default view; the vehicle's own geoms are there.
-constexpr int kFirstHiddenGroup = 3;
 
 Eigen::Isometry3d pose_of(const mjtNum* position, const mjtNum* rotation) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
@@ -24,14 +23,6 @@ Eigen::Isometry3d pose_of(const mjtNum* position, const mjtNum* rotation) {
 }
 
 Vector3d rgb_of(const float* rgb) { return {rgb[0], rgb[1], rgb[2]}; }
-
-// The geom's own colour counts unless it is MuJoCo's default and there is a material.
-const float* color_of(const mjModel& m, int geom) {
-  const float* own = m.geom_rgba + 4 * geom;
-  const bool is_default = own[0] == 0.5f && own[1] == 0.5f && own[2] == 0.5f && own[3] == 1.0f;
-  const int material = m.geom_matid[geom];
-  return material >= 0 && is_default ? m.mat_rgba + 4 * material : own;
-}
 
 LuminanceTexture make_texture(const mjModel& m, int id, const Vector3d& tint, bool srgb) {
   LuminanceTexture texture;
@@ -95,7 +86,7 @@ void set_texture_mapping(const mjModel& m, int geom, const Vector3d& size, Surfa
 
 Surface make_surface(const mjModel& m, int geom, const Vector3d& size, SceneGeometry& scene) {
   Surface surface;
-  const Vector3d color = rgb_of(color_of(m, geom));
+  const Vector3d color = rgb_of(geom_color(m, geom));
   const int material = m.geom_matid[geom];
   const int texture = material >= 0 ? m.mat_texid[material] : -1;
   if (material >= 0) surface.emission = m.mat_emission[material];
@@ -261,7 +252,7 @@ SceneGeometry collect_scene(const mjModel& model, const std::vector<int>& object
   mj_comPos(&model, data.get());
   mj_camlight(&model, data.get());
   for (int geom = 0; geom < model.ngeom; ++geom) {
-    if (model.geom_group[geom] >= kFirstHiddenGroup || color_of(model, geom)[3] == 0) continue;
+    if (model.geom_group[geom] >= kFirstHiddenGroup || geom_color(model, geom)[3] == 0) continue;
     const int root = model.body_weldid[model.geom_bodyid[geom]];
     int object = -1;
     for (std::size_t i = 0; i < object_bodies.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/base/error.h"
+#include "sim/world/compose.h"
 
 namespace dodgesim {
 
@@ -48,8 +49,6 @@ ScenePictures::ScenePictures(const mjModel& model, int vehicle_body,
   mjr_makeContext(&model, &mujoco_context_, mjFONTSCALE_100);
   mjr_setBuffer(mjFB_WINDOW, &mujoco_context_);
   mjv_defaultOption(&option_);
-  // Group 3: the vehicle's own geoms, which its cameras do not see.
-  constexpr int kVehicleGroup = 3;
   option_.geomgroup[kVehicleGroup] = 1;
   std::fill(std::begin(option_.sitegroup), std::end(option_.sitegroup), mjtByte{0});
 }

@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include "sim/render/camera.h"
+#include "sim/camera/camera.h"
 
 namespace dodgesim {
 

@@ -5,6 +5,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/gravity.h"
+#include "sim/world/compose.h"
 
 namespace dodgesim {
 
@@ -40,6 +41,18 @@ std::span<const double> ModelReader::numeric(const std::string& name, int count)
                         " values.");
   }
   return {model_.numeric_data + model_.numeric_adr[id], static_cast<std::size_t>(count)};
+}
+
+void ModelReader::check_room() const {
+  for (int geom = 0; geom < model_.ngeom; ++geom) {
+    const int group = model_.geom_group[geom];
+    if (model_.body_weldid[model_.geom_bodyid[geom]] != 0) continue;
+    if (group == kRoomGroup || group >= kFirstHiddenGroup) continue;
+    const char* name = mj_id2name(&model_, mjOBJ_GEOM, geom);
+    throw ScenarioError(file_ + ": the geom '" + (name != nullptr ? name : "") + "' is in group " +
+                        std::to_string(group) + "; a room's geoms are in group 0, or in 3 to 5 " +
+                        "if they are not to be seen.");
+  }
 }
 
 FreeBody ModelReader::free_body(int body) const {
@@ -163,8 +176,9 @@ VehicleParameters ModelReader::vehicle(double mass_scale) const {
   const double lift = 4 * vehicle.max_thrust_n / (vehicle.mass_kg * kGravityMps2);
   if (lift < kLeastLift) {
     throw ScenarioError(file_ + ": the rotors lift only " + std::to_string(lift) +
-                        " times the vehicle's weight; it needs at least 1.2 to fly" +
-                        " (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
+                        " times the vehicle's weight; it needs at least " +
+                        std::to_string(kLeastLift) +
+                        " to fly (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
   }
   for (const char* name : {"top", "bottom"}) {
     const int camera = find(mjOBJ_CAMERA, name);

@@ -39,6 +39,9 @@ class ModelReader {
 
   int find(mjtObj type, const std::string& name) const;
 
+  // That whatever shows the room, or measures to it, takes the same geoms for it.
+  void check_room() const;
+
   // A body that is free, rigid, and has its centre of mass at its origin.
   FreeBody free_body(int body) const;
 

@@ -37,7 +37,7 @@ struct Verdict {
   TimeUs landed_us = -1;
 };
 
-// Observes every tick. The vehicle's hull are the geoms of its body that can collide.
+// Observes every tick. The vehicle's hull is the geoms of its body that can collide.
 class Referee {
  public:
   // Throws ScenarioError if a hull or object geom is of a kind without a known distance.

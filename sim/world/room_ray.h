@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "sim/world/compose.h"
 #include "sim/world/world.h"
 
 namespace dodgesim {
@@ -17,9 +18,10 @@ struct RoomHit {
 // The nearest surface of the room from p_W along direction_W (of any length but zero), if any.
 inline std::optional<RoomHit> room_along(const World& world, const Eigen::Vector3d& p_W,
                                          const Eigen::Vector3d& direction_W) {
-  constexpr mjtByte kRoomOnly[mjNGROUP] = {1, 0, 0, 0, 0, 0};
+  mjtByte room_only[mjNGROUP] = {};
+  room_only[kRoomGroup] = 1;
   RoomHit hit;
-  hit.distance = mj_ray(&world.model(), &world.data(), p_W.data(), direction_W.data(), kRoomOnly, 1,
+  hit.distance = mj_ray(&world.model(), &world.data(), p_W.data(), direction_W.data(), room_only, 1,
                         -1, &hit.geom);
   if (hit.geom < 0) return std::nullopt;
   return hit;

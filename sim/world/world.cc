@@ -32,6 +32,7 @@ World::World(const WorldSpec& spec) : model_(compose_model(spec)) {
   if (!data_) throw SimulationError("MuJoCo cannot allocate its data.");
   contype_.assign(model_->geom_contype, model_->geom_contype + model_->ngeom);
   conaffinity_.assign(model_->geom_conaffinity, model_->geom_conaffinity + model_->ngeom);
+  ModelReader(*model_, spec.models_dir + "/rooms/" + spec.room + ".xml").check_room();
   const ModelReader vehicle(*model_, spec.models_dir + "/vehicles/" + spec.vehicle + ".xml");
   vehicle_body_ = vehicle.find(mjOBJ_BODY, "vehicle");
   vehicle.override_vehicle(*model_, *data_, spec.vehicle_overrides);

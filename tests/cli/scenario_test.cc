@@ -95,6 +95,9 @@ TEST_F(ScenarioCommandTest, BadSettingsAreUsageErrors) {
                                  " --out x --over throw.size_m=0.1 --over throw.size_m=0.2");
   EXPECT_EQ(twice.exit_code, 2);
   EXPECT_THAT(twice.output, HasSubstr("--over throw.size_m=0.2: throw.size_m is swept already"));
+  const Outcome places =
+      dodgesim("sweep " + path("s.yaml") + " --out x --over 'mission.start_m=[0,0,1],[0,0,-1]'");
+  EXPECT_THAT(places.output, HasSubstr("cannot be at (0, 0, -1) m"));
   const Outcome over = dodgesim("sweep " + path("s.yaml") + " --out x --over delays.compute_us=-1");
   EXPECT_EQ(over.exit_code, 2);
   EXPECT_THAT(over.output, HasSubstr("--over delays.compute_us=-1: delays.compute_us is -1, but"));

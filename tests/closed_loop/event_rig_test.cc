@@ -1,6 +1,6 @@
 // Both event cameras on the vehicle: geometry, polarity, packets. A ball far from any furniture,
 // with cameras without noise.
-#include "sim/event_rig.h"
+#include "sim/flight/event_rig.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Why events happen, as the cameras on the vehicle say, and what follows about the detection.
-#include "sim/event_truth.h"
+#include "sim/observers/event_truth.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/campaign/trajectory.h"
-#include "sim/explain_throw.h"
+#include "sim/flight/explain_throw.h"
 #include "tests/closed_loop/flights.h"
 
 namespace dodgesim {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "sim/event_rig.h"
+#include "sim/flight/event_rig.h"
 #include "sim/world/room_ray.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/sim/events/moving_plane.h"

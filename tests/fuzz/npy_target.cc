@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "sim/files/video.h"
+#include "sim/files/frame_reader.h"
 #include "tests/fuzz/inputs.h"
 
 namespace dodgesim::fuzz {
@@ -14,7 +14,7 @@ bool npy(Bytes bytes) {
   const std::size_t size = std::min<std::size_t>(bytes[0] * 256u + bytes[1], all.size());
   const MemoryFile frames(all.substr(0, size)), times(all.substr(size));
   return accepts([&] {
-    Video video(frames.path(), times.path());
+    FrameReader video(frames.path(), times.path());
     std::vector<float> luminance;
     TimeUs t_us = 0, before_us = -1;
     std::int64_t count = 0;

@@ -6,10 +6,10 @@
 #include <thread>
 
 #include "sim/campaign/text_table.h"
-#include "sim/event_truth.h"
 #include "sim/loop.h"
+#include "sim/observers/event_truth.h"
+#include "sim/preflight/try_models.h"
 #include "sim/render/osmesa_context.h"
-#include "sim/try_models.h"
 #include "tools/commands/command.h"
 #include "tools/commands/stop_signal.h"
 

@@ -13,6 +13,7 @@
 #include "sim/check/self_tests.h"
 #include "sim/check/time_statistics.h"
 #include "sim/config/event_camera_file.h"
+#include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 #include "tools/commands/command.h"
 
@@ -54,20 +55,10 @@ int study(const CheckSensorArguments& arguments) {
   return check.failed() ? kBelowBar : kOk;
 }
 
-std::filesystem::path prepared(const std::string& out) {
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error || !std::filesystem::is_directory(out)) {
-    throw IoError("The directory " + out + " could not be made" +
-                  (error ? ": " + error.message() : "") + ".");
-  }
-  return std::filesystem::path(out) / "report.html";
-}
-
 int check_sensor(const CheckSensorArguments& arguments, const std::string& command_line) {
   const EventCameraSpec camera = named_event_camera(arguments.camera);
   std::optional<OutputFile> report;
-  if (!arguments.out.empty()) report.emplace(prepared(arguments.out));
+  if (!arguments.out.empty()) report.emplace(make_directory(arguments.out) / "report.html");
   std::vector<Check> checks;
   bool failed = false;
   auto make_checks = sensor_checks(camera, arguments.seed);

@@ -13,8 +13,8 @@
 #include "sim/config/event_camera_file.h"
 #include "sim/events/light_between.h"
 #include "sim/files/event_writer.h"
+#include "sim/files/frame_reader.h"
 #include "sim/files/staged_file.h"
-#include "sim/files/video.h"
 #include "tools/commands/command.h"
 #include "tools/commands/stop_signal.h"
 
@@ -113,13 +113,13 @@ class Emulation {
   Counts counts_;
 };
 
-void emulate(Video& video, const LightBetween& light, Emulation& emulation) {
+void emulate(FrameReader& video, const LightBetween& light, Emulation& emulation) {
   Progress progress(video.frame_count(), ::isatty(STDERR_FILENO) == 1, "frames");
   TimeUs before_us = 0, t_us = 0;
   std::vector<float> before, luminance, between;
   video.next(t_us, luminance);
   emulation.begin(t_us, luminance);
-  std::int64_t frames = 0;
+  std::int64_t frames = 1;
   for (;;) {
     std::swap(before, luminance);
     before_us = t_us;
@@ -135,7 +135,7 @@ void emulate(Video& video, const LightBetween& light, Emulation& emulation) {
   progress.finish();
 }
 
-void report(const Video& video, const EventCamera& camera, const Counts& counts,
+void report(const FrameReader& video, const EventCamera& camera, const Counts& counts,
             const TimedEmulation& timed) {
   const long long on = counts.on, off = counts.off;
   std::printf("events: %lld (%lld ON, %lld OFF)\n", on + off, on, off);
@@ -175,7 +175,7 @@ void emulate(const EmulateArguments& arguments) {
   // killed.
   limit_memory(physical_memory_mb());
   const EventCameraSpec spec = named_event_camera(arguments.camera);
-  Video video(arguments.frames, arguments.times);
+  FrameReader video(arguments.frames, arguments.times);
   refuse_same_file(arguments.out, arguments.frames);
   refuse_same_file(arguments.out, arguments.times);
   const auto writer = make_event_writer(

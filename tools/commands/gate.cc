@@ -14,12 +14,13 @@
 #include "sim/base/error.h"
 #include "sim/base/shell.h"
 #include "sim/campaign/csv.h"
+#include "sim/campaign/report.h"
 #include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
 #include "sim/files/output_file.h"
-#include "sim/try_models.h"
-#include "sim/try_plugin.h"
+#include "sim/preflight/try_models.h"
+#include "sim/preflight/try_plugin.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -92,18 +93,15 @@ void expect_same_throws(const Scenario& scenario, const Baseline& baseline, cons
 }
 
 void list_changes(const std::string& heading, const std::vector<ChangedThrow>& changes,
-                  const GateArguments& arguments, std::ostream& text) {
+                  const std::string& replay, std::ostream& text) {
   if (changes.empty()) return;
   constexpr std::size_t kMost = 10;
-  const std::string plugin =
-      arguments.plugin.empty() ? "" : " --plugin " + shell_quoted(arguments.plugin);
   text << heading << ":\n";
   for (std::size_t i = 0; i < std::min(changes.size(), kMost); ++i) {
     const ChangedThrow& change = changes[i];
     text << "  throw " << change.number << " (" << change.label << "): " << change.before
-         << ", now " << change.after << "\n    dodgesim replay "
-         << shell_quoted(arguments.options.out.string()) << plugin << " --throw " << change.number
-         << " --picture throw" << change.number << ".png\n";
+         << ", now " << change.after << "\n    " << replay << change.number << " --picture throw"
+         << change.number << ".png\n";
   }
   if (changes.size() <= kMost) return;
   text << "  and throws";
@@ -122,8 +120,9 @@ std::string verdict_text(const GateArguments& arguments, const Scenario& scenari
   text << comparison_text(verdict.comparison,
                           arguments.baseline.string() + " (commit " + baseline.commit + ")",
                           arguments.options.out.string());
-  list_changes("Lost", verdict.comparison.lost, arguments, text);
-  list_changes("Gained", verdict.comparison.gained, arguments, text);
+  const std::string replay = replay_line(arguments.options.out.string(), scenario);
+  list_changes("Lost", verdict.comparison.lost, replay, text);
+  list_changes("Gained", verdict.comparison.gained, replay, text);
   for (const GateCheck& check : verdict.checks) {
     const char* result = check.result == GateCheck::Result::kPassed   ? "passed"
                          : check.result == GateCheck::Result::kFailed ? "FAILED"

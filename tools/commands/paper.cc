@@ -9,7 +9,7 @@
 #include "sim/base/shell.h"
 #include "sim/campaign/text_table.h"
 #include "sim/paper/paper_tables.h"
-#include "sim/try_models.h"
+#include "sim/preflight/try_models.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 

@@ -11,8 +11,8 @@
 #include "sim/campaign/progress.h"
 #include "sim/campaign/report.h"
 #include "sim/campaign/text_table.h"
-#include "sim/try_models.h"
-#include "sim/try_plugin.h"
+#include "sim/preflight/try_models.h"
+#include "sim/preflight/try_plugin.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
@@ -58,6 +58,18 @@ void report_errors(const CampaignSummary& summary) {
   std::cerr << "\n";
 }
 
+// Whether the bracket that opens the text is closed at its end only: [0.1, 0.2], but not [0, 0],
+// [1, 0].
+bool is_one_list(const std::string& text) {
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    depth += text[i] == '[' ? 1 : 0;
+    depth -= text[i] == ']' ? 1 : 0;
+    if (depth == 0) return i > 0 && i + 1 == text.size();
+  }
+  return false;
+}
+
 // What the command line changes about the file, in the order in which it counts.
 std::vector<Setting> settings_of(const RunArguments& arguments) {
   std::vector<Setting> settings = parse_settings("--set", arguments.set);
@@ -68,7 +80,7 @@ std::vector<Setting> settings_of(const RunArguments& arguments) {
                           " is swept already; give all its values in one --over.");
     }
     setting.key = "sweep." + setting.key;
-    if (!setting.value.starts_with("[")) setting.value = "[" + setting.value + "]";
+    if (!is_one_list(setting.value)) setting.value = "[" + setting.value + "]";
     settings.push_back(std::move(setting));
   }
   append_settings(arguments.repeat, settings);

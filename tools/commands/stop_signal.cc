@@ -11,12 +11,15 @@ volatile std::sig_atomic_t stop_signal = 0;
 timespec stopped_at{};  // the handler's own
 
 void ask_to_stop(int signal) {
+  constexpr double kNsPerS = 1e9;
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
+  const double since_s = static_cast<double>(now.tv_sec - stopped_at.tv_sec) +
+                         static_cast<double>(now.tv_nsec - stopped_at.tv_nsec) / kNsPerS;
   if (stop_signal == 0) {
     stop_signal = signal;
     stopped_at = now;
-  } else if (now.tv_sec - stopped_at.tv_sec > 1) {
+  } else if (since_s > 1) {
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }

@@ -4,8 +4,8 @@
 
 #include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
-#include "sim/try_models.h"
-#include "sim/try_plugin.h"
+#include "sim/preflight/try_models.h"
+#include "sim/preflight/try_plugin.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {

@@ -1,4 +1,4 @@
-#include "sim/film.h"
+#include "sim/observers/film.h"
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST(EventPicture, ShowsOnWhiteAndOffBlackAtTheirPixels) {
 TEST_F(FilmTest, WritesAVideoWithAPictureEvery4Ms) {
   const Scenario s = scenario("duration_s: 0.1\npilot: none\n");
   const std::string video = path("a.mp4");
-  Film film(video, intrinsics(s.sensors.camera));
+  Film film(video, intrinsics(s.sensors.camera), 10);
   fly(s, plan_throw(s, 0), &film);
   film.close();
   cv::VideoCapture reader(video, cv::CAP_FFMPEG);
@@ -90,7 +90,7 @@ TEST_F(FilmTest, ShowsAFlightAsSlowlyAsAskedFor) {
 
 TEST_F(FilmTest, ShowsTheTopCamerasEventsAboveThoseOfTheBottomOne) {
   const Scenario s = scenario("{}");
-  Film film(path("b.mp4"), intrinsics(s.sensors.camera));
+  Film film(path("b.mp4"), intrinsics(s.sensors.camera), 10);
   const std::vector<Event> top = {{1, 100, 60, 1}}, bottom = {{1, 200, 180, -1}};
   film.on_events(0, {1000, top});
   film.on_events(1, {1000, bottom});
@@ -105,28 +105,28 @@ TEST_F(FilmTest, ShowsTheTopCamerasEventsAboveThoseOfTheBottomOne) {
 }
 
 TEST_F(FilmTest, AVideoThatCannotBeWrittenIsAnIoError) {
-  EXPECT_THROW(Film(path("no/such/folder/a.mp4"), Intrinsics{}), IoError);
+  EXPECT_THROW(Film(path("no/such/folder/a.mp4"), Intrinsics{}, 10), IoError);
 }
 
 TEST_F(FilmTest, AVideoThatIsGoneIsAnIoError) {
   const Scenario s = scenario("duration_s: 0.1\npilot: none\n");
-  Film film(path("c.mp4"), intrinsics(s.sensors.camera));
+  Film film(path("c.mp4"), intrinsics(s.sensors.camera), 10);
   fly(s, plan_throw(s, 0), &film);
-  fs::remove(path("c.mp4.partial.mp4"));
+  fs::remove(path("c.mp4.partial"));
   EXPECT_THROW(film.close(), IoError);
 }
 
 TEST_F(FilmTest, AVideoThatIsNotFinishedLeavesAnOtherOfItsName) {
   std::ofstream(path("d.mp4")) << "old";
-  { const Film film(path("d.mp4"), Intrinsics{}); }
+  { const Film film(path("d.mp4"), Intrinsics{}, 10); }
   EXPECT_EQ(fs::file_size(path("d.mp4")), 3u);
-  EXPECT_FALSE(fs::exists(path("d.mp4.partial.mp4")));
+  EXPECT_FALSE(fs::exists(path("d.mp4.partial")));
 }
 
 TEST_F(FilmTest, TwoDoNotTakeOneName) {
-  const Film film(path("e.mp4"), Intrinsics{});
-  EXPECT_THROW(Film(path("e.mp4"), Intrinsics{}), IoError);
-  EXPECT_TRUE(fs::exists(path("e.mp4.partial.mp4")));
+  const Film film(path("e.mp4"), Intrinsics{}, 10);
+  EXPECT_THROW(Film(path("e.mp4"), Intrinsics{}, 10), IoError);
+  EXPECT_TRUE(fs::exists(path("e.mp4.partial")));
 }
 
 TEST_F(FilmTest, ADirectoryThatCannotBeMadeIsAnIoError) {

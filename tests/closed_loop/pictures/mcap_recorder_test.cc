@@ -1,5 +1,5 @@
 // A recorded throw, read back by a second reader of the format (tests/sim/files/mcap_reader.h).
-#include "sim/mcap_recorder.h"
+#include "sim/observers/mcap_recorder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "sim/poster.h"
+#include "sim/observers/poster.h"
 
 #include <gtest/gtest.h>
 

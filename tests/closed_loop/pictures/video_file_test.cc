@@ -1,4 +1,4 @@
-#include "sim/files/video_file.h"
+#include "sim/files/mp4_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-class VideoFileTest : public ::testing::Test {
+class Mp4FileTest : public ::testing::Test {
  protected:
   std::string path() const { return (directory_ / "video.mp4").string(); }
 
@@ -25,10 +25,10 @@ class VideoFileTest : public ::testing::Test {
 };
 
 // Left half blue, right half red; sides that H.264 does not take as they are.
-TEST_F(VideoFileTest, ShowsThePicturesInTheirColours) {
+TEST_F(Mp4FileTest, ShowsThePicturesInTheirColours) {
   cv::Mat3b picture(47, 61, cv::Vec3b(200, 30, 30));
   picture.colRange(31, 61).setTo(cv::Vec3b(30, 30, 200));
-  VideoFile video(path(), "video", picture.cols, picture.rows, 12.5);
+  Mp4File video(path(), "video", picture.cols, picture.rows, 12.5);
   for (int i = 0; i < 5; ++i) video.write(picture.data);
   video.close();
   cv::VideoCapture reader(path(), cv::CAP_FFMPEG);
@@ -44,13 +44,13 @@ TEST_F(VideoFileTest, ShowsThePicturesInTheirColours) {
   EXPECT_EQ(pictures, 5);
 }
 
-TEST_F(VideoFileTest, ThatIsNotClosedIsRemoved) {
-  { const VideoFile video(path(), "video", 16, 16, 25); }
+TEST_F(Mp4FileTest, ThatIsNotClosedIsRemoved) {
+  { const Mp4File video(path(), "video", 16, 16, 25); }
   EXPECT_FALSE(fs::exists(path()));
 }
 
-TEST_F(VideoFileTest, WithoutAPlaceIsAnIoError) {
-  EXPECT_THROW(VideoFile((directory_ / "no" / "video.mp4").string(), "video", 16, 16, 25), IoError);
+TEST_F(Mp4FileTest, WithoutAPlaceIsAnIoError) {
+  EXPECT_THROW(Mp4File((directory_ / "no" / "video.mp4").string(), "video", 16, 16, 25), IoError);
 }
 
 // Only these programs are there.
@@ -69,21 +69,21 @@ class Programs {
   std::string before_;
 };
 
-TEST_F(VideoFileTest, NeedsFfmpeg) {
+TEST_F(Mp4FileTest, NeedsFfmpeg) {
   const Programs none(directory_.path().string());
-  EXPECT_THAT([this] { VideoFile(path(), "film", 16, 16, 25); },
+  EXPECT_THAT([this] { Mp4File(path(), "film", 16, 16, 25); },
               ::testing::ThrowsMessage<IoError>(::testing::AllOf(
                   HasSubstr("The video film"), HasSubstr("the program ffmpeg is needed"))));
   EXPECT_FALSE(fs::exists(path()));
 }
 
-TEST_F(VideoFileTest, SaysWhatFfmpegSays) {
+TEST_F(Mp4FileTest, SaysWhatFfmpegSays) {
   std::ofstream(directory_ / "ffmpeg")
       << "#!/bin/sh\necho first >&2\necho no such codec >&2\nexit 1\n";
   fs::permissions(directory_ / "ffmpeg", fs::perms::owner_all);
   const Programs broken(directory_.path().string());
   const std::vector<std::uint8_t> picture(3 * 16 * 16);
-  VideoFile video(path(), "film", 16, 16, 25);
+  Mp4File video(path(), "film", 16, 16, 25);
   EXPECT_THAT(
       [&] {
         for (;;) video.write(picture.data());

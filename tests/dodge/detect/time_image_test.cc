@@ -52,6 +52,15 @@ TEST_F(TimeImageTest, CountsAveragesAndNormalisesAsIn2To4) {
   EXPECT_EQ(image.threshold_mask()(9, 9), 255);
 }
 
+TEST_F(TimeImageTest, OfAPixelThatFiresWithoutEndTakesAsManyAsItCanCount) {
+  TimeImage image(plain(), kColumns, kRows);
+  std::vector<Event> events(70000, at(5, 6, 5000));
+  events.push_back(at(7, 8, 5000));
+  process(image, events);
+  EXPECT_EQ(image.count()(6, 5), 65535);
+  EXPECT_NEAR(image.mean_time(), 0.5, 1e-3);
+}
+
 TEST_F(TimeImageTest, ForgetsTheWindowBefore) {
   TimeImage image(plain(), kColumns, kRows);
   process(image, {at(5, 6, 1000), at(5, 6, 9000), at(7, 8, 6000)});

@@ -35,7 +35,8 @@ TimeUs last_us(const std::optional<Vector3d>& towards_W = std::nullopt,
 
 CollisionEvidence evidence(TimeUs command_us, const Vector3d& command_W) {
   CollisionEvidence evidence;
-  evidence.hit = evidence.in_view = evidence.detected = true;
+  evidence.hit = evidence.in_view = true;
+  evidence.detected_us = 0;
   evidence.undisturbed = head_on();
   evidence.command_us = command_us;
   evidence.command_W = command_W;
@@ -49,7 +50,8 @@ CollisionCause cause(const CollisionEvidence& evidence) {
 
 TEST(CollisionCause, TellsWhatWasNotPerceived) {
   CollisionEvidence blind = evidence(0, kUp);
-  blind.in_view = blind.detected = false;
+  blind.in_view = false;
+  blind.detected_us.reset();
   blind.command_us.reset();
   EXPECT_EQ(cause(blind), CollisionCause::kNotSeen);
   blind.in_view = true;
@@ -67,11 +69,14 @@ TEST(CollisionCause, TooLateIsWhenNoManoeuvreIsLeft) {
   EXPECT_EQ(cause(evidence(last_us(kUp) - 2, kUp)), CollisionCause::kNotEnoughThrust);
 }
 
-TEST(CollisionCause, NoCommandAtAllIsTooLate) {
+TEST(CollisionCause, WithoutACommandTheFirstDetectionTellsWhetherItWasSeenLate) {
   CollisionEvidence none = evidence(0, kUp);
   none.command_us.reset();
-  EXPECT_EQ(cause(none), CollisionCause::kSeenLate);
   EXPECT_FALSE(escape_times(kAgility, none).left_s);
+  none.detected_us = last_us() - 2;
+  EXPECT_EQ(cause(none), CollisionCause::kNotEvaded);
+  none.detected_us = last_us() + 2;
+  EXPECT_EQ(cause(none), CollisionCause::kSeenLate);
 }
 
 TEST(CollisionCause, ADirectionThatTakesTooLongIsWrongWhereAnotherWouldNot) {

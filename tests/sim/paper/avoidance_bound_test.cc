@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "sim/campaign/agility.h"
-#include "sim/flight.h"
+#include "sim/flight/flight.h"
 #include "sim/world/referee.h"
 #include "tests/sim/paper/synthetic_passage.h"
 

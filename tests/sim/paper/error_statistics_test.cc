@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "sim/base/random.h"
-#include "sim/campaign/quantiles.h"
 #include "sim/paper/bootstrap.h"
+#include "sim/statistics/quantiles.h"
 
 namespace dodgesim {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "sim/base/random.h"
-#include "sim/render/sphere_bounds.h"
+#include "sim/camera/sphere_bounds.h"
 
 namespace dodgesim {
 namespace {

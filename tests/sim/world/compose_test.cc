@@ -196,6 +196,23 @@ TEST_F(OwnModels, DefaultsOfARoomAreOfItsOwnClasses) {
             "no error");
 }
 
+TEST_F(OwnModels, NothingOfARoomIsSeenByTheCamerasAloneOrByTheRangeSensorAlone) {
+  spec_.room = "own";
+  write_object(object("<geom size='0.1'/>"));
+  const auto geom_in_group = [&](int group) {
+    std::ofstream(directory_ / "rooms" / "own.xml")
+        << "<mujoco><worldbody><geom name='wall' size='1' group='" << group
+        << "'/></worldbody></mujoco>";
+    return world_message();
+  };
+  EXPECT_EQ(geom_in_group(0), "no error");
+  EXPECT_EQ(geom_in_group(3), "no error");
+  for (const int group : {1, 2}) {
+    EXPECT_THAT(geom_in_group(group),
+                AllOf(HasSubstr("rooms/own.xml: "), HasSubstr("'wall' is in group")));
+  }
+}
+
 // A dodged object lies down on all of its geoms.
 TEST_F(OwnModels, AnObjectOfManyGeomsMayLieOnTheFloor) {
   std::string slats;

@@ -1,0 +1,178 @@
+#include "sim/flight/explain_throw.h"
+
+#include <algorithm>
+#include <span>
+
+namespace dodgesim {
+
+namespace {
+
+using Eigen::Vector3d;
+
+// The contact of the flight in which nobody evaded.
+Encounter encounter(const FlightRecord& none) {
+  const auto i = static_cast<std::size_t>(none.verdict.nearest_object);
+  Encounter contact;
+  contact.contact_us = none.verdict.nearest.hit_us;
+  contact.vehicle = none.last.vehicle;
+  contact.object = none.last.objects[i];
+  contact.hull = none.hull;
+  contact.shape = none.shapes[i];
+  return contact;
+}
+
+using Commands = std::span<const Testimony::Command>;
+
+// The commands from the first evasive one on.
+Commands answer(const Testimony& testimony, TimeUs from_us) {
+  const Commands all = testimony.commands;
+  const auto first = std::find_if(all.begin(), all.end(), [&](const Testimony::Command& command) {
+    return command.evading && command.t_us >= from_us;
+  });
+  return {first, all.end()};
+}
+
+// Those before the contact, but at least the first.
+Commands before(TimeUs contact_us, Commands commands) {
+  const auto end = std::find_if(commands.begin() + 1, commands.end(),
+                                [&](const auto& command) { return command.t_us >= contact_us; });
+  return {commands.begin(), end};
+}
+
+// See CollisionEvidence::command_W.
+Vector3d mean_evasion(Commands commands) {
+  Vector3d sum_W = Vector3d::Zero();
+  int count = 0;
+  for (const Testimony::Command& command : commands) {
+    if (!command.evading) continue;
+    sum_W += command.v_W;
+    ++count;
+  }
+  return sum_W / count - commands.front().vehicle_v_W;
+}
+
+// See CollisionEvidence::commanded_path_W.
+Vector3d path(Commands commands, TimeUs contact_us) {
+  Vector3d path_W = Vector3d::Zero();
+  for (std::size_t i = 0; i < commands.size() && commands[i].t_us < contact_us; ++i) {
+    const TimeUs next_us = i + 1 < commands.size() ? commands[i + 1].t_us : contact_us;
+    path_W += seconds(std::min(next_us, contact_us) - commands[i].t_us) *
+              (commands[i].v_W - commands.front().vehicle_v_W);
+  }
+  return path_W;
+}
+
+// See CollisionEvidence::turned.
+bool turned(Commands commands, const Encounter& undisturbed) {
+  const auto across_W = [&](const Testimony::Command& command) {
+    return undisturbed.across_flight(command.v_W - commands.front().vehicle_v_W);
+  };
+  const Vector3d first_W = across_W(commands.front());
+  return std::any_of(commands.begin(), commands.end(), [&](const Testimony::Command& command) {
+    return command.evading && across_W(command).dot(first_W) < 0;
+  });
+}
+
+// The pilot's answer to the detection of an object.
+void add_answer(const Testimony& testimony, const Testimony::Object& object, bool perceives,
+                CollisionEvidence& evidence) {
+  TimeUs from_us = 0;
+  if (perceives) {
+    if (object.detections.empty()) return;
+    from_us = object.detections.front().output_us;
+  }
+  Commands commands = answer(testimony, from_us);
+  if (commands.empty()) return;
+  evidence.command_us = commands.front().t_us;
+  if (evidence.undisturbed) commands = before(evidence.undisturbed->contact_us, commands);
+  evidence.command_W = mean_evasion(commands);
+  if (evidence.undisturbed) {
+    evidence.turned = turned(commands, *evidence.undisturbed);
+    evidence.commanded_path_W = path(commands, evidence.undisturbed->contact_us);
+    evidence.last_command_W = commands.back().v_W - commands.front().vehicle_v_W;
+  }
+  for (const Testimony::Object::Detection& detection : object.detections) {
+    if (detection.output_us <= *evidence.command_us) evidence.position_error_W = detection.error_W;
+  }
+}
+
+CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
+                              const FlightRecord& flown) {
+  CollisionEvidence evidence;
+  evidence.hit = flown.verdict.nearest.hit;
+  evidence.landing = flown.landing_us.has_value();
+  evidence.evaded = flown.first_command_us.has_value();
+  evidence.perceives = perceives(plan.pilot);
+  const bool would_hit = none != nullptr && none->verdict.nearest.hit;
+  if (!evidence.hit && !would_hit) return evidence;
+  const int hitter = (evidence.hit ? flown : *none).verdict.nearest_object;
+  const Testimony& testimony = flown.testimony;
+  const Testimony::Object& object = testimony.objects[static_cast<std::size_t>(hitter)];
+  evidence.in_view = object.in_view_us.has_value();
+  if (!object.detections.empty()) evidence.detected_us = object.detections.front().output_us;
+  for (std::size_t i = 0; i < testimony.objects.size(); ++i) {
+    const auto& other = testimony.objects[i].detections;
+    if (&testimony.objects[i] == &object || other.empty()) continue;
+    if (!evidence.detected_us || other.front().output_us < *evidence.detected_us) {
+      evidence.another_detected_before = true;
+    }
+  }
+  // Of a later object nobody knows how it would have met a vehicle that stayed.
+  if (would_hit && none->verdict.nearest_object == hitter) evidence.undisturbed = encounter(*none);
+  add_answer(testimony, object, evidence.perceives, evidence);
+  return evidence;
+}
+
+// The object that was detected first.
+std::optional<std::size_t> first_detected(const Testimony& testimony) {
+  std::optional<std::size_t> first;
+  const auto output_us = [&](std::size_t i) {
+    return testimony.objects[i].detections.front().output_us;
+  };
+  for (std::size_t i = 0; i < testimony.objects.size(); ++i) {
+    if (testimony.objects[i].detections.empty()) continue;
+    if (!first || output_us(i) < output_us(*first)) first = i;
+  }
+  return first;
+}
+
+// When the object that was detected came into view; if none was, any.
+std::optional<TimeUs> first_in_view_us(const Testimony& testimony,
+                                       std::optional<std::size_t> detected) {
+  if (detected && testimony.objects[*detected].in_view_us) {
+    return testimony.objects[*detected].in_view_us;
+  }
+  std::optional<TimeUs> first_us;
+  for (const Testimony::Object& object : testimony.objects) {
+    if (!object.in_view_us) continue;
+    first_us = std::min(*object.in_view_us, first_us.value_or(*object.in_view_us));
+  }
+  return first_us;
+}
+
+}  // namespace
+
+void explain_throw(const FlightPlan& plan, const FlightRecord* none, const FlightRecord& flown,
+                   ThrowResult& result) {
+  const std::optional<std::size_t> detected = first_detected(flown.testimony);
+  result.first_in_view_us = first_in_view_us(flown.testimony, detected);
+  const std::optional<TimeUs> contact_us =
+      result.none.hit_us ? result.none.hit_us : result.none.closest_us;
+  if (contact_us && result.first_detection_us && none && detected &&
+      none->verdict.nearest_object == static_cast<int>(*detected)) {
+    result.time_to_contact_us = *contact_us - *result.first_detection_us;
+  }
+  result.false_alarm =
+      result.first_command_us && (plan.launches.empty() || perceives(plan.pilot)) &&
+      (!result.first_detection_us || *result.first_command_us < *result.first_detection_us);
+  if (plan.pilot == "none") return;
+  const CollisionEvidence evidence = evidence_of(plan, none, flown);
+  const EscapeTimes times = escape_times(flown.agility, evidence);
+  result.escape_left_s = times.left_s;
+  result.escape_needed_s = times.needed_s;
+  if (result.flown.hit || result.flown.crashed) {
+    result.cause = to_text(collision_cause(flown.agility, evidence, times));
+  }
+}
+
+}  // namespace dodgesim

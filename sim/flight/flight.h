@@ -1,0 +1,194 @@
+// Everything that takes part in one throw flown by one pilot. loop.h says in which order it acts.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/base/wall_clock.h"
+#include "sim/bridge/onboard_computer.h"
+#include "sim/bridge/truth_pilot.h"
+#include "sim/campaign/collision_cause.h"
+#include "sim/campaign/result.h"
+#include "sim/config/scenario.h"
+#include "sim/control/flight_controller.h"
+#include "sim/control/velocity_controller.h"
+#include "sim/flight/event_rig.h"
+#include "sim/flight/mission.h"
+#include "sim/flight/witness.h"
+#include "sim/motors/motors.h"
+#include "sim/sensors/imu.h"
+#include "sim/sensors/range_sensor.h"
+#include "sim/sensors/state_estimator.h"
+#include "sim/world/referee.h"
+#include "sim/world/throw.h"
+#include "sim/world/world.h"
+
+namespace dodgesim {
+
+// Which throw is flown, how, and until when.
+struct FlightPlan {
+  int throw_index = 0;
+  std::string pilot = kPaperPilot;  // of those in sim/config/pilot.h
+  struct Launch {
+    Throw toss;
+    BodyState state;  // at toss.launch_us
+  };
+  std::vector<Launch> launches;  // object i of the world is launch i
+  TimeUs end_us = 0;
+};
+
+// Looks on, for pictures and logs. Nothing that it does changes the flight.
+class FlightObserver {
+ public:
+  virtual ~FlightObserver() = default;
+  // Whether the packets of on_events() must say why each event happened; asked once.
+  virtual bool wants_causes() const { return false; }
+  virtual void on_start(dodge::Pilot& /*pilot*/) {}
+  virtual void on_tick(const World& /*world*/) {}
+  virtual void on_imu(const ImuReading& /*reading*/) {}
+  virtual void on_state(const StateReading& /*reading*/) {}
+  virtual void on_range(const RangeReading& /*reading*/) {}
+  virtual void on_events(int /*camera*/, const Packet& /*packet*/) {}
+  // The cycle that on_cycle() tells of next is the first to detect a true object.
+  virtual void on_first_detection() {}
+  virtual void on_cycle(TimeUs /*now_us*/, const dodge::Pilot& /*pilot*/) {}
+  // A command of the pilot arrives at the controller.
+  virtual void on_velocity(TimeUs /*now_us*/, const dodge::VelocityCommand& /*command*/) {}
+  // A command of the controller arrives at the flight controller.
+  virtual void on_command(TimeUs /*now_us*/, bool /*evading*/) {}
+};
+
+// The world in which a scenario's objects fly.
+WorldSpec world_spec(const Scenario& scenario, const std::vector<FlightPlan::Launch>& launches);
+
+// The event cameras' geometry.
+Intrinsics intrinsics(const CameraSpec& camera);
+
+// The cameras as the pilot is told of them, without lower_camera_turn_deg.
+std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
+                                              const VehicleParameters& vehicle);
+
+// What a pilot that sees is given: the keys of dodger, and the vehicle's calibration.
+dodge::Config core_config(const Scenario& scenario, const VehicleParameters& vehicle);
+
+// The first detection of an object.
+struct Sighting {
+  std::optional<TimeUs> first_us;    // its output
+  std::optional<double> distance_m;  // true distance object to camera then
+};
+
+// What a flight leaves behind.
+struct FlightRecord {
+  Verdict verdict;
+  Snapshot last;
+  Testimony testimony;
+  Agility agility;
+  std::vector<Convex> hull;                  // of the vehicle, in B
+  std::vector<std::vector<Convex>> shapes;   // of each object, in its frame
+  std::optional<TimeUs> first_detection_us;  // output of the first detection of a true object
+  std::optional<TimeUs> first_detection_t_us;
+  std::optional<double> first_detection_distance_m;
+  std::vector<Sighting> sightings;         // of each object
+  std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
+  std::optional<TimeUs> landing_us;        // first command to land at the controller
+  int detections = 0;
+  std::vector<DetectionRow> rows;
+  std::array<std::int64_t, 2> events{};
+  std::array<std::int64_t, 2> events_lost{};  // by the saturated readout
+  std::uint64_t events_hash = 0;
+};
+
+// Wall-clock time by stage [s], for reports only.
+struct FlightTiming {
+  double total_s = 0;
+  double render_s = 0;
+  double emulate_s = 0;
+  double pilot_s = 0;
+  std::int64_t keys = 0;      // pictures of the room that were drawn
+  std::int64_t pictures = 0;  // whole pictures that were shown to the cameras
+  std::int64_t regions = 0;   // pictures of an object's region only
+};
+
+class Flight {
+ public:
+  // The observer may be null. Throws ScenarioError (models) and SimulationError.
+  Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer);
+
+  TimeUs now_us() const { return world_.snapshot().t_us; }
+  // The end is reached, or the vehicle was hit, has crashed or has landed.
+  bool over() const;
+
+  // The stages of one tick, in this order.
+  void move();     // rotors push, objects are launched, everything moves by one tick
+  void sense();    // IMU, state estimate, range sensor
+  void see();      // pictures, events, packets
+  void decide();   // the pilot's cycle: a velocity command
+  void control();  // velocity -> attitude and thrust -> body rates -> rotor commands
+  void judge();    // the referee
+
+  FlightRecord record() const;
+  FlightTiming timing() const;
+  const World& world() const { return world_; }
+
+ private:
+  struct SentCommand {
+    RateThrustCommand command;
+    VelocityReference reference;  // what it is to bring about
+  };
+
+  std::uint64_t index() const;
+  std::unique_ptr<dodge::Pilot> make_pilot();
+  std::unique_ptr<dodge::Pilot> make_seeing_pilot() const;
+  std::unique_ptr<EventRig> make_rig() const;
+  int cameras() const;  // in use
+  Witness::Setup witness_setup() const;
+  void require_packet();
+  double true_range_m() const;
+  // What the pilot has just detected, which it gives out when its cycle is over.
+  struct LocatedDetection {
+    DetectionRow row;
+    bool of_object = false;
+    double distance_m = 0;  // of that object, from the camera
+  };
+  void note_detections();
+  LocatedDetection with_truth(const Snapshot& truth, const dodge::Detection& detection,
+                              DetectionRow row) const;
+  void log(const LocatedDetection& detection);
+
+  Scenario scenario_;
+  FlightPlan plan_;
+  World world_;
+  Referee referee_;
+  Motors motors_;
+  FlightController flight_controller_;
+  VelocityController controller_;
+  Imu imu_;
+  Imu flight_controller_imu_;
+  StateEstimator state_estimator_;
+  RangeSensor range_sensor_;
+  TruthPilot* truth_pilot_ = nullptr;  // owned by computer_, when the pilot knows the truth
+  OnboardComputer computer_;
+  Witness witness_;
+  FlightObserver* observer_;       // may be null
+  std::unique_ptr<EventRig> rig_;  // none for pilots that need no eyes
+
+  Snapshot before_;  // the tick's start
+  Mission mission_;
+  Eigen::Vector3d gyro_B_radps_ = Eigen::Vector3d::Zero();
+  DelayLine<StateReading> controller_states_;
+  DelayLine<SentCommand> rate_commands_;
+  DelayLine<LocatedDetection> detections_;        // until the pilot gives them out
+  bool has_detected_ = false;                     // a true object
+  std::optional<StateReading> controller_state_;  // the last one
+  VelocityReference reference_;
+  bool evasion_arrived_ = false;  // and the controller has not acted since
+  RateThrustCommand rate_command_;
+  SnapshotHistory history_;  // for the truth at the instant of a detection
+  FlightRecord record_;
+  FlightTiming timing_;
+  WallClock::time_point constructed_ = WallClock::now();
+};
+
+}  // namespace dodgesim

@@ -1,0 +1,94 @@
+#include "sim/flight/witness.h"
+
+#include <algorithm>
+
+namespace dodgesim {
+
+namespace {
+
+constexpr TimeUs kPeriodUs = 20000;
+constexpr TimeUs kMostSamples = 256;  // longer flights are sampled more seldom
+
+Eigen::Vector3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+Witness::Witness(const World& world, const Setup& setup) : setup_(setup) {
+  testimony_.objects.resize(static_cast<std::size_t>(world.object_count()));
+  Trajectory& trajectory = testimony_.trajectory;
+  trajectory.start_us = setup.start_us;
+  const TimeUs even_us = (setup.end_us - setup.start_us) / kMostSamples / kTickUs * kTickUs;
+  trajectory.period_us = std::max(kPeriodUs, even_us + kTickUs);
+  for (int i = 0; i < world.object_count(); ++i) {
+    trajectory.sizes_m.push_back(2 * world.object(i).bounding_radius_m);
+  }
+}
+
+void Witness::observe(const World& world, const VelocityReference& reference) {
+  const Snapshot& now = world.snapshot();
+  for (std::size_t i = 0; i < testimony_.objects.size(); ++i) {
+    std::optional<TimeUs>& in_view_us = testimony_.objects[i].in_view_us;
+    if (!in_view_us && now.launched[i] && in_view(world, i)) in_view_us = now.t_us;
+  }
+  Trajectory& trajectory = testimony_.trajectory;
+  if (now.t_us < trajectory.start_us) return;
+  trajectory.end_us = now.t_us;
+  if ((now.t_us - trajectory.start_us) % trajectory.period_us == 0) {
+    trajectory.samples.push_back(sample(now, reference));
+    last_.reset();
+  } else {
+    last_ = sample(now, reference);
+  }
+}
+
+bool Witness::in_view(const World& world, std::size_t object) const {
+  const Snapshot& now = world.snapshot();
+  const double diameter_m = 2 * world.object(static_cast<int>(object)).bounding_radius_m;
+  for (int camera = 0; camera < setup_.cameras; ++camera) {
+    const Eigen::Isometry3d& X_BC = world.vehicle().X_BC[static_cast<std::size_t>(camera)];
+    const Eigen::Vector3d p_C = (now.vehicle.pose() * X_BC).inverse() * now.objects[object].p_W;
+    if (p_C.z() <= 0 || setup_.intrinsics.f * diameter_m < p_C.z()) continue;
+    if (setup_.intrinsics.contains(setup_.intrinsics.project(p_C))) return true;
+  }
+  return false;
+}
+
+Trajectory::Sample Witness::sample(const Snapshot& now, const VelocityReference& reference) const {
+  Trajectory::Sample sample;
+  sample.p_W = now.vehicle.p_W;
+  sample.q_W = now.vehicle.q_W;
+  sample.command_W = reference.v_W;
+  sample.evading = reference.evading;
+  for (std::size_t i = 0; i < now.objects.size(); ++i) {
+    sample.objects.emplace_back();
+    if (now.launched[i]) sample.objects.back() = now.objects[i].p_W;
+  }
+  return sample;
+}
+
+void Witness::add_detection(const DetectionRow& row, bool true_object) {
+  if (true_object) {
+    testimony_.objects.at(static_cast<std::size_t>(*row.object))
+        .detections.push_back({row.output_us, vector(row.p_W) - vector(*row.true_p_W)});
+  }
+  std::vector<Trajectory::Detection>& shown = testimony_.trajectory.detections;
+  const auto recent = [&](const Trajectory::Detection& d) {
+    return d.true_object == true_object &&
+           d.output_us > row.output_us - testimony_.trajectory.period_us / 2;
+  };
+  if (std::any_of(shown.rbegin(), shown.rend(), recent)) return;
+  shown.push_back({row.output_us, vector(row.p_W), true_object});
+}
+
+void Witness::add_command(const Snapshot& now, const VelocityReference& reference) {
+  if (!now.any_launched()) return;
+  testimony_.commands.push_back({now.t_us, reference.evading, reference.v_W, now.vehicle.v_W});
+}
+
+Testimony Witness::testimony() const {
+  Testimony testimony = testimony_;
+  if (last_) testimony.trajectory.samples.push_back(*last_);
+  return testimony;
+}
+
+}  // namespace dodgesim

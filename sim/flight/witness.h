@@ -1,0 +1,72 @@
+// Keeps of a flight what is asked afterwards: when each object could be seen and was detected, the
+// commands, and the course for the eye.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "sim/camera/camera.h"
+#include "sim/campaign/result.h"
+#include "sim/campaign/trajectory.h"
+#include "sim/control/velocity_controller.h"
+#include "sim/world/world.h"
+
+namespace dodgesim {
+
+// A detection nearer than this to the centre of an object of that radius is one of it.
+inline double true_detection_m(double radius_m) { return std::max(0.5, radius_m + 0.35); }
+
+struct Testimony {
+  struct Object {
+    std::optional<TimeUs> in_view_us;  // first
+    // Outputs of the detections that are of it, in order, with detected less true position.
+    struct Detection {
+      TimeUs output_us = 0;
+      Eigen::Vector3d error_W = Eigen::Vector3d::Zero();
+    };
+    std::vector<Detection> detections;
+  };
+  // A command at the flight controller while an object is in flight.
+  struct Command {
+    TimeUs t_us = 0;
+    bool evading = false;
+    Eigen::Vector3d v_W = Eigen::Vector3d::Zero();
+    Eigen::Vector3d vehicle_v_W = Eigen::Vector3d::Zero();
+  };
+  std::vector<Object> objects;
+  std::vector<Command> commands;
+  Trajectory trajectory;
+};
+
+class Witness {
+ public:
+  struct Setup {
+    Intrinsics intrinsics;
+    int cameras = 2;                  // the first of the vehicle's
+    TimeUs start_us = 0, end_us = 0;  // of the trajectory
+  };
+
+  Witness(const World& world, const Setup& setup);
+
+  // Call after each tick, with the velocity that the controller is asked for.
+  void observe(const World& world, const VelocityReference& reference);
+  // true_object: it is one of row.object.
+  void add_detection(const DetectionRow& row, bool true_object);
+  // A command has reached the flight controller.
+  void add_command(const Snapshot& now, const VelocityReference& reference);
+
+  Testimony testimony() const;
+
+ private:
+  // In the image of one of the cameras, and at least a pixel wide. What stands between does not
+  // count.
+  bool in_view(const World& world, std::size_t object) const;
+  Trajectory::Sample sample(const Snapshot& now, const VelocityReference& reference) const;
+
+  Setup setup_;
+  Testimony testimony_;
+  std::optional<Trajectory::Sample> last_;  // of the last tick, unless it is in the trajectory
+};
+
+}  // namespace dodgesim

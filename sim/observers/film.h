@@ -1,0 +1,94 @@
+// A throw as people look at it: a video of the scene with both event streams beside it, and
+// pictures of the pilot's stages.
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dodge/dodger.h"
+#include "sim/files/mp4_file.h"
+#include "sim/files/staged_file.h"
+#include "sim/flight/flight.h"
+#include "sim/render/scene_pictures.h"
+
+namespace dodgesim {
+
+// Events of one camera since the last picture, drawn over mid grey: ON white, OFF black.
+class EventPicture {
+ public:
+  EventPicture(int width, int height);
+  void add(std::span<const Event> events);
+  void clear();
+  const cv::Mat3b& image() const { return image_; }
+
+ private:
+  cv::Mat3b image_;
+};
+
+// Writes the video: outside view on the left, the event pictures of the two cameras on the right.
+class Film : public FlightObserver {
+ public:
+  // How many times slower than real a flight may be shown: up to a picture a tick.
+  static constexpr double kSlowest = 160;
+
+  // MPEG-4 with H.264, which browsers open, of about 25 pictures a second, `slow` (1 to kSlowest)
+  // times slower than real. Throws IoError if the file cannot be opened for writing or another
+  // program is writing it. The file gets its name, and takes the place of another, when it is
+  // whole.
+  Film(const std::string& path, const Intrinsics& intrinsics, double slow);
+
+  void on_tick(const World& world) override;
+  void on_events(int camera, const Packet& packet) override;
+  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
+  void on_command(TimeUs now_us, bool evading) override;
+
+  // Finishes the file. Throws IoError if it does not hold every picture.
+  void close();
+
+  // The last picture [BGR].
+  const cv::Mat3b& picture() const { return picture_; }
+
+ private:
+  void extend_trail(const Snapshot& now);
+  void compose(const Snapshot& snapshot);
+  void caption(const Snapshot& snapshot);
+
+  StagedFile place_;
+  TimeUs picture_every_us_;  // of flight
+  std::unique_ptr<ScenePictures> scene_;
+  std::optional<PictureView> view_;  // set by the first picture
+  std::vector<EventPicture> eyes_;
+  std::vector<PictureDot> trail_;
+  bool evading_ = false;
+  int detections_ = 0;
+  cv::Mat3b picture_;
+  Mp4File video_;
+};
+
+// Writes one PNG a cycle of the paper's pilot while an object is in flight: for each camera the
+// panels B to F of the paper's Fig. 4 with the clusters' rectangles.
+class StageFilm : public FlightObserver {
+ public:
+  // Makes the directory. Throws IoError if it cannot.
+  explicit StageFilm(std::string directory);
+
+  void on_start(dodge::Pilot& pilot) override;
+  void on_tick(const World& world) override;
+  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
+
+  int pictures() const { return pictures_; }
+
+ private:
+  std::string directory_;
+  bool object_in_flight_ = false;
+  int pictures_ = 0;
+};
+
+// The stages of one camera side by side [BGR]: events, count, normalised mean time stamp,
+// threshold, obstacles.
+cv::Mat3b stage_panels(const dodge::Dodger& pilot, int camera);
+
+}  // namespace dodgesim

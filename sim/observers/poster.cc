@@ -1,0 +1,109 @@
+#include "sim/observers/poster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "dodge/dodger.h"
+#include "sim/base/error.h"
+#include "sim/files/output_file.h"
+#include "sim/files/png.h"
+#include "sim/observers/film.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr int kPosterSceneWidth = 1280, kPosterSceneHeight = 600;
+constexpr TimeUs kDotEveryUs = 10000;
+// As long as nothing is detected, the pilot is looked at again when an object is so much nearer.
+constexpr double kNearer = 0.9;
+
+const Eigen::Vector4f kVehicleColour(0.1F, 0.6F, 1.0F, 1.0F);
+const Eigen::Vector4f kObjectColour(1.0F, 0.35F, 0.1F, 1.0F);
+
+// What the top camera has in view, as a grey picture [BGR] of log luminance.
+cv::Mat3b log_picture(const World& world, const Intrinsics& intrinsics) {
+  LuminanceRenderer renderer(world, intrinsics, RenderSpec{});
+  cv::Mat1f luminance(intrinsics.height, intrinsics.width);
+  const Snapshot& now = world.snapshot();
+  renderer.render(now, now.vehicle.pose() * world.vehicle().X_BC.front(),
+                  {0, 0, intrinsics.width, intrinsics.height}, luminance.ptr<float>(), nullptr);
+  cv::log(luminance + 1e-3F, luminance);
+  cv::Mat1b grey;
+  cv::normalize(luminance, grey, 0, 255, cv::NORM_MINMAX, CV_8U);
+  cv::Mat3b picture;
+  cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
+  return picture;
+}
+
+}  // namespace
+
+void Poster::on_start(dodge::Pilot& pilot) {
+  if (auto* dodger = dynamic_cast<dodge::Dodger*>(&pilot)) dodger->set_capture(true);
+}
+
+void Poster::on_tick(const World& world) {
+  world_ = &world;
+  const Snapshot& now = world.snapshot();
+  double distance_m = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < now.objects.size(); ++i) {
+    if (!now.launched[i]) continue;
+    distance_m = std::min(distance_m, (now.objects[i].p_W - now.vehicle.p_W).norm());
+  }
+  if (std::isinf(distance_m)) return;
+  const bool dot = now.t_us % kDotEveryUs == 0;
+  if (dot) trail_.push_back({now.vehicle.p_W, 0.015, kVehicleColour});
+  for (std::size_t i = 0; i < now.objects.size(); ++i) {
+    if (dot && now.launched[i]) trail_.push_back({now.objects[i].p_W, 0.015, kObjectColour});
+  }
+  if (distance_m >= nearest_m_) return;
+  nearest_m_ = distance_m;
+  if (dot) draw_scene(world);
+}
+
+void Poster::draw_scene(const World& world) {
+  if (!scenes_)
+    scenes_ = std::make_unique<ScenePictures>(world, kPosterSceneWidth, kPosterSceneHeight);
+  const Snapshot& now = world.snapshot();
+  const Eigen::Vector3d forward_W = now.vehicle.q_W * Eigen::Vector3d::UnitX();
+  PictureView view;
+  view.look_at_W = trail_.front().p_W + 1.1 * Eigen::Vector3d(forward_W.x(), forward_W.y(), 0);
+  view.distance_m = 3.6;
+  view.azimuth_deg = std::atan2(forward_W.y(), forward_W.x()) * 180 / std::numbers::pi + 60;
+  view.elevation_deg = -15;
+  scene_.create(kPosterSceneHeight, kPosterSceneWidth);
+  scenes_->draw(now, view, trail_, scene_.data);
+  cv::cvtColor(scene_, scene_, cv::COLOR_RGB2BGR);
+}
+
+void Poster::on_cycle(TimeUs /*now_us*/, const dodge::Pilot& pilot) {
+  const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);
+  if (dodger == nullptr || world_ == nullptr || looked_last_ || trail_.empty()) return;
+  looked_last_ = detected_;
+  if (!detected_ && nearest_m_ > kNearer * looked_at_m_) return;
+  looked_at_m_ = nearest_m_;
+  stages_ = stage_panels(*dodger, 0);
+  luminance_ = log_picture(*world_, intrinsics_);
+}
+
+void Poster::save(const std::string& path) const {
+  if (scene_.empty()) {
+    throw ScenarioError("There is no picture to make: nothing was thrown.");
+  }
+  cv::Mat picture = scene_;
+  if (!stages_.empty()) {
+    const int width = intrinsics_.width;
+    cv::Mat3b strip;
+    const auto panel = [&](int i) { return stages_(cv::Rect(i * width, 0, width, stages_.rows)); };
+    cv::hconcat(std::vector<cv::Mat>{luminance_, panel(0), panel(2), panel(4)}, strip);
+    cv::resize(strip, strip, {scene_.cols, strip.rows * scene_.cols / strip.cols});
+    cv::vconcat(scene_, strip, picture);
+  }
+  write_file(path, png_of(picture));
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,44 @@
+// One picture that tells a throw: the scene with both trajectories, and below it what the top
+// camera saw when the pilot first noticed the object: luminance, events, mean time stamp,
+// obstacles.
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "sim/flight/flight.h"
+#include "sim/render/scene_pictures.h"
+
+namespace dodgesim {
+
+class Poster : public FlightObserver {
+ public:
+  explicit Poster(const Intrinsics& intrinsics) : intrinsics_(intrinsics) {}
+
+  void on_start(dodge::Pilot& pilot) override;
+  void on_tick(const World& world) override;
+  void on_first_detection() override { detected_ = true; }
+  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
+
+  // Throws IoError if the file cannot be written, ScenarioError if nothing was thrown. Of a pilot
+  // that is no dodge::Dodger there are the flight paths only.
+  void save(const std::string& path) const;
+
+ private:
+  void draw_scene(const World& world);
+
+  Intrinsics intrinsics_;
+  std::unique_ptr<ScenePictures> scenes_;
+  std::vector<PictureDot> trail_;
+  const World* world_ = nullptr;  // of the running flight
+  double nearest_m_ = 1e9;        // of the object so far
+  double looked_at_m_ = 1e9;      // the same when the pilot was looked at last
+  bool detected_ = false;         // a true object
+  bool looked_last_ = false;      // at the pilot, of what it has detected
+  cv::Mat3b scene_;               // at the closest approach
+  cv::Mat3b luminance_, stages_;  // at the first detection; without one, near the closest approach
+};
+
+}  // namespace dodgesim

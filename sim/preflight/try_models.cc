@@ -1,0 +1,211 @@
+#include "sim/preflight/try_models.h"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+#include "sim/base/digest.h"
+#include "sim/base/error.h"
+#include "sim/base/gravity.h"
+#include "sim/config/expand.h"
+#include "sim/config/numbers.h"
+#include "sim/config/pilot.h"
+#include "sim/control/mixer.h"
+#include "sim/flight/flight.h"
+#include "sim/render/scene_geometry.h"
+#include "sim/world/model_trial.h"
+#include "sim/world/models_digest.h"
+
+namespace dodgesim {
+
+namespace {
+
+// A size that every kind of object can have.
+constexpr double kTrialSizeM = 0.2;
+
+struct Trial {
+  WorldSpec world;
+  std::vector<VehiclePlace> places;
+  double min_thrust_n = 0;         // the greatest idle thrust of a rotor
+  bool seen = false;               // by a pilot's cameras
+  bool stereo = false;             // both of which it needs
+  double max_thrust_fraction = 1;  // the least
+};
+
+// The same for worlds that the same trial serves.
+std::string description(const WorldSpec& world) {
+  const VehicleOverrides& overrides = world.vehicle_overrides;
+  std::ostringstream text;
+  text.precision(17);
+  text << world.models_dir << '/' << world.room << '/' << world.vehicle << '/'
+       << overrides.mass_scale << '/' << overrides.max_thrust_n << '/' << overrides.inertia_scale;
+  for (const ObjectSpec& object : world.objects) text << '/' << object.kind;
+  return text.str();
+}
+
+std::string description(const Trial& trial) {
+  std::ostringstream text;
+  text.precision(17);
+  text << description(trial.world) << ' ' << trial.min_thrust_n << ' ' << trial.seen << ' '
+       << trial.stereo << ' ' << trial.max_thrust_fraction;
+  for (const VehiclePlace& place : trial.places) {
+    text << ' ' << place.p_W.transpose() << ' ' << place.heading_rad;
+  }
+  return text.str();
+}
+
+void add_place(const VehiclePlace& place, std::vector<VehiclePlace>& places) {
+  const auto same = [&place](const VehiclePlace& other) {
+    return other.p_W == place.p_W && other.heading_rad == place.heading_rad;
+  };
+  if (std::none_of(places.begin(), places.end(), same)) places.push_back(place);
+}
+
+// The mission's start and goals.
+void add_places(const MissionSpec& mission, std::vector<VehiclePlace>& places) {
+  const double heading_rad = mission.heading_deg * std::numbers::pi / 180;
+  add_place({"mission.start_m", mission.start_m, heading_rad}, places);
+  if (mission.type == "goal") add_place({"mission.goal_m", *mission.goal_m, heading_rad}, places);
+  if (mission.type != "waypoints") return;
+  for (const Eigen::Vector3d& p_W : mission.waypoints_m) {
+    add_place({"mission.waypoints_m", p_W, heading_rad}, places);
+  }
+}
+
+// Every world that the campaign names, with all its objects, and where the vehicle is to be in it.
+std::vector<Trial> trials_of(const Scenario& campaign) {
+  std::map<std::string, Trial> trials;  // each kind of world once
+  std::set<std::string> kinds;
+  for_each_combination(campaign, [&](const Scenario& scenario) {
+    WorldSpec world;
+    world.models_dir = scenario.models_dir;
+    world.room = scenario.room;
+    world.vehicle = scenario.vehicle;
+    world.vehicle_overrides = scenario.vehicle_overrides;
+    Trial& trial = trials.try_emplace(description(world), Trial{world, {}}).first->second;
+    add_places(scenario.mission, trial.places);
+    trial.min_thrust_n = std::max(trial.min_thrust_n, scenario.motors.min_thrust_n);
+    const bool seen = perceives(scenario.pilot);
+    trial.seen |= seen;
+    trial.stereo |= seen && scenario.dodger.position.depth == "stereo";
+    trial.max_thrust_fraction =
+        std::min(trial.max_thrust_fraction, scenario.controller.max_thrust_fraction);
+    for (const ThrowSpec& spec : scenario.throw_specs()) {
+      kinds.insert(spec.object.names.begin(), spec.object.names.end());
+    }
+  });
+  std::vector<Trial> all;
+  for (auto& [name, trial] : trials) {
+    trial.world.objects.reserve(kinds.size());
+    for (const std::string& kind : kinds) trial.world.objects.push_back({kind, kTrialSizeM});
+    all.push_back(trial);
+  }
+  return all;
+}
+
+std::string vehicle_file(const Trial& trial) {
+  return trial.world.models_dir + "/vehicles/" + trial.world.vehicle + ".xml";
+}
+
+// Whether the flight core can use the cameras.
+void check_stereo(const World& world, const Trial& trial) {
+  Scenario scenario;
+  scenario.vehicle_overrides = trial.world.vehicle_overrides;
+  dodge::Config config;
+  config.position.depth = "stereo";
+  config.cameras = camera_models(scenario, world.vehicle());
+  try {
+    dodge::validate(config);
+  } catch (const std::invalid_argument& error) {
+    throw ScenarioError(vehicle_file(trial) + ": " + error.what());
+  }
+}
+
+// Whether the mixer can use the rotors.
+void check_rotors(const World& world, const Trial& trial) {
+  try {
+    Mixer(world.vehicle(), trial.min_thrust_n, world.vehicle().max_thrust_n, 0);
+  } catch (const std::invalid_argument& error) {
+    throw ScenarioError(vehicle_file(trial) + ": " + error.what());
+  }
+}
+
+// Whether the event cameras see the objects.
+void check_visible(const World& world, const Trial& trial) {
+  const SceneGeometry scene = collect_scene(world.model(), world.object_bodies(), false);
+  std::set<int> visible;
+  for (const Primitive& primitive : scene.primitives) visible.insert(primitive.object);
+  for (const auto& [object, batch] : scene.moving_triangles) visible.insert(object);
+  for (int i = 0; i < world.object_count(); ++i) {
+    if (visible.contains(i)) continue;
+    throw ScenarioError(trial.world.models_dir + "/objects/" +
+                        trial.world.objects[static_cast<std::size_t>(i)].kind +
+                        ".xml: No geom of the object can be seen: groups 3 and above and an alpha "
+                        "of 0 are hidden.");
+  }
+}
+
+void check_world(const World& world, const Trial& trial) {
+  const double most_n = world.vehicle().max_thrust_n;
+  if (trial.min_thrust_n >= most_n) {
+    throw ScenarioError("motors.min_thrust_n is " + to_text(trial.min_thrust_n) +
+                        ", but must be less than what a rotor of vehicles/" + trial.world.vehicle +
+                        ".xml gives at most, which is " + to_text(most_n) + " N.");
+  }
+  const double weight_n = world.vehicle().mass_kg * kGravityMps2;
+  if (4 * trial.min_thrust_n >= weight_n) {
+    throw ScenarioError("motors.min_thrust_n is " + to_text(trial.min_thrust_n) +
+                        ", but must be less than a quarter of the vehicle's weight, which is " +
+                        to_text(weight_n / 4) + " N: idling rotors would lift it.");
+  }
+  const double lift = 4 * trial.max_thrust_fraction * most_n / weight_n;
+  if (lift < kLeastLift) {
+    throw ScenarioError("controller.max_thrust_fraction is " + to_text(trial.max_thrust_fraction) +
+                        ", with which the rotors lift only " + std::to_string(lift) +
+                        " times the vehicle's weight; it needs at least " + to_text(kLeastLift) +
+                        " to fly (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
+  }
+  check_rotors(world, trial);
+  if (trial.stereo) check_stereo(world, trial);
+  if (trial.seen) check_visible(world, trial);
+}
+
+// The message behind the place of the longest dotted key that it names and that the scenario gives;
+// a key without a dot, such as name, may be a word of any sentence.
+std::string placed(const std::string& message, const Scenario& campaign) {
+  std::string named;
+  for (const auto& [key, place] : campaign.places) {
+    const bool dotted = key.find('.') != std::string::npos;
+    if (dotted && key.size() > named.size() && message.find(key) != std::string::npos) named = key;
+  }
+  return named.empty() ? message : campaign.places.at(named) + ": " + message;
+}
+
+}  // namespace
+
+void try_models(const std::vector<Scenario>& campaigns) {
+  std::set<std::string> tried;
+  for (const Scenario& campaign : campaigns) {
+    for (const Trial& trial : trials_of(campaign)) {
+      if (!tried.insert(description(trial)).second) continue;
+      try {
+        try_world(trial.world, trial.places,
+                  [&trial](const World& world) { check_world(world, trial); });
+      } catch (const ScenarioError& error) {
+        throw ScenarioError(placed(error.what(), campaign));
+      }
+    }
+  }
+}
+
+std::string digest_of_models(const Scenario& campaign) {
+  std::uint64_t digest = 0;
+  for (const Trial& trial : trials_of(campaign)) digest = 31 * digest + models_digest(trial.world);
+  return digits_of(digest);
+}
+
+}  // namespace dodgesim

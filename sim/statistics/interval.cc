@@ -1,0 +1,59 @@
+#include "sim/statistics/interval.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "sim/base/random.h"
+#include "sim/statistics/binomial.h"
+
+namespace dodgesim {
+
+void check_counts(std::int64_t successes, std::int64_t trials) {
+  if (successes < 0 || successes > trials) {
+    throw std::invalid_argument("Successes must lie between 0 and the number of trials.");
+  }
+}
+
+void check_confidence(double confidence) {
+  if (!(confidence > 0 && confidence < 1)) {
+    throw std::invalid_argument("A confidence must lie between 0 and 1, both excluded.");
+  }
+}
+
+Interval wilson(std::int64_t successes, std::int64_t trials, double confidence) {
+  check_counts(successes, trials);
+  check_confidence(confidence);
+  if (trials == 0) return {0, 1};
+  return wilson_of_quantile(successes, trials, normal_quantile(0.5 + 0.5 * confidence));
+}
+
+Interval wilson_of_quantile(std::int64_t successes, std::int64_t trials, double z) {
+  const auto n = static_cast<double>(trials);
+  const double p = static_cast<double>(successes) / n;
+  const double centre = p + z * z / (2 * n);
+  const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  const double scale = 1 + z * z / n;
+  // At the ends the bounds are exactly 0 and 1, which rounding would miss.
+  return {successes == 0 ? 0 : (centre - half) / scale,
+          successes == trials ? 1 : (centre + half) / scale};
+}
+
+Interval clopper_pearson(std::int64_t successes, std::int64_t trials, double confidence) {
+  check_counts(successes, trials);
+  check_confidence(confidence);
+  constexpr int kHalvings = 60;
+  const double tail = 0.5 * (1 - confidence);
+  // The rate up to which P(X >= least) stays within the tail; it rises with the rate.
+  const auto rate_at = [&](std::int64_t least, double probability) {
+    double lo = 0, hi = 1;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double p = 0.5 * (lo + hi);
+      (binomial_upper_tail(least, trials, p) < probability ? lo : hi) = p;
+    }
+    return 0.5 * (lo + hi);
+  };
+  return {successes == 0 ? 0 : rate_at(successes, tail),
+          successes == trials ? 1 : rate_at(successes + 1, 1 - tail)};
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,174 @@
+#include "sim/statistics/sequential.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "sim/base/random.h"
+#include "sim/statistics/binomial.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr std::int64_t kPseudoCounts = 4;  // of either outcome: keeps an early streak from stopping
+
+constexpr double kBeside = 1e-11;  // a rate beside another: more than rounding
+
+// Standard deviation of one outcome, as estimated with the pseudo counts.
+double outcome_sd(std::int64_t successes, std::int64_t trials) {
+  const double rate = static_cast<double>(successes + kPseudoCounts) /
+                      static_cast<double>(trials + 2 * kPseudoCounts);
+  return std::sqrt(rate * (1 - rate));
+}
+
+}  // namespace
+
+FixedWidthRule::FixedWidthRule(double half_width, double confidence, std::int64_t max_trials)
+    : half_width_(half_width), asked_max_trials_(max_trials) {
+  check_confidence(confidence);
+  if (!(half_width >= kLeastHalfWidth && half_width <= kMostHalfWidth)) {
+    throw std::invalid_argument("The half width of a stopping rule must lie in [0.005, 0.5].");
+  }
+  if (max_trials < 1) throw std::invalid_argument("A stopping rule needs at least one throw.");
+  constexpr double kGrowth = 1.1;
+  constexpr int kHalvings = 8;
+  const double nominal = normal_quantile(0.5 + 0.5 * confidence);
+  // Coverage need not rise steadily with z: `enough` always is a z whose coverage was found good.
+  double too_small = nominal / kGrowth, enough = nominal;
+  const auto covers = [&](double z) {
+    set_z(z);
+    return least_coverage() >= confidence;
+  };
+  while (!covers(enough)) {
+    too_small = enough;
+    enough *= kGrowth;
+  }
+  for (int i = 0; i < kHalvings; ++i) {
+    const double z = 0.5 * (too_small + enough);
+    (covers(z) ? enough : too_small) = z;
+  }
+  set_z(enough);
+}
+
+bool FixedWidthRule::done(std::int64_t successes, std::int64_t trials) const {
+  check_counts(successes, trials);
+  if (trials == 0) return false;
+  return trials >= max_trials_ ||
+         z_ * outcome_sd(successes, trials) <= half_width_ * std::sqrt(static_cast<double>(trials));
+}
+
+Interval FixedWidthRule::interval(std::int64_t successes, std::int64_t trials) const {
+  check_counts(successes, trials);
+  if (trials == 0) return {0, 1};
+  const auto n = static_cast<double>(trials);
+  const double rate = static_cast<double>(successes) / n;
+  const double half = std::max(half_width_, z_ * outcome_sd(successes, trials) / std::sqrt(n));
+  return {std::max(0.0, rate - half), std::min(1.0, rate + half)};
+}
+
+void FixedWidthRule::set_z(double z) {
+  z_ = z;
+  // At this number of throws the largest deviation, 0.5, is known well enough.
+  const double enough = std::ceil(std::pow(0.5 * z / half_width_, 2));
+  max_trials_ = std::min(asked_max_trials_, static_cast<std::int64_t>(std::max(1.0, enough)));
+  find_stop_points();
+}
+
+// share[s]: of all orders of s successes in n throws, the share in which no earlier throw ended the
+// campaign. It follows from the shares at n - 1 by the last throw's outcome.
+void FixedWidthRule::find_stop_points() {
+  stop_points_.clear();
+  std::vector<double> share(static_cast<std::size_t>(max_trials_ + 1), 0.0);
+  share[0] = 1;
+  std::int64_t first = 0, last = 0;  // the counts at which the campaign goes on
+  for (std::int64_t n = 1; n <= max_trials_ && first <= last; ++n) {
+    const auto trials = static_cast<double>(n);
+    ++last;
+    for (std::int64_t s = last; s >= first; --s) {
+      const auto i = static_cast<std::size_t>(s);
+      const double from_success = s > first ? share[i - 1] * static_cast<double>(s) : 0;
+      const double from_failure = s < last ? share[i] * static_cast<double>(n - s) : 0;
+      share[i] = (from_success + from_failure) / trials;
+    }
+    const auto stop_at = [&](std::int64_t s) {
+      if (!done(s, n)) return false;
+      const double log_orders = log_binomial_pmf(s, n, 0.5) + trials * std::numbers::ln2;
+      stop_points_.push_back(
+          {s, n, log_orders + std::log(share[static_cast<std::size_t>(s)]), interval(s, n)});
+      return true;
+    };
+    // The spread is largest in the middle: the campaign ends from the outside inwards.
+    while (first <= last && stop_at(first)) ++first;
+    while (first <= last && stop_at(last)) --last;
+  }
+  std::sort(stop_points_.begin(), stop_points_.end(), [](const StopPoint& a, const StopPoint& b) {
+    return a.interval.middle() < b.interval.middle();
+  });
+  widest_ = 0;
+  for (const StopPoint& point : stop_points_) {
+    widest_ = std::max(widest_, point.interval.half_width());
+  }
+}
+
+double FixedWidthRule::StopPoint::probability(double p) const {
+  const auto s = static_cast<double>(successes), f = static_cast<double>(trials - successes);
+  const double success = successes == 0 ? 0 : s * std::log(p);
+  const double failure = trials == successes ? 0 : f * std::log1p(-p);
+  return std::exp(log_paths + success + failure);
+}
+
+double FixedWidthRule::coverage(double p) const {
+  // Only intervals whose middle is near enough can contain p.
+  const auto first = std::partition_point(
+      stop_points_.begin(), stop_points_.end(),
+      [&](const StopPoint& point) { return point.interval.middle() < p - widest_ - kBeside; });
+  double sum = 0;
+  for (auto point = first; point != stop_points_.end(); ++point) {
+    if (point->interval.middle() > p + widest_ + kBeside) break;
+    if (point->interval.contains(p)) sum += point->probability(p);
+  }
+  return sum;
+}
+
+double FixedWidthRule::expected_trials(double p) const {
+  double sum = 0;
+  for (const StopPoint& point : stop_points_) {
+    sum += point.probability(p) * static_cast<double>(point.trials);
+  }
+  return sum;
+}
+
+// Between two neighbouring ends of intervals the stop points that cover are the same, those between
+// two counts, and their probability rises and falls once: it is smallest next to an end.
+double FixedWidthRule::least_coverage() const {
+  double least = 1;
+  for (const StopPoint& point : stop_points_) {
+    for (const double p : {point.interval.lo - kBeside, point.interval.hi + kBeside}) {
+      if (p > 0 && p <= 0.5) least = std::min(least, coverage(p));  // the rule is symmetric
+    }
+  }
+  return least;
+}
+
+Interval confidence_sequence(std::int64_t successes, std::int64_t trials, double confidence) {
+  check_counts(successes, trials);
+  check_confidence(confidence);
+  if (trials == 0) return {0, 1};
+  constexpr int kHalvings = 60;
+  const double bound = std::log(1 - confidence) - std::log(static_cast<double>(trials + 1));
+  const double rate = static_cast<double>(successes) / static_cast<double>(trials);
+  // The probability falls on both sides of the observed rate.
+  const auto bound_towards = [&](double outside) {
+    double inside = rate;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double p = 0.5 * (inside + outside);
+      (log_binomial_pmf(successes, trials, p) > bound ? inside : outside) = p;
+    }
+    return outside;
+  };
+  return {successes == 0 ? 0 : bound_towards(0), successes == trials ? 1 : bound_towards(1)};
+}
+
+}  // namespace dodgesim
