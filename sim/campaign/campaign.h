@@ -31,8 +31,8 @@ struct CampaignOptions {
   bool resume = false;  // fly what is missing in `out`
   Shard shard;
   WorkerLimits limits;
-  std::string
-      models;  // digest of the scenario's models (sim/preflight/try_models.h) before all flights
+  // Digest of the scenario's models (sim/preflight/try_models.h) before all flights.
+  std::string models;
   std::string plugin;        // digest of the library, if one of the pilots comes from it
   std::string command_line;  // for the manifest
   // Name of the OpenGL renderer, for the manifest; may be empty. It must not leave a GL context in

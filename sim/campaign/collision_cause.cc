@@ -68,8 +68,10 @@ CollisionCause collision_cause(const Agility& agility, const CollisionEvidence& 
   const auto in_time = [&times](const std::optional<double>& needed_s) {
     return times.left_s && needed_s && *times.left_s >= *needed_s;
   };
-  if (!evidence.command_us && evidence.detected_us && times.needed_s &&
-      seconds(evidence.undisturbed->contact_us - *evidence.detected_us) >= *times.needed_s) {
+  const TimeUs contact_us = evidence.undisturbed->contact_us;
+  const bool commanded = evidence.command_us && *evidence.command_us < contact_us;
+  if (!commanded && evidence.earliest_command_us && times.needed_s &&
+      seconds(contact_us - *evidence.earliest_command_us) >= *times.needed_s) {
     return CollisionCause::kNotEvaded;
   }
   if (!in_time(times.needed_s)) return CollisionCause::kSeenLate;

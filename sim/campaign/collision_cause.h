@@ -4,11 +4,13 @@
 //   not seen              the object was never in view of a camera
 //   not detected          in view, but no detection was of it
 //   second object         the pilot had detected another object before this one
-//   not evaded            at its first detection some manoeuvre was left, but no evasive command
-//                         followed: the pilot did not believe, or not mind, what it had detected
-//   seen late             when the evasive command arrived, or without one at the first detection,
-//                         none of the manoeuvres that are tried would have brought the vehicle out
-//                         of the way in time
+//   not evaded            a command sent at the first detection would have left some manoeuvre, but
+//                         none came before the object did: the pilot did not believe what it had
+//                         detected, or did not act on it
+//   seen late             when the evasive command arrived, or would have had it been sent at the
+//                         first detection, none of the manoeuvres that are tried would have brought
+//                         the vehicle out of the way in time; or a pilot that is told of objects
+//                         gave no such command
 //   wrong position        some manoeuvre was left, but none that led where the commands did, which
 //                         would have been right had the object been where it was detected
 //   wrong direction       some manoeuvre was left, but none that led where the commands did; or
@@ -78,6 +80,8 @@ struct CollisionEvidence {
   bool perceives = true;  // the pilot sees with its cameras; others are told of objects
   bool in_view = false;   // the object was, before the hit
   std::optional<TimeUs> detected_us;  // when the pilot first gave out a detection of it
+  // When a command sent then would have arrived.
+  std::optional<TimeUs> earliest_command_us;
   bool another_detected_before = false;
   std::optional<Encounter> undisturbed;  // empty: nothing would have happened
   std::optional<TimeUs> command_us;      // first evasive command after the detection

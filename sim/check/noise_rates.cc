@@ -128,13 +128,17 @@ ShotExpected shot_expected(const NoiseCount& shot, double share, const EventCame
   const MeanInverse inverse = mean_inverse(shot.thresholds);
   ShotExpected expected;
   for (const Thresholds& pixel : shot.thresholds) {
+    if (pixel.dead()) {
+      expected.on.push_back(0);
+      continue;
+    }
     const double on_hz = share * spec.shot_noise_on_hz / (pixel.on * inverse.on);
     const double off_hz = share * spec.shot_noise_off_hz / (pixel.off * inverse.off);
     const double events = events_expected(on_hz + off_hz, hold_s(spec), shot.duration_s);
-    const double on = pixel.dead() ? 0 : events * on_hz / std::max(1e-12, on_hz + off_hz);
+    const double on = events * on_hz / std::max(1e-12, on_hz + off_hz);
     expected.on.push_back(on);
     expected.on_sum += on;
-    if (!pixel.dead()) expected.off_sum += events - on;
+    expected.off_sum += events - on;
   }
   return expected;
 }
@@ -143,17 +147,23 @@ ShotExpected shot_expected(const NoiseCount& shot, double share, const EventCame
 void judge_by_threshold(const std::string& name, const NoiseCount& shot,
                         const ShotExpected& expected, Check& check) {
   std::vector<double> sorted;
-  for (const Thresholds& pixel : shot.thresholds) sorted.push_back(pixel.on);
+  for (const Thresholds& pixel : shot.thresholds) {
+    if (!pixel.dead()) sorted.push_back(pixel.on);
+  }
+  if (sorted.empty()) {
+    check.off(name, "all pixels are dead");
+    return;
+  }
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::nth_element(sorted.begin(), middle, sorted.end());
   double on = 0, on_expected = 0;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
+  for (std::size_t i = 0; i < shot.thresholds.size(); ++i) {
     if (shot.thresholds[i].on >= *middle) continue;
     on += shot.per_pixel_on[i];
     on_expected += expected.on[i];
   }
   if (on_expected == 0 || shot.on == 0) {
-    check.off(name, "all ON thresholds are the same, or shot_noise_on_hz is 0");
+    check.off(name, "no pixel has a lower ON threshold than most, or there is no ON event");
     return;
   }
   const double share = on_expected / expected.on_sum;

@@ -94,7 +94,7 @@ struct MissionSpec {
       "Cruise speed towards the goal or a waypoint (1.5 in the paper), at most "
       "dodger.velocity_limit.max_speed_mps. The vehicle brakes within dodger.attractive.e_0_m "
       "of its goal: with less than speed_mps^2/25 (0.36 m for 3 m/s, 1 m for 5 m/s) it overshoots, "
-      "and swings through its goal for ever. The default of 0.2 m does for 2 m/s.");
+      "and swings through its goal forever. The default of 0.2 m is enough for 2 m/s.");
   }
 };
 
@@ -121,8 +121,8 @@ struct ThrowSpec {
       "counts as one that would have missed.");
     v("distance_m", distance_m, 0.5, 20,
       "Distance over the ground from the launch to the aim point, where the vehicle will be on "
-      "arrival. Nothing of the room may stand in the line between: such a throw is an error, not a "
-      "miss.");
+      "arrival. Nothing of the room may stand between the two, or the throw is an error, not "
+      "a miss.");
     v("bearing_deg", bearing_deg, -180, 180,
       "Where the throw comes from, seen from the vehicle: 0 ahead, positive to the left.");
     v("aim_offset_m", aim_offset_m, -2, 2,

@@ -13,6 +13,7 @@ constexpr double kBrightLux = 1000;
 
 std::vector<PixelRate> rates_of_shot_noise(const EventCameraSpec& spec,
                                            std::span<const Thresholds> thresholds) {
+  if (spec.shot_noise_on_hz + spec.shot_noise_off_hz <= 0) return {};
   const MeanInverse inverse = mean_inverse(thresholds);
   std::vector<PixelRate> rates(thresholds.size());
   for (std::uint32_t i = 0; i < rates.size(); ++i) {
@@ -74,7 +75,8 @@ double Noise::accepted_share(float luminance) const {
 double Noise::rate_hz(std::uint32_t pixel, float luminance) const {
   const auto sum = [](const PixelRate& rate) { return rate.on_hz + rate.off_hz; };
   const auto hot = std::ranges::lower_bound(hot_rates_, pixel, {}, &PixelRate::pixel);
-  return sum(shot_rates_[pixel]) * accepted_share(luminance) +
+  const double shot_hz = shot_rates_.empty() ? 0 : sum(shot_rates_[pixel]);
+  return shot_hz * accepted_share(luminance) +
          (hot != hot_rates_.end() && hot->pixel == pixel ? sum(*hot) : 0);
 }
 

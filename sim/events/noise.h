@@ -1,5 +1,5 @@
 // The noise of an event camera that is not in its pixels' signal: shot noise, which falls with the
-// light and comes the more often the lower a pixel's threshold is (in inverse proportion, as v2e
+// light and comes more often the lower a pixel's threshold is (in inverse proportion, as v2e
 // has it: Hu et al. 2021), and hot pixels.
 #pragma once
 
@@ -54,7 +54,7 @@ class Noise {
   int width_;
   double bright_share_;
   double bright_luminance_;            // from which on the share is bright_share
-  std::vector<PixelRate> shot_rates_;  // of all pixels, in the dark
+  std::vector<PixelRate> shot_rates_;  // of all pixels, in the dark; empty: none
   std::vector<PixelRate> hot_rates_;   // of the hot pixels, in order
   PoissonEvents shot_;
   PoissonEvents hot_;

@@ -8,6 +8,7 @@ PoissonEvents::PoissonEvents(const RandomStream& stream, const std::vector<Pixel
     : stream_(stream) {
   std::vector<double> rates_hz;
   rates_hz.reserve(2 * rates.size());
+  pixels_.reserve(rates.size());
   double sum_hz = 0;
   for (const PixelRate& rate : rates) {
     pixels_.push_back(rate.pixel);

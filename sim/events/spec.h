@@ -105,7 +105,8 @@ void EventCameraSpec::visit(Visitor& v) {
   v("shot_noise_on_hz", shot_noise_on_hz, 0, 1000,
     "Mean rate of ON events of a pixel in the dark, due to shot noise (measured on a DVXplorer). "
     "A pixel's own is in inverse proportion to its ON threshold (v2e).");
-  v("shot_noise_off_hz", shot_noise_off_hz, 0, 1000, "The same of OFF events.");
+  v("shot_noise_off_hz", shot_noise_off_hz, 0, 1000,
+    "The same for OFF events, by the OFF threshold.");
   v("shot_noise_bright_share", shot_noise_bright_share, 0, 1,
     "Share of these rates that is left at 1000 lux on white; they fall linearly (v2e: 0.25), so "
     "that they hardly differ below 100 lux.");

@@ -6,7 +6,7 @@
 
 namespace dodgesim {
 
-const std::filesystem::path& make_directory(const std::filesystem::path& directory) {
+std::filesystem::path make_directory(const std::filesystem::path& directory) {
   if (directory.empty()) throw IoError("The name of the directory for the results is empty.");
   std::error_code error, unknown;
   std::filesystem::create_directories(directory, error);

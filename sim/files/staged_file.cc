@@ -69,7 +69,8 @@ void StagedFile::lock() {
 
 StagedFile::~StagedFile() {
   if (fd_ < 0) return;
-  ::unlink(partial_.c_str());  // before another program may lock it
+  // Before another program may lock it, unless it is that program's already.
+  if (is_open_file(partial_, fd_)) ::unlink(partial_.c_str());
   ::close(fd_);
 }
 

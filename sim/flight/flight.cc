@@ -106,6 +106,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
   const double hover_n = 0.25 * vehicle.mass_kg * kGravityMps2;
   motors_.reset(0, {hover_n, hover_n, hover_n, hover_n});
   flight_controller_.reset({hover_n, hover_n, hover_n, hover_n});
+  record_.command_delay_us = scenario.delays.command_us + scenario.delays.flight_controller_us;
   rate_command_.thrust_mps2 = kGravityMps2;
   computer_.set_goal(mission_.goal());
   record_.sightings.resize(plan_.launches.size());

@@ -93,6 +93,7 @@ struct FlightRecord {
   std::vector<Sighting> sightings;         // of each object
   std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
   std::optional<TimeUs> landing_us;        // first command to land at the controller
+  TimeUs command_delay_us = 0;             // from a command's output to the flight controller
   int detections = 0;
   std::vector<DetectionRow> rows;
   std::array<std::int64_t, 2> events{};

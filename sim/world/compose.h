@@ -34,7 +34,9 @@ struct WorldSpec {
 // Conventions of the model files. Contact bits: room geoms have contype 1 and conaffinity 6, the
 // vehicle's hull 2 and 5, thrown objects 4 and 7; what is for the eye only has 0 and 0.
 // Geom groups: 0 room, 1 thrown objects, 3 vehicle as people see it, 4 vehicle hull (never drawn).
+// World puts what moves and is in MuJoCo's default group, 0, into 1.
 inline constexpr int kRoomGroup = 0;
+inline constexpr int kObjectGroup = 1;
 inline constexpr int kVehicleGroup = 3;
 inline constexpr int kFirstHiddenGroup = 3;  // from the cameras, and in MuJoCo's default view
 

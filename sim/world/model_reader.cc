@@ -47,11 +47,12 @@ void ModelReader::check_room() const {
   for (int geom = 0; geom < model_.ngeom; ++geom) {
     const int group = model_.geom_group[geom];
     if (model_.body_weldid[model_.geom_bodyid[geom]] != 0) continue;
-    if (group == kRoomGroup || group >= kFirstHiddenGroup) continue;
+    if (group == kRoomGroup || group > kVehicleGroup) continue;
     const char* name = mj_id2name(&model_, mjOBJ_GEOM, geom);
-    throw ScenarioError(file_ + ": the geom '" + (name != nullptr ? name : "") + "' is in group " +
-                        std::to_string(group) + "; a room's geoms are in group 0, or in 3 to 5 " +
-                        "if they are not to be seen.");
+    const std::string number = std::to_string(geom);
+    throw ScenarioError(file_ + ": the geom " + (name != nullptr ? name : number.c_str()) +
+                        " is in group " + std::to_string(group) + "; a room's geoms are in group " +
+                        "0, or in 4 or 5 if they are not to be seen.");
   }
 }
 

@@ -32,6 +32,10 @@ World::World(const WorldSpec& spec) : model_(compose_model(spec)) {
   if (!data_) throw SimulationError("MuJoCo cannot allocate its data.");
   contype_.assign(model_->geom_contype, model_->geom_contype + model_->ngeom);
   conaffinity_.assign(model_->geom_conaffinity, model_->geom_conaffinity + model_->ngeom);
+  for (int geom = 0; geom < model_->ngeom; ++geom) {
+    const bool moves = model_->body_weldid[model_->geom_bodyid[geom]] != 0;
+    if (moves && model_->geom_group[geom] == kRoomGroup) model_->geom_group[geom] = kObjectGroup;
+  }
   ModelReader(*model_, spec.models_dir + "/rooms/" + spec.room + ".xml").check_room();
   const ModelReader vehicle(*model_, spec.models_dir + "/vehicles/" + spec.vehicle + ".xml");
   vehicle_body_ = vehicle.find(mjOBJ_BODY, "vehicle");

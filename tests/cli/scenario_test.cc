@@ -97,6 +97,7 @@ TEST_F(ScenarioCommandTest, BadSettingsAreUsageErrors) {
   EXPECT_THAT(twice.output, HasSubstr("--over throw.size_m=0.2: throw.size_m is swept already"));
   const Outcome places =
       dodgesim("sweep " + path("s.yaml") + " --out x --over 'mission.start_m=[0,0,1],[0,0,-1]'");
+  EXPECT_EQ(places.exit_code, 2);
   EXPECT_THAT(places.output, HasSubstr("cannot be at (0, 0, -1) m"));
   const Outcome over = dodgesim("sweep " + path("s.yaml") + " --out x --over delays.compute_us=-1");
   EXPECT_EQ(over.exit_code, 2);

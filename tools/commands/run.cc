@@ -60,7 +60,8 @@ void report_errors(const CampaignSummary& summary) {
 
 // Whether the bracket that opens the text is closed at its end only: [0.1, 0.2], but not [0, 0],
 // [1, 0].
-bool is_one_list(const std::string& text) {
+bool is_one_list(std::string text) {
+  text.erase(text.find_last_not_of(" \t") + 1);
   int depth = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     depth += text[i] == '[' ? 1 : 0;
@@ -181,7 +182,8 @@ void add_sweep_command(CLI::App& program, const std::string& command_line, int& 
       command_line, arguments);
   command
       ->add_option("--over", arguments->over,
-                   "A key and its values; with several of these, every combination")
+                   "A key and its values, lists as [0,0,1],[0,0,2] or [[0,0,1]]; with several of\n"
+                   "these, every combination")
       ->required()
       ->type_name("KEY=VALUE,VALUE,...")
       ->allow_extra_args(false);

@@ -73,9 +73,14 @@ TEST(CollisionCause, WithoutACommandTheFirstDetectionTellsWhetherItWasSeenLate) 
   CollisionEvidence none = evidence(0, kUp);
   none.command_us.reset();
   EXPECT_FALSE(escape_times(kAgility, none).left_s);
-  none.detected_us = last_us() - 2;
+  none.earliest_command_us = last_us() - 2;
   EXPECT_EQ(cause(none), CollisionCause::kNotEvaded);
-  none.detected_us = last_us() + 2;
+  none.command_us = kContactUs;  // no answer either
+  EXPECT_EQ(cause(none), CollisionCause::kNotEvaded);
+  none.command_us = kContactUs - 1;
+  EXPECT_EQ(cause(none), CollisionCause::kSeenLate);
+  none.command_us.reset();
+  none.earliest_command_us = last_us() + 2;
   EXPECT_EQ(cause(none), CollisionCause::kSeenLate);
 }
 
