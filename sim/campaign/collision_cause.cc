@@ -63,7 +63,7 @@ CollisionCause collision_cause(const Agility& agility, const CollisionEvidence& 
   }
   if (evidence.another_detected_before) return CollisionCause::kSecondObject;
   if (evidence.perceives && !evidence.in_view) return CollisionCause::kNotSeen;
-  if (evidence.perceives && !evidence.detected_us) return CollisionCause::kNotDetected;
+  if (evidence.perceives && !evidence.earliest_command_us) return CollisionCause::kNotDetected;
   if (!evidence.undisturbed) return CollisionCause::kWrongDirection;
   const auto in_time = [&times](const std::optional<double>& needed_s) {
     return times.left_s && needed_s && *times.left_s >= *needed_s;

@@ -79,8 +79,7 @@ struct CollisionEvidence {
   bool landing = false;   // the pilot had begun an emergency landing
   bool perceives = true;  // the pilot sees with its cameras; others are told of objects
   bool in_view = false;   // the object was, before the hit
-  std::optional<TimeUs> detected_us;  // when the pilot first gave out a detection of it
-  // When a command sent then would have arrived.
+  // When a command sent at the object's first detection would have arrived; empty: not detected.
   std::optional<TimeUs> earliest_command_us;
   bool another_detected_before = false;
   std::optional<Encounter> undisturbed;  // empty: nothing would have happened

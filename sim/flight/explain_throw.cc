@@ -109,14 +109,15 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
   const Testimony& testimony = flown.testimony;
   const Testimony::Object& object = testimony.objects[static_cast<std::size_t>(hitter)];
   evidence.in_view = object.in_view_us.has_value();
+  std::optional<TimeUs> detected_us;
   if (!object.detections.empty()) {
-    evidence.detected_us = object.detections.front().output_us;
-    evidence.earliest_command_us = *evidence.detected_us + flown.command_delay_us;
+    detected_us = object.detections.front().output_us;
+    evidence.earliest_command_us = *detected_us + flown.command_delay_us;
   }
   for (std::size_t i = 0; i < testimony.objects.size(); ++i) {
     const auto& other = testimony.objects[i].detections;
     if (&testimony.objects[i] == &object || other.empty()) continue;
-    if (!evidence.detected_us || other.front().output_us < *evidence.detected_us) {
+    if (!detected_us || other.front().output_us < *detected_us) {
       evidence.another_detected_before = true;
     }
   }

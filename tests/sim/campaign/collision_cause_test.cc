@@ -36,7 +36,7 @@ TimeUs last_us(const std::optional<Vector3d>& towards_W = std::nullopt,
 CollisionEvidence evidence(TimeUs command_us, const Vector3d& command_W) {
   CollisionEvidence evidence;
   evidence.hit = evidence.in_view = true;
-  evidence.detected_us = 0;
+  evidence.earliest_command_us = 0;
   evidence.undisturbed = head_on();
   evidence.command_us = command_us;
   evidence.command_W = command_W;
@@ -51,7 +51,7 @@ CollisionCause cause(const CollisionEvidence& evidence) {
 TEST(CollisionCause, TellsWhatWasNotPerceived) {
   CollisionEvidence blind = evidence(0, kUp);
   blind.in_view = false;
-  blind.detected_us.reset();
+  blind.earliest_command_us.reset();
   blind.command_us.reset();
   EXPECT_EQ(cause(blind), CollisionCause::kNotSeen);
   blind.in_view = true;
