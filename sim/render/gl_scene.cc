@@ -69,17 +69,6 @@ GlProgram locate(GLuint name) {
   p.X_WG = at("u_X_WG");
   p.texture_shift = at("u_texture_shift");
   p.id = at("u_id");
-  p.rectangle = at("u_rectangle");
-  p.R_GC = at("u_R_GC");
-  p.eye_G = at("u_eye_G");
-  p.size = at("u_size");
-  p.texture_scale = at("u_texture_scale");
-  p.texture_offset = at("u_texture_offset");
-  p.albedo_emission = at("u_albedo_emission");
-  p.margin = at("u_margin");
-  p.conic = at("u_conic");
-  p.conic_origin = at("u_conic_origin");
-  p.pieces = at("u_pieces");
   p.R_WC = at("u_R_WC");
   p.X_CW = at("u_X_CW");
   p.image = at("u_image");
@@ -153,11 +142,20 @@ GlTexture upload_texture(const LuminanceTexture& texture, bool trilinear) {
 
 }  // namespace
 
-SceneTextures::SceneTextures(const std::vector<LuminanceTexture>& textures, bool trilinear) {
-  for (const LuminanceTexture& texture : textures) {
-    textures_.push_back(
-        {upload_texture(texture, trilinear), texture.cube ? TextureKind::kCube : TextureKind::k2d});
-  }
+SceneTextures::SceneTextures(const SceneGeometry& scene, bool trilinear)
+    : textures_(scene.textures.size()) {
+  const auto need = [&](int index) {
+    if (index < 0) return;
+    const LuminanceTexture& texture = scene.textures[static_cast<std::size_t>(index)];
+    Texture& uploaded = textures_[static_cast<std::size_t>(index)];
+    if (uploaded.kind != TextureKind::kNone) return;
+    uploaded = {upload_texture(texture, trilinear),
+                texture.cube ? TextureKind::kCube : TextureKind::k2d};
+  };
+  for (const TriangleBatch& batch : scene.static_triangles) need(batch.texture);
+  for (const MovingTriangles& moving : scene.moving_triangles) need(moving.batch.texture);
+  for (const InfinitePlane& plane : scene.infinite_planes) need(plane.surface.texture);
+  need(scene.sky_texture);
 }
 
 TextureKind SceneTextures::kind_of(int texture) const {
@@ -204,17 +202,6 @@ GlProgram make_triangle_program(ProgramCache& programs, TextureKind texture,
                                        triangle_fragment_shader(texture, count_lights(scene)));
   glUseProgram(name);
   set_lights(name, scene);
-  return locate(name);
-}
-
-GlProgram make_primitive_program(ProgramCache& programs, mjtGeom type, TextureKind texture,
-                                 bool hard, const SceneGeometry& scene, const DepthRange& depth) {
-  const GLuint name =
-      programs.program(primitive_vertex_shader(count_lights(scene)),
-                       primitive_fragment_shader(type, texture, count_lights(scene), hard));
-  glUseProgram(name);
-  set_lights(name, scene);
-  set_floats(name, "u_depth", {depth.offset(), depth.slope()});
   return locate(name);
 }
 

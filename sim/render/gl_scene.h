@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/camera/camera.h"
+#include "sim/render/depth_range.h"
 #include "sim/render/gl_objects.h"
 #include "sim/render/program_cache.h"
 #include "sim/render/scene_geometry.h"
@@ -14,32 +15,23 @@
 
 namespace dodgesim {
 
-// Mapping of depth z_C to the depth buffer: value = offset + slope / z_C.
-struct DepthRange {
-  double near_m, far_m;
-  double offset() const { return far_m / (far_m - near_m); }
-  double slope() const { return -far_m * near_m / (far_m - near_m); }
-};
-
 // Of a ProgramCache: kept by it, and used by one renderer at a time.
 struct GlProgram {
   unsigned name = 0;
   // Of the uniforms, of which a program has those that it needs.
   int lod_bias;
   int camera;                                // f, cx, cy [px]: all but triangles
-  int clip_from_G, X_WG, texture_shift, id;  // triangles (and primitives)
-  int rectangle, R_GC, eye_G, size, texture_scale, texture_offset, albedo_emission, margin;
-  int conic, conic_origin, pieces;  // round outlines
-  int R_WC;                         // sky
-  int X_CW, image;                  // edges; image: width, height [px]
+  int clip_from_G, X_WG, texture_shift, id;  // triangles
+  int R_WC;                                  // sky
+  int X_CW, image;                           // edges; image: width, height [px]
 };
 
-// The textures of a scene.
+// The textures of what OpenGL draws of a scene.
 class SceneTextures {
  public:
-  SceneTextures(const std::vector<LuminanceTexture>& textures, bool trilinear);
+  SceneTextures(const SceneGeometry& scene, bool trilinear);
 
-  // By index; -1 is none.
+  // By index in the scene; -1 is none.
   TextureKind kind_of(int texture) const;
   void bind(int texture) const;
 
@@ -72,8 +64,6 @@ VertexBuffer make_edge_buffer(std::size_t capacity);
 // others must be set before each use.
 GlProgram make_triangle_program(ProgramCache& programs, TextureKind texture,
                                 const SceneGeometry& scene);
-GlProgram make_primitive_program(ProgramCache& programs, mjtGeom type, TextureKind texture,
-                                 bool hard, const SceneGeometry& scene, const DepthRange& depth);
 GlProgram make_sky_program(ProgramCache& programs, TextureKind texture, double luminance);
 GlProgram make_edge_program(ProgramCache& programs, const DepthRange& depth);
 

@@ -78,10 +78,14 @@ class LuminanceRenderer::Impl {
   };
   Canvas& canvas(const Intrinsics& intrinsics);
   void bind(const Canvas& canvas, bool with_ids);
-  bool single_solid(const Snapshot& snapshot) const;
   void draw_static_triangles(Canvas& canvas, const Shot& shot, bool with_ids);
   void put(const Canvas& canvas, const Rect& region, const float* luminance);
-  void read(const Canvas& canvas, const Rect& region, float* luminance, std::int32_t* object_id);
+  void read(const Canvas& canvas, const Rect& region, const PaintedPicture& picture);
+  bool mesh_flies(const Snapshot& snapshot) const;
+  bool single_solid_flies(const Snapshot& snapshot) const;
+  void draw_meshes(const Shot& shot, const Snapshot& snapshot, bool behind_static,
+                   const PaintedPicture& picture);
+  void clear(const Rect& region, const PaintedPicture& picture) const;
 
   Intrinsics intrinsics_;
   DepthRange depth_;
@@ -91,6 +95,7 @@ class LuminanceRenderer::Impl {
   TrianglePainter triangles_;
   PrimitivePainter primitives_;
   std::vector<std::unique_ptr<Canvas>> canvases_;
+  std::vector<float> depth_image_;  // as large as the camera's
 };
 
 LuminanceRenderer::Impl::Impl(const mjModel& model, const std::vector<int>& object_bodies,
@@ -98,9 +103,11 @@ LuminanceRenderer::Impl::Impl(const mjModel& model, const std::vector<int>& obje
     : intrinsics_(intrinsics),
       depth_{spec.near_m, 2.0 * spec.far_m},  // the corners of unbounded planes stay visible
       scene_(collect_scene(model, object_bodies, spec.texel_encoding == "srgb")),
-      textures_(scene_.textures, spec.texture_filter == "trilinear"),
+      textures_(scene_, spec.texture_filter == "trilinear"),
       triangles_(scene_, textures_, lease_.programs(), depth_, spec.far_m, spec.sky_luminance),
-      primitives_(scene_, textures_, lease_.programs(), depth_) {
+      primitives_(scene_, spec.texture_filter == "trilinear", depth_),
+      depth_image_(static_cast<std::size_t>(intrinsics.width) *
+                   static_cast<std::size_t>(intrinsics.height)) {
   set_state();
 }
 
@@ -147,8 +154,9 @@ void LuminanceRenderer::Impl::render(const Snapshot& snapshot, const Eigen::Isom
   Canvas& view = canvas(intrinsics_);
   draw_static_triangles(view, shot, object_id != nullptr);
   triangles_.draw_objects(shot, snapshot);
-  primitives_.draw_all(shot, snapshot);
-  read(view, shot.region, luminance, object_id);
+  const PaintedPicture picture = {luminance, depth_image_.data(), object_id};
+  read(view, shot.region, picture);
+  primitives_.paint_all(shot, snapshot, picture);
 }
 
 void LuminanceRenderer::Impl::render_static(const Intrinsics& intrinsics,
@@ -158,10 +166,9 @@ void LuminanceRenderer::Impl::render_static(const Intrinsics& intrinsics,
   lease_.context().make_current();
   Canvas& whole = canvas(intrinsics);
   draw_static_triangles(whole, shot, false);
-  primitives_.draw_static(shot);
-  read(whole, shot.region, luminance, nullptr);
-  glReadPixels(0, 0, intrinsics.width, intrinsics.height, GL_DEPTH_COMPONENT, GL_FLOAT,
-               inverse_depth);
+  const PaintedPicture picture = {luminance, inverse_depth, nullptr};
+  read(whole, shot.region, picture);
+  primitives_.paint_static(shot, picture);
   const auto pixels =
       static_cast<std::size_t>(intrinsics.width) * static_cast<std::size_t>(intrinsics.height);
   const auto offset = static_cast<float>(depth_.offset());
@@ -172,13 +179,22 @@ void LuminanceRenderer::Impl::render_static(const Intrinsics& intrinsics,
   }
 }
 
-// Whether one ray-cast solid is all that the objects in flight consist of.
-bool LuminanceRenderer::Impl::single_solid(const Snapshot& snapshot) const {
-  const auto flies = [&](const auto& part) {
-    return part.object >= 0 && snapshot.launched[static_cast<std::size_t>(part.object)];
-  };
-  return std::ranges::count_if(scene_.primitives, flies) == 1 &&
-         std::ranges::none_of(scene_.moving_triangles, flies);
+template <class Part>
+bool flies(const Part& part, const Snapshot& snapshot) {
+  return part.object >= 0 && snapshot.launched[static_cast<std::size_t>(part.object)];
+}
+
+// Whether OpenGL must draw something of the objects in flight.
+bool LuminanceRenderer::Impl::mesh_flies(const Snapshot& snapshot) const {
+  return std::ranges::any_of(scene_.moving_triangles,
+                             [&](const auto& moving) { return flies(moving, snapshot); });
+}
+
+// Whether they have no more than one solid that is ray-cast, which nothing can hide.
+bool LuminanceRenderer::Impl::single_solid_flies(const Snapshot& snapshot) const {
+  return std::ranges::count_if(scene_.primitives, [&](const Primitive& primitive) {
+           return flies(primitive, snapshot);
+         }) <= 1;
 }
 
 void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC,
@@ -186,32 +202,42 @@ void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen
                                            std::int32_t* object_id) {
   const Shot shot{intrinsics_, X_WC, clipped(region, intrinsics_)};
   if (shot.region.empty()) return;
+  const bool meshes = behind_static || mesh_flies(snapshot);
+  const bool hidden = meshes || !single_solid_flies(snapshot);
+  const PaintedPicture picture = {luminance, hidden ? depth_image_.data() : nullptr, object_id};
+  if (meshes) {
+    draw_meshes(shot, snapshot, behind_static, picture);
+  } else {
+    clear(shot.region, picture);
+  }
+  if (behind_static) primitives_.paint_static_depth(shot, picture);
+  primitives_.paint_objects(shot, snapshot, picture);
+}
+
+// Over what `picture` shows; its depth and ids are drawn anew.
+void LuminanceRenderer::Impl::draw_meshes(const Shot& shot, const Snapshot& snapshot,
+                                          bool behind_static, const PaintedPicture& picture) {
   lease_.context().make_current();
   Canvas& view = canvas(intrinsics_);
-  // Nothing can hide a single solid: no depth is needed.
-  const bool with_depth = behind_static || !single_solid(snapshot);
   // llvmpipe rounds otherwise where it writes depth and no ids; who asks for ids must not matter.
-  const bool with_ids = object_id != nullptr || with_depth;
-  bind(view, with_ids);
+  bind(view, true);
   set_scissor(shot.region);
-  if (with_depth) {
-    glClear(GL_DEPTH_BUFFER_BIT);
-  } else {
-    glDisable(GL_DEPTH_TEST);
-  }
-  if (behind_static) {
-    triangles_.draw_static(shot);
-    primitives_.draw_static_depth(shot);
-  }
-  if (with_ids) {
-    constexpr GLint kStatic[4] = {0, 0, 0, 0};
-    glClearBufferiv(GL_COLOR, 1, kStatic);
-  }
-  put(view, shot.region, luminance);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  if (behind_static) triangles_.draw_static(shot);
+  constexpr GLint kStatic[4] = {0, 0, 0, 0};
+  glClearBufferiv(GL_COLOR, 1, kStatic);
+  put(view, shot.region, picture.luminance);
   triangles_.draw_objects(shot, snapshot);
-  primitives_.draw_objects(shot, snapshot, with_ids);
-  glEnable(GL_DEPTH_TEST);
-  read(view, shot.region, luminance, object_id);
+  read(view, shot.region, picture);
+}
+
+// Nothing is there yet, near or far.
+void LuminanceRenderer::Impl::clear(const Rect& region, const PaintedPicture& picture) const {
+  for (int y = region.y0; y < region.y1; ++y) {
+    const std::ptrdiff_t first = std::ptrdiff_t{y} * intrinsics_.width + region.x0;
+    if (picture.depth) std::fill_n(picture.depth + first, region.x1 - region.x0, 1.0f);
+    if (picture.id) std::fill_n(picture.id + first, region.x1 - region.x0, 0);
+  }
 }
 
 // Writes a region of the canvas.
@@ -223,15 +249,17 @@ void LuminanceRenderer::Impl::put(const Canvas& canvas, const Rect& region,
                   luminance + offset_of(region, canvas.intrinsics));
 }
 
-void LuminanceRenderer::Impl::read(const Canvas& canvas, const Rect& region, float* luminance,
-                                   std::int32_t* object_id) {
+void LuminanceRenderer::Impl::read(const Canvas& canvas, const Rect& region,
+                                   const PaintedPicture& picture) {
   const int width = region.x1 - region.x0, height = region.y1 - region.y0;
   const std::ptrdiff_t first = offset_of(region, canvas.intrinsics);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(region.x0, region.y0, width, height, GL_RED, GL_FLOAT, luminance + first);
-  if (!object_id) return;
+  glReadPixels(region.x0, region.y0, width, height, GL_RED, GL_FLOAT, picture.luminance + first);
+  glReadPixels(region.x0, region.y0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT,
+               picture.depth + first);
+  if (!picture.id) return;
   glReadBuffer(GL_COLOR_ATTACHMENT1);
-  glReadPixels(region.x0, region.y0, width, height, GL_RED_INTEGER, GL_INT, object_id + first);
+  glReadPixels(region.x0, region.y0, width, height, GL_RED_INTEGER, GL_INT, picture.id + first);
 }
 
 LuminanceRenderer::LuminanceRenderer(const mjModel& model, const std::vector<int>& object_bodies,

@@ -1,14 +1,15 @@
-// Draws what an event camera sees: linear luminance in floating point, from a MuJoCo model, with
-// own shaders on OSMesa. Photometry: scene_geometry.h. Geometry: exactly Intrinsics (camera.h).
+// Draws what an event camera sees: linear luminance in floating point, from a MuJoCo model. What is
+// made of triangles is drawn with own shaders on OSMesa, spheres, ellipsoids, capsules and all
+// thrown solids but meshes are ray-cast on the processor (primitive_painter.h). Photometry:
+// scene_geometry.h. Geometry: exactly Intrinsics (camera.h).
 //
 // Edges. At outlines a pixel's luminance is the mean over its square aperture, so that an edge that
 // moves slowly changes it smoothly: analytically for ray-cast ellipsoids and the sides of cylinders
-// and capsules, by 64 rays a pixel for their ends and for thrown boxes (spheres, ellipsoids,
-// capsules and all thrown solids but meshes are ray-cast), and by edge_smoother.h for what is
-// static and made of triangles (planes, boxes, cylinders, meshes). Not smoothed: thrown meshes, the
-// horizon of an unbounded plane, where a ray-cast solid cuts into something, and the outline of one
-// in front of another whose centre is nearer. Textures are read once a pixel, filtered as
-// RenderSpec::texture_filter says.
+// and capsules, by 64 rays a pixel for their ends and for thrown boxes, and by edge_smoother.h for
+// what is static and made of triangles (planes, boxes, cylinders, meshes). Not smoothed: thrown
+// meshes, the horizon of an unbounded plane, where a ray-cast solid cuts into something, and the
+// outline of one in front of another whose centre is nearer. Textures are read once a pixel,
+// filtered as RenderSpec::texture_filter says.
 #pragma once
 
 #include <mujoco/mujoco.h>

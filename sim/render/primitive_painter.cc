@@ -1,55 +1,98 @@
 #include "sim/render/primitive_painter.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
-
 #include <algorithm>
-#include <iterator>
-
-#include "sim/render/gl_values.h"
+#include <cmath>
+#include <stdexcept>
 
 namespace dodgesim {
 
 namespace {
 
-constexpr mjtGeom kTypesInOrder[] = {mjGEOM_ELLIPSOID, mjGEOM_CAPSULE, mjGEOM_CYLINDER, mjGEOM_BOX};
-
-std::size_t type_index(mjtGeom type) {
-  return static_cast<std::size_t>(
-      std::find(std::begin(kTypesInOrder), std::end(kTypesInOrder), type) -
-      std::begin(kTypesInOrder));
+SolidType solid_type(mjtGeom type) {
+  switch (type) {
+    case mjGEOM_ELLIPSOID:
+      return SolidType::kEllipsoid;
+    case mjGEOM_CAPSULE:
+      return SolidType::kCapsule;
+    case mjGEOM_CYLINDER:
+      return SolidType::kCylinder;
+    case mjGEOM_BOX:
+      return SolidType::kBox;
+    default:
+      throw std::logic_error("A geom of this type is not ray-cast.");
+  }
 }
 
-void write_luminance(bool on) { glColorMaski(0, on, on, on, on); }
-void write_id(bool on) { glColorMaski(1, on, on, on, on); }
+Vec3 single(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+SolidView single(const PrimitiveView& view, const Primitive& primitive, const Intrinsics& camera) {
+  SolidView s{};
+  s.inverse_f = static_cast<float>(1 / camera.f);
+  s.cx = static_cast<float>(camera.cx());
+  s.cy = static_cast<float>(camera.cy());
+  s.right = single(view.R_GC.col(0));
+  s.down = single(view.R_GC.col(1));
+  s.forward = single(view.R_GC.col(2));
+  s.eye = single(view.eye_G);
+  s.size = single(primitive.size);
+  s.margin = static_cast<float>(view.margin);
+  for (int i = 0; i < 9; ++i) s.conic[i] = static_cast<float>(view.conic(i / 3, i % 3));
+  s.conic_x = static_cast<float>(view.conic_origin.x());
+  s.conic_y = static_cast<float>(view.conic_origin.y());
+  s.pieces = view.outline_pieces;
+  return s;
+}
+
+TextureRead texture_read(bool cube, bool trilinear) {
+  if (cube) return trilinear ? TextureRead::kCubeTwoLevels : TextureRead::kCubeNearestLevel;
+  return trilinear ? TextureRead::k2dTwoLevels : TextureRead::k2dNearestLevel;
+}
 
 }  // namespace
 
-PrimitivePainter::PrimitivePainter(const SceneGeometry& scene, const SceneTextures& textures,
-                                   ProgramCache& programs, const DepthRange& depth)
-    : scene_(scene),
-      textures_(textures),
-      depth_(depth),
-      views_(scene.primitives.size()),
-      poses_(scene.primitives.size()) {
-  static_assert(std::size(kTypesInOrder) == kTypes);
-  order_.reserve(scene.primitives.size());
-  make_programs(programs);
+void PrimitivePainter::FaceRows::start(int width) {
+  row_below_ = -1;
+  // The kernels read one more point than they have pixels.
+  const auto size = static_cast<std::size_t>(whole_vectors(width + 1) + 1);
+  if (rows_[0][0].size() >= size) return;
+  for (auto& row : rows_) {
+    for (auto& component : row) component.resize(size);
+  }
 }
 
-void PrimitivePainter::make_programs(ProgramCache& programs) {
-  for (const Primitive& primitive : scene_.primitives) {
-    const TextureKind kind = textures_.kind_of(primitive.surface.texture);
-    const std::size_t type = type_index(primitive.type);
-    GlProgram& program = programs_[type][static_cast<std::size_t>(kind)];
-    if (!program.name) {
-      program = make_primitive_program(programs, primitive.type, kind, false, scene_, depth_);
-    }
-    GlProgram& hard = hard_programs_[type];
-    if (!hard.name) {
-      hard = make_primitive_program(programs, primitive.type, TextureKind::kNone, true, scene_,
-                                    depth_);
-    }
+PointRow PrimitivePainter::FaceRows::at(int row) {
+  auto& r = rows_[static_cast<std::size_t>(row)];
+  return {r[0].data(), r[1].data(), r[2].data(), r[3].data(), r[4].data(), r[5].data()};
+}
+
+void PrimitivePainter::FaceRows::compute(const SolidKernels& kernels, const SolidView& view,
+                                         int face, int column, int row, int size, bool below) {
+  const auto points = [&](int y, const PointRow& row_of_points) {
+    kernels.points(view, face, static_cast<float>(column), static_cast<float>(y),
+                   whole_vectors(size + 1), row_of_points);
+  };
+  here_ = 1 - here_;
+  if (row_below_ != row) points(row, this->here());
+  if (!below) return;
+  points(row + 1, this->below());
+  row_below_ = row + 1;
+}
+
+PrimitivePainter::PrimitivePainter(const SceneGeometry& scene, bool trilinear,
+                                   const DepthRange& depth)
+    : scene_(scene),
+      trilinear_(trilinear),
+      depth_(depth),
+      pyramids_(scene.textures.size()),
+      views_(scene.primitives.size()),
+      poses_(scene.primitives.size()) {
+  order_.reserve(scene.primitives.size());
+  for (const Primitive& primitive : scene.primitives) {
+    if (primitive.surface.texture < 0) continue;
+    const auto texture = static_cast<std::size_t>(primitive.surface.texture);
+    if (pyramids_[texture].levels == 0) pyramids_[texture] = make_pyramid(scene.textures[texture]);
   }
 }
 
@@ -75,91 +118,147 @@ void PrimitivePainter::arrange(const Shot& shot, const Snapshot* snapshot, Wante
   });
 }
 
-void PrimitivePainter::draw_arranged(const Shot& shot, bool last_depth_and_id) {
-  glBindVertexArray(no_vertices_.name());
-  for (const std::size_t index : order_) {
-    draw_luminance(shot, index);
-    if (last_depth_and_id || index != order_.back()) draw_depth_and_id(shot, index);
-  }
-}
-
-void PrimitivePainter::draw_static(const Shot& shot) {
+void PrimitivePainter::paint_static(const Shot& shot, const PaintedPicture& picture) {
   arrange(shot, nullptr, {.statics = true, .objects = false});
-  draw_arranged(shot, true);
+  paint_arranged(shot, picture, true);
 }
 
-void PrimitivePainter::draw_objects(const Shot& shot, const Snapshot& snapshot,
-                                    bool last_depth_and_id) {
+void PrimitivePainter::paint_objects(const Shot& shot, const Snapshot& snapshot,
+                                     const PaintedPicture& picture) {
   arrange(shot, &snapshot, {.statics = false, .objects = true});
-  draw_arranged(shot, last_depth_and_id);
+  paint_arranged(shot, picture, true);
 }
 
-void PrimitivePainter::draw_all(const Shot& shot, const Snapshot& snapshot) {
+void PrimitivePainter::paint_all(const Shot& shot, const Snapshot& snapshot,
+                                 const PaintedPicture& picture) {
   arrange(shot, &snapshot, {.statics = true, .objects = true});
-  draw_arranged(shot, true);
+  paint_arranged(shot, picture, true);
 }
 
-void PrimitivePainter::draw_static_depth(const Shot& shot) {
+void PrimitivePainter::paint_static_depth(const Shot& shot, const PaintedPicture& picture) {
   arrange(shot, nullptr, {.statics = true, .objects = false});
-  glBindVertexArray(no_vertices_.name());
-  for (const std::size_t index : order_) draw_depth_and_id(shot, index);
+  paint_arranged(shot, picture, false);
 }
 
-// What a program shares with its hard twin.
-void PrimitivePainter::set_outline(const GlProgram& program, const Shot& shot,
-                                   std::size_t index) const {
-  const Primitive& primitive = scene_.primitives[index];
-  const PrimitiveView& view = views_[index];
-  glUseProgram(program.name);
-  set_camera(program, shot.intrinsics);
-  const auto clip = [](int pixel, int size) {
-    return 2.0f * static_cast<float>(pixel) / static_cast<float>(size) - 1.0f;
-  };
-  const int width = shot.intrinsics.width, height = shot.intrinsics.height;
-  glUniform4f(program.rectangle, clip(view.bounds.x0, width), clip(view.bounds.y0, height),
-              clip(view.bounds.x1, width), clip(view.bounds.y1, height));
-  set_matrix(program.R_GC, view.R_GC);
-  set_vector(program.eye_G, view.eye_G);
-  set_vector(program.size, primitive.size);
-  glUniform1i(program.id, primitive.object + 1);
-}
-
-void PrimitivePainter::draw_luminance(const Shot& shot, std::size_t index) {
-  const Primitive& primitive = scene_.primitives[index];
-  const PrimitiveView& view = views_[index];
-  const Surface& surface = primitive.surface;
-  const GlProgram& program =
-      programs_[type_index(primitive.type)]
-               [static_cast<std::size_t>(textures_.kind_of(surface.texture))];
-  set_outline(program, shot, index);
-  glUniform1f(program.margin, static_cast<float>(view.margin));
-  set_matrix(program.X_WG, poses_[index].matrix());
-  set_vector(program.texture_scale, surface.texture_scale);
-  set_vector(program.texture_offset, surface.texture_offset);
-  glUniform2f(program.albedo_emission, static_cast<float>(surface.albedo),
-              static_cast<float>(surface.albedo * surface.emission));
-  if (primitive.type != mjGEOM_BOX) {
-    set_matrix(program.conic, view.conic);
-    glUniform2f(program.conic_origin, static_cast<float>(view.conic_origin.x()),
-                static_cast<float>(view.conic_origin.y()));
-    glUniform1i(program.pieces, view.outline_pieces);
+void PrimitivePainter::paint_arranged(const Shot& shot, const PaintedPicture& picture,
+                                      bool luminance) {
+  for (const std::size_t index : order_) {
+    start(shot, index);
+    const Rect& pixels = subject_.pixels;
+    const int size = pixels.x1 - pixels.x0;
+    for (int y = pixels.y0; y < pixels.y1; ++y) {
+      coverage_.compute(pixels.x0, y, size);
+      const std::ptrdiff_t first = std::ptrdiff_t{y} * shot.intrinsics.width + pixels.x0;
+      float* const depth = picture.depth ? picture.depth + first : nullptr;
+      if (luminance) paint_row(y, size, depth, picture.luminance + first);
+      mark(size, depth, picture.id ? picture.id + first : nullptr);
+    }
   }
-  glUniform1f(program.lod_bias, static_cast<float>(shot.lod_bias));
-  textures_.bind(surface.texture);
-  glDepthMask(GL_FALSE);
-  glEnable(GL_BLEND);
-  write_id(false);
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  write_id(true);
-  glDisable(GL_BLEND);
-  glDepthMask(GL_TRUE);
 }
 
-void PrimitivePainter::draw_depth_and_id(const Shot& shot, std::size_t index) {
-  set_outline(hard_programs_[type_index(scene_.primitives[index].type)], shot, index);
-  write_luminance(false);
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  write_luminance(true);
+void PrimitivePainter::start(const Shot& shot, std::size_t index) {
+  const Primitive& primitive = scene_.primitives[index];
+  const Surface& surface = primitive.surface;
+  const SolidType type = solid_type(primitive.type);
+  subject_.kernels = &solid_kernels(type);
+  subject_.view = single(views_[index], primitive, shot.intrinsics);
+  subject_.albedo = static_cast<float>(surface.albedo);
+  subject_.emission = static_cast<float>(surface.albedo * surface.emission);
+  subject_.id = primitive.object + 1;
+  subject_.pixels = intersection(views_[index].bounds, shot.region);
+  subject_.textured = surface.texture >= 0;
+  if (subject_.textured) {
+    const TexturePyramid& pyramid = pyramids_[static_cast<std::size_t>(surface.texture)];
+    subject_.read = texture_read(pyramid.cube, trilinear_);
+    subject_.texture = {pyramid.pairs.data(),
+                        pyramid.unit,
+                        pyramid.first.data(),
+                        pyramid.width,
+                        pyramid.height,
+                        pyramid.levels - 1,
+                        single(surface.texture_scale),
+                        single(surface.texture_offset),
+                        static_cast<float>(std::exp2(shot.lod_bias))};
+  }
+  turn_lights(poses_[index]);
+  const int width = subject_.pixels.x1 - subject_.pixels.x0;
+  coverage_.start(type, subject_.view, width);
+  for (FaceRows& face : faces_) face.start(width);
+  const auto lanes = static_cast<std::size_t>(whole_vectors(width));
+  if (value_.size() >= lanes) return;
+  for (auto* row : {&value_, &sum_, &shown_}) row->resize(lanes);
+}
+
+// Into the frame of the geom.
+void PrimitivePainter::turn_lights(const Eigen::Isometry3d& X_WG) {
+  const Eigen::Matrix3d R_GW = X_WG.linear().transpose();
+  lights_.ambient = static_cast<float>(scene_.ambient);
+  lights_.directional.clear();
+  lights_.lamps.clear();
+  for (const Light& light : scene_.lights) {
+    const Vec3 beam = single(Eigen::Vector3d(R_GW * light.direction));
+    const auto ambient = static_cast<float>(light.ambient);
+    const auto diffuse = static_cast<float>(light.diffuse);
+    if (light.directional) {
+      lights_.directional.push_back({beam, ambient, diffuse});
+    } else {
+      lights_.lamps.push_back(
+          {single(Eigen::Vector3d(R_GW * (light.position - X_WG.translation()))), beam,
+           static_cast<float>(light.cos_cutoff), static_cast<float>(light.exponent),
+           single(light.attenuation), ambient, diffuse});
+    }
+  }
+}
+
+// Blends the luminance of the row whose coverage was computed last.
+void PrimitivePainter::paint_row(int y, int size, const float* depth, float* luminance) {
+  const SurfaceKernels& kernels = surface_kernels();
+  const int lanes = whole_vectors(size);
+  std::fill_n(sum_.begin(), lanes, 0.0f);
+  for (int k = 0; k < subject_.kernels->faces; ++k) {
+    if (!coverage_.any(k)) continue;
+    FaceRows& face = faces_[static_cast<std::size_t>(k)];
+    face.compute(*subject_.kernels, subject_.view, k, subject_.pixels.x0, y, size,
+                 subject_.textured);
+    kernels.light(lights_, subject_.albedo, subject_.emission, face.here(), lanes, value_.data());
+    if (subject_.textured) {
+      kernels.texture[static_cast<std::size_t>(subject_.read)](subject_.texture, face.here(),
+                                                               face.below(), lanes, value_.data());
+    }
+    kernels.accumulate(value_.data(), coverage_.share(k), lanes, sum_.data());
+  }
+  kernels.blend(sum_.data(), depth ? unhidden(depth, size) : coverage_.whole(), coverage_.depth(),
+                size, luminance);
+}
+
+// The coverage of those pixels in which nothing is in front.
+const float* PrimitivePainter::unhidden(const float* depth, int size) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i) {
+    shown_[i] = buffered(coverage_.depth()[i]) <= depth[i] ? coverage_.whole()[i] : 0.0f;
+  }
+  return shown_.data();
+}
+
+// As OpenGL's depth buffer has it.
+float PrimitivePainter::buffered(float z_C) const {
+  const float value =
+      static_cast<float>(depth_.offset()) + static_cast<float>(depth_.slope()) / z_C;
+  return std::clamp(value, 0.0f, 1.0f);
+}
+
+// Writes depth and id where a pixel's centre is hit and nothing is in front.
+void PrimitivePainter::mark(int size, float* depth, std::int32_t* id) const {
+  if (!depth && !id) return;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i) {
+    const float z_C = coverage_.depth_at_center()[i];
+    if (!(z_C > 0)) continue;
+    if (depth) {
+      const float value = buffered(z_C);
+      if (value > depth[i]) continue;
+      depth[i] = value;
+    }
+    if (id) id[i] = subject_.id;
+  }
 }
 
 }  // namespace dodgesim

@@ -1,57 +1,98 @@
-// Draws the ray-cast solids with OpenGL: static ones and parts of thrown objects. Lives in the
-// context that was current when it was made, with programs of that context.
+// Paints the solids that are ray-cast: static ones and parts of thrown objects. On the processor,
+// without OpenGL, which would take several times as long (results/bench/tried.md).
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
-#include "sim/render/gl_scene.h"
+#include "sim/render/depth_range.h"
 #include "sim/render/primitive_view.h"
 #include "sim/render/scene_geometry.h"
 #include "sim/render/shot.h"
+#include "sim/render/solid_coverage.h"
+#include "sim/render/surface_kernels.h"
+#include "sim/render/texture_pyramid.h"
 #include "sim/world/snapshot.h"
 
 namespace dodgesim {
 
+// A picture as large as the camera's image.
+struct PaintedPicture {
+  float* luminance;
+  float* depth;      // as DepthRange says; null: nothing hides anything, and none is written
+  std::int32_t* id;  // where a solid is at a pixel's centre, 1 + its object; may be null
+};
+
 class PrimitivePainter {
  public:
-  // Scene and textures must outlive the painter.
-  PrimitivePainter(const SceneGeometry& scene, const SceneTextures& textures,
-                   ProgramCache& programs, const DepthRange& depth);
+  // The scene must outlive the painter.
+  PrimitivePainter(const SceneGeometry& scene, bool trilinear, const DepthRange& depth);
 
-  // Into the framebuffer that is bound, within the scissor. With depth and ids where a pixel's
-  // centre is hit, which may be left out for what is drawn last.
-  void draw_static(const Shot& shot);
-  void draw_objects(const Shot& shot, const Snapshot& snapshot, bool last_depth_and_id);
-  void draw_all(const Shot& shot, const Snapshot& snapshot);
+  // In the shot's region of the picture, from back to front.
+  void paint_static(const Shot& shot, const PaintedPicture& picture);
+  void paint_objects(const Shot& shot, const Snapshot& snapshot, const PaintedPicture& picture);
+  void paint_all(const Shot& shot, const Snapshot& snapshot, const PaintedPicture& picture);
 
-  // Only where the static ones are.
-  void draw_static_depth(const Shot& shot);
+  // Only the depth of the static ones.
+  void paint_static_depth(const Shot& shot, const PaintedPicture& picture);
 
  private:
-  static constexpr std::size_t kTypes = 4, kTextureKinds = 3;
+  // Points of one face on two rows of pixels.
+  class FaceRows {
+   public:
+    void start(int width);
+    // Of the row and, with `below`, of the next one.
+    void compute(const SolidKernels& kernels, const SolidView& view, int face, int column, int row,
+                 int size, bool below);
+    PointRow here() { return at(here_); }
+    PointRow below() { return at(1 - here_); }
 
+   private:
+    static constexpr std::size_t kComponents = 6;
+    PointRow at(int row);
+
+    std::array<std::array<std::vector<float>, kComponents>, 2> rows_;
+    int here_ = 0, row_below_ = -1;
+  };
   struct Wanted {
     bool statics, objects;
   };
-  void make_programs(ProgramCache& programs);
+  // The primitive being painted.
+  struct Subject {
+    const SolidKernels* kernels;
+    SolidView view;
+    float albedo, emission;
+    bool textured;
+    TextureOnSolid texture;
+    TextureRead read;
+    std::int32_t id;
+    Rect pixels;
+  };
+
   void arrange(const Shot& shot, const Snapshot* snapshot, Wanted wanted);
-  void draw_arranged(const Shot& shot, bool last_depth_and_id);
-  void set_outline(const GlProgram& program, const Shot& shot, std::size_t index) const;
-  void draw_luminance(const Shot& shot, std::size_t index);
-  void draw_depth_and_id(const Shot& shot, std::size_t index);
+  void paint_arranged(const Shot& shot, const PaintedPicture& picture, bool luminance);
+  void start(const Shot& shot, std::size_t index);
+  void turn_lights(const Eigen::Isometry3d& X_WG);
+  void paint_row(int y, int size, const float* depth, float* luminance);
+  const float* unhidden(const float* depth, int size);
+  float buffered(float z_C) const;
+  void mark(int size, float* depth, std::int32_t* id) const;
 
   const SceneGeometry& scene_;
-  const SceneTextures& textures_;
+  bool trilinear_;
   DepthRange depth_;
-  GlVertexArray no_vertices_;
-  std::array<std::array<GlProgram, kTextureKinds>, kTypes> programs_;
-  std::array<GlProgram, kTypes> hard_programs_;
+  std::vector<TexturePyramid> pyramids_;  // of the scene's textures; empty if no primitive has it
 
-  // Of the shot being drawn.
+  // Of the shot being painted.
   std::vector<PrimitiveView> views_;
   std::vector<Eigen::Isometry3d> poses_;  // X_WG
-  std::vector<std::size_t> order_;        // primitives to draw, back to front
+  std::vector<std::size_t> order_;        // primitives to paint, back to front
+  Subject subject_{};
+  LightsInG lights_;
+  SolidCoverage coverage_;
+  std::array<FaceRows, kMostFaces> faces_;
+  std::vector<float> value_, sum_, shown_;
 };
 
 }  // namespace dodgesim

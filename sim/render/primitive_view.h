@@ -1,4 +1,4 @@
-// How a ray-cast solid appears to a camera: what its shader needs, computed in double precision.
+// How a ray-cast solid appears to a camera: what its painter needs, computed in double precision.
 #pragma once
 
 #include <Eigen/Dense>

@@ -1,11 +1,76 @@
 #include "sim/render/shaders.h"
 
-#include "sim/render/shader_parts.h"
 #include "sim/render/uniforms.h"
 
 namespace dodgesim {
 
 namespace {
+
+constexpr const char* kVersion = "#version 330 core\n";
+
+// Diffuse light on a surface point, in units of a white surface under full light. Directional
+// lights and the ambient depend on the normal alone: flat faces get them once per vertex.
+// Uniforms: distant_light_uniforms(), lamp_uniforms() and, of kTexel, u_lod_bias.
+constexpr const char* kDistantLight = R"(
+float distant_light(vec3 n_W) {
+  float sum = u_ambient;
+#if DIRECTIONAL > 0
+  for (int i = 0; i < DIRECTIONAL; ++i) {
+    sum += u_intensity[i].x + u_intensity[i].y * max(0.0, -dot(n_W, u_beam[i]));
+  }
+#endif
+  return sum;
+}
+)";
+
+constexpr const char* kLamps = R"(
+#if LAMPS > 0
+float lamp_light(vec3 p_W, vec3 n_W) {
+  float sum = 0.0;
+  for (int i = 0; i < LAMPS; ++i) {
+    vec3 ray = p_W - u_lamp_position[i];
+    float d = length(ray);
+    ray /= d;
+    vec4 falloff = u_lamp_falloff[i];
+    float strength = 1.0 / (falloff.x + d * (falloff.y + d * falloff.z));
+    float c = dot(ray, u_lamp_axis[i].xyz);
+    if (c < u_lamp_axis[i].w) strength = 0.0;
+    else if (falloff.w != 0.0) strength *= pow(max(c, 0.0), falloff.w);
+    sum += strength * (u_lamp_intensity[i].x + u_lamp_intensity[i].y * max(0.0, -dot(n_W, ray)));
+  }
+  return sum;
+}
+#else
+float lamp_light(vec3 p_W, vec3 n_W) { return 0.0; }
+#endif
+)";
+
+constexpr const char* kTexel = R"(
+#if TEXTURE == 1
+uniform sampler2D u_texture;
+float texel(vec3 t) { return texture(u_texture, t.xy, u_lod_bias).r; }
+#elif TEXTURE == 2
+uniform samplerCube u_texture;
+float texel(vec3 t) { return texture(u_texture, t, u_lod_bias).r; }
+#else
+float texel(vec3 t) { return 1.0; }
+#endif
+)";
+
+constexpr const char* kHalfPlane = R"(
+// Part of a pixel that lies on the inner side of a line at the signed distance s from its centre
+// (positive: centre inside); n: unit normal of the line.
+float half_plane_coverage(float s, vec2 n) {
+  float a = max(abs(n.x), abs(n.y)), b = min(abs(n.x), abs(n.y));
+  float d = abs(s);
+  float h = 0.5 * (a + b);
+  float outside;  // part beyond the line, away from the centre
+  if (d >= h) outside = 0.0;
+  else if (d <= 0.5 * (a - b)) outside = 0.5 - d / a;
+  else outside = (h - d) * (h - d) / (2.0 * a * b);
+  return s >= 0.0 ? 1.0 - outside : outside;
+}
+)";
 
 constexpr const char* kTriangleVertex = R"(
 layout(location = 0) in vec3 position;  // in the frame G of the batch
@@ -120,7 +185,7 @@ bool touches(float edge, float at, float next) {
 void main() {
   vec2 pixel = gl_FragCoord.xy - 0.5;
   float s = dot(line.xy, pixel) - line.z;
-  float beyond = 1.0 - half_plane_coverage(abs(s), line.xy, 1.0);
+  float beyond = 1.0 - half_plane_coverage(abs(s), line.xy);
   ivec2 own = ivec2(gl_FragCoord.xy);
   vec2 over = s > 0.0 ? -line.xy : line.xy;
   ivec2 step = abs(over.x) > abs(over.y) ? ivec2(sign(over.x), 0) : ivec2(0, sign(over.y));
@@ -172,14 +237,8 @@ const glsl::Uniforms kSkyUniforms = {
     {"float", "lod_bias"},
 };
 
-glsl::FragmentUniforms triangle_uniforms(const LightCount& lights) {
-  return glsl::with_lights({{"int", "id"}, {"float", "lod_bias"}}, glsl::lamp_uniforms(lights));
-}
-
-}  // namespace
-
-namespace glsl {
-
+// The version and the macros TEXTURE (0 none, 1 2-D, 2 cube), DIRECTIONAL and LAMPS (numbers of
+// lights).
 std::string header(TextureKind texture, const LightCount& lights) {
   std::string text = kVersion;
   const auto define = [&text](const char* name, int value) {
@@ -191,36 +250,37 @@ std::string header(TextureKind texture, const LightCount& lights) {
   return text;
 }
 
-}  // namespace glsl
+glsl::FragmentUniforms triangle_uniforms(const LightCount& lights) {
+  return glsl::with_lights({{"int", "id"}, {"float", "lod_bias"}}, glsl::lamp_uniforms(lights));
+}
+
+}  // namespace
 
 std::string triangle_vertex_shader(const LightCount& lights) {
-  return glsl::header(TextureKind::kNone, lights) +
-         glsl::declared(glsl::distant_light_uniforms(lights)) +
-         glsl::handed_on(triangle_uniforms(lights).handed_on) + glsl::kDistantLight +
-         kTriangleVertex;
+  return header(TextureKind::kNone, lights) + glsl::declared(glsl::distant_light_uniforms(lights)) +
+         glsl::handed_on(triangle_uniforms(lights).handed_on) + kDistantLight + kTriangleVertex;
 }
 
 std::string triangle_fragment_shader(TextureKind texture, const LightCount& lights) {
   const glsl::FragmentUniforms uniforms = triangle_uniforms(lights);
-  return glsl::header(texture, lights) + glsl::received(uniforms.handed_on) +
-         glsl::declared(uniforms.declared) + glsl::kLamps + glsl::kTexel + kTriangleFragment;
+  return header(texture, lights) + glsl::received(uniforms.handed_on) +
+         glsl::declared(uniforms.declared) + kLamps + kTexel + kTriangleFragment;
 }
 
 std::string sky_vertex_shader() {
-  return std::string(glsl::kVersion) + glsl::handed_on(kSkyUniforms) + kSkyVertex;
+  return std::string(kVersion) + glsl::handed_on(kSkyUniforms) + kSkyVertex;
 }
 
 std::string sky_fragment_shader(TextureKind texture) {
-  return glsl::header(texture, {}) + glsl::received(kSkyUniforms) + glsl::kTexel + kSkyFragment;
+  return header(texture, {}) + glsl::received(kSkyUniforms) + kTexel + kSkyFragment;
 }
 
 std::string edge_vertex_shader() {
-  return std::string(glsl::kVersion) + glsl::handed_on(kEdgeUniforms) + kEdgeVertex;
+  return std::string(kVersion) + glsl::handed_on(kEdgeUniforms) + kEdgeVertex;
 }
 
 std::string edge_fragment_shader() {
-  return std::string(glsl::kVersion) + glsl::received(kEdgeUniforms) + glsl::kHalfPlane +
-         kEdgeFragment;
+  return std::string(kVersion) + glsl::received(kEdgeUniforms) + kHalfPlane + kEdgeFragment;
 }
 
 }  // namespace dodgesim

@@ -1,8 +1,6 @@
 // GLSL sources of the luminance renderer.
 #pragma once
 
-#include <mujoco/mujoco.h>
-
 #include <string>
 
 namespace dodgesim {
@@ -18,11 +16,6 @@ enum class TextureKind { kNone, k2d, kCube };
 // the pixel position plus (0.5, 0.5). Output 0: luminance (and coverage as alpha), output 1: id.
 std::string triangle_vertex_shader(const LightCount& lights);
 std::string triangle_fragment_shader(TextureKind texture, const LightCount& lights);
-std::string primitive_vertex_shader(const LightCount& lights);
-// type: mjGEOM_ELLIPSOID, mjGEOM_CAPSULE, mjGEOM_CYLINDER or mjGEOM_BOX. hard: depth and id where
-// the pixel's centre is hit; else luminance with the coverage of the pixel as alpha.
-std::string primitive_fragment_shader(mjtGeom type, TextureKind texture, const LightCount& lights,
-                                      bool hard);
 std::string sky_vertex_shader();
 std::string sky_fragment_shader(TextureKind texture);
 

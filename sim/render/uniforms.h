@@ -1,8 +1,8 @@
 // Uniforms that fragments read, by name: {"vec3", "camera"} is u_camera.
 //
 // For every eight pixels llvmpipe (Mesa 22.3) reads a uniform anew and checks its bounds, in some
-// 27 instructions a component: most of a thrown ball's time. A flat output of the vertex shader
-// costs one and has the same bits. So vertex shaders declare them and hand them on.
+// 27 instructions a component. A flat output of the vertex shader costs one and has the same bits.
+// So vertex shaders declare them and hand them on.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ std::string declared(const Uniforms& uniforms);
 std::string handed_on(const Uniforms& uniforms);
 std::string received(const Uniforms& uniforms);
 
-// Of distant_light() and lamp_light() in shader_parts.h.
+// Of distant_light() and lamp_light() in shaders.cc.
 Uniforms distant_light_uniforms(const LightCount& lights);
 Uniforms lamp_uniforms(const LightCount& lights);
 

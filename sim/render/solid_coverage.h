@@ -1,0 +1,63 @@
+// How much of each pixel of a row a ray-cast solid covers, face by face, and how far it is there.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "sim/render/solid_kernels.h"
+
+namespace dodgesim {
+
+// Kernels may write up to this many pixels more than they are asked for: whole vectors are faster.
+inline constexpr int kRowLanes = 16;
+inline constexpr int whole_vectors(int size) {
+  return (size + kRowLanes - 1) / kRowLanes * kRowLanes;
+}
+
+class SolidCoverage {
+ public:
+  // A solid, for rows of at most `width` pixels that are computed from the top down: two that
+  // follow one another share the corners of their pixels.
+  void start(SolidType type, const SolidView& view, int width);
+
+  // Of the pixels (column, row) to (column + size - 1, row).
+  void compute(int column, int row, int size);
+
+  // Of the last compute(). The part of each pixel that a face covers, and whether it covers any of
+  // the row; the sum over all faces.
+  const float* share(int face) const { return shares_[static_cast<std::size_t>(face)].data(); }
+  bool any(int face) const { return any_[static_cast<std::size_t>(face)]; }
+  const float* whole() const { return whole_.data(); }
+  // Depth z_C of what is seen [m], where something is; of that which the pixel's centre meets, or
+  // 0.
+  const float* depth() const { return depth_.data(); }
+  const float* depth_at_center() const { return depth_at_center_.data(); }
+
+ private:
+  struct Entries {
+    std::vector<float> t;
+    std::vector<int> face;
+    void resize(std::size_t size) { t.resize(size), face.resize(size); }
+    EntryRow row() { return {t.data(), face.data()}; }
+  };
+  // What the rays through the corners above or below a row of pixels meet.
+  struct Corners {
+    Entries all, side;
+  };
+
+  void count_faces(int column, int row, int size);
+  void cover(int column, int row, std::size_t pixel);
+  void cast_corners(int column, int row, int size, Corners& corners);
+
+  const SolidKernels* kernels_ = nullptr;
+  SolidView view_{};
+  std::array<std::vector<float>, kMostFaces> shares_;
+  std::array<bool, kMostFaces> any_{};
+  std::vector<float> whole_, depth_, depth_at_center_, outline_;
+  Entries center_, close_, side_;
+  Corners above_, below_;
+  bool have_below_ = false;
+};
+
+}  // namespace dodgesim

@@ -1,0 +1,200 @@
+#include "sim/render/solid_kernels.h"
+
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "sim/base/vector_level.h"
+
+namespace dodgesim {
+
+namespace {
+
+template <class Solid>
+DODGESIM_INLINE void points_row(const SolidView& view, int face, float column, float row, int size,
+                                float* __restrict x, float* __restrict y, float* __restrict z,
+                                float* __restrict n_x, float* __restrict n_y,
+                                float* __restrict n_z) {
+  const SolidView v = view;
+  for (int i = 0; i < size; ++i) {
+    const Vec3 d = solid::ray(v, column + static_cast<float>(i), row);
+    const solid::FacePoint at = Solid::point(v, face, d);
+    x[i] = at.x;
+    y[i] = at.y;
+    z[i] = at.z;
+    n_x[i] = at.n_x;
+    n_y[i] = at.n_y;
+    n_z[i] = at.n_z;
+  }
+}
+
+template <class Solid>
+DODGESIM_INLINE void entries_row(const SolidView& view, float larger_by, float column, float row,
+                                 int size, const EntryRow& entries) {
+  const SolidView v = view;
+  const Vec3 solid_size = {v.size.x + larger_by, v.size.y + larger_by, v.size.z + larger_by};
+  float* const __restrict t = entries.t;
+  int* const __restrict face = entries.face;
+  for (int i = 0; i < size; ++i) {
+    const Vec3 d = solid::ray(v, column + static_cast<float>(i), row);
+    const solid::Entry at = Solid::entry(v, solid_size, d);
+    t[i] = at.t;
+    face[i] = at.face;
+  }
+}
+
+DODGESIM_INLINE void side_entries_row(const SolidView& view, float column, float row, int size,
+                                      const EntryRow& entries) {
+  const SolidView v = view;
+  float* const __restrict t = entries.t;
+  int* const __restrict face = entries.face;
+  for (int i = 0; i < size; ++i) {
+    const solid::Entry at =
+        solid::side_entry(v, solid::ray(v, column + static_cast<float>(i), row));
+    t[i] = at.t;
+    face[i] = at.face;
+  }
+}
+
+DODGESIM_INLINE void outline_coverage_row(const SolidView& view, float column, float row, int size,
+                                          float* __restrict coverage) {
+  constexpr float kFar = 1.0f;  // [px], more than half a pixel's diagonal
+  const SolidView v = view;
+  const float x0 = column - v.conic_x, y = row - v.conic_y;
+  for (int i = 0; i < size; ++i) {
+    const float s = solid::outline_distance(v, x0 + static_cast<float>(i), y).s;
+    coverage[i] = smaller(larger(0.5f + 0.5f * s / kFar, 0.0f), 1.0f);  // 0 or 1: exact
+  }
+  // Pixels that the outline may cut. In each of pieces x pieces parts of them it is taken as
+  // straight.
+  constexpr int kMost = 64;
+  int pixel[kMost];
+  float x[kMost], sum[kMost];
+  const float width = 1.0f / static_cast<float>(v.pieces), first = 0.5f * width - 0.5f;
+  for (int begin = 0; begin < size; begin += kMost) {
+    int cut = 0;
+    for (int i = begin; i < smaller(begin + kMost, size); ++i) {
+      pixel[cut] = i;
+      cut += (coverage[i] > 0.0f) & (coverage[i] < 1.0f) ? 1 : 0;
+    }
+    for (int k = 0; k < cut; ++k) {
+      x[k] = x0 + static_cast<float>(pixel[k]) + first;
+      sum[k] = 0.0f;
+    }
+    for (int part = 0; part < v.pieces * v.pieces; ++part) {
+      const float right = width * static_cast<float>(part % v.pieces);
+      const float down = first + width * static_cast<float>(part / v.pieces);
+      for (int k = 0; k < cut; ++k) {
+        sum[k] +=
+            solid::half_plane_coverage(solid::outline_distance(v, x[k] + right, y + down), width);
+      }
+    }
+    for (int k = 0; k < cut; ++k) coverage[pixel[k]] = sum[k] * (width * width);
+  }
+}
+
+// Offsets of the rays of a pixel from its centre [px]: ray i lies in column i and in the row whose
+// number has the bits of i the other way round.
+struct RayPattern {
+  std::array<float, kRaysPerPixel> x{}, y{};
+};
+
+constexpr RayPattern make_ray_pattern() {
+  RayPattern pattern;
+  for (unsigned i = 0; i < kRaysPerPixel; ++i) {
+    unsigned row = 0;
+    for (unsigned bit = 0; bit < 6; ++bit) row |= ((i >> bit) & 1u) << (5 - bit);
+    pattern.x[i] = (static_cast<float>(i) + 0.5f) / kRaysPerPixel - 0.5f;
+    pattern.y[i] = (static_cast<float>(row) + 0.5f) / kRaysPerPixel - 0.5f;
+  }
+  return pattern;
+}
+
+constexpr RayPattern kRays = make_ray_pattern();
+
+template <class Solid>
+DODGESIM_INLINE float rays_of_pixel(const SolidView& view, float column, float row,
+                                    int (&counts)[kMostFaces]) {
+  const SolidView v = view;
+  // Positive floats are ordered like their bits.
+  constexpr int kNone = std::bit_cast<int>(std::numeric_limits<float>::max());
+  int face[kRaysPerPixel], depth[kRaysPerPixel];
+  for (std::size_t i = 0; i < kRaysPerPixel; ++i) {
+    const Vec3 d = solid::ray(v, column + kRays.x[i], row + kRays.y[i]);
+    const solid::Entry at = Solid::entry(v, v.size, d);
+    face[i] = at.face;
+    depth[i] = at.face >= 0 ? std::bit_cast<int>(at.t) : kNone;
+  }
+  for (int k = 0; k < static_cast<int>(kMostFaces); ++k) {
+    int count = 0;
+    for (const int met : face) count += met == k ? 1 : 0;
+    counts[k] = count;
+  }
+  int nearest = kNone;
+  for (const int ray_depth : depth) nearest = smaller(nearest, ray_depth);
+  return nearest == kNone ? 0.0f : std::bit_cast<float>(nearest);
+}
+
+// One set of functions a level and a solid. The target is an attribute.
+// NOLINTBEGIN(bugprone-macro-parentheses)
+#define DODGESIM_SOLID(name, level, target)                                                   \
+  target void name##_points_##level(const SolidView& view, int face, float column, float row, \
+                                    int size, const PointRow& points) {                       \
+    points_row<solid::name>(view, face, column, row, size, points.x, points.y, points.z,      \
+                            points.n_x, points.n_y, points.n_z);                              \
+  }                                                                                           \
+  target void name##_entries_##level(const SolidView& view, float larger_by, float column,    \
+                                     float row, int size, const EntryRow& entries) {          \
+    entries_row<solid::name>(view, larger_by, column, row, size, entries);                    \
+  }                                                                                           \
+  target float name##_rays_##level(const SolidView& view, float column, float row,            \
+                                   int(&counts)[kMostFaces]) {                                \
+    return rays_of_pixel<solid::name>(view, column, row, counts);                             \
+  }
+#define DODGESIM_SOLIDS(level, target)                                                      \
+  DODGESIM_SOLID(Ellipsoid, level, target)                                                  \
+  DODGESIM_SOLID(Capsule, level, target)                                                    \
+  DODGESIM_SOLID(Cylinder, level, target)                                                   \
+  DODGESIM_SOLID(Box, level, target)                                                        \
+  target void side_##level(const SolidView& view, float column, float row, int size,        \
+                           const EntryRow& entries) {                                       \
+    side_entries_row(view, column, row, size, entries);                                     \
+  }                                                                                         \
+  target void outline_##level(const SolidView& view, float column, float row, int size,     \
+                              float* coverage) {                                            \
+    outline_coverage_row(view, column, row, size, coverage);                                \
+  }                                                                                         \
+  constexpr std::array<SolidKernels, kSolidTypes> k_##level = {{                            \
+      {solid::Ellipsoid::kFaces, true, Ellipsoid_points_##level, Ellipsoid_entries_##level, \
+       nullptr, outline_##level, Ellipsoid_rays_##level},                                   \
+      {solid::Capsule::kFaces, false, Capsule_points_##level, Capsule_entries_##level,      \
+       side_##level, outline_##level, Capsule_rays_##level},                                \
+      {solid::Cylinder::kFaces, false, Cylinder_points_##level, Cylinder_entries_##level,   \
+       side_##level, outline_##level, Cylinder_rays_##level},                               \
+      {solid::Box::kFaces, false, Box_points_##level, Box_entries_##level, nullptr,         \
+       outline_##level, Box_rays_##level},                                                  \
+  }};
+
+DODGESIM_SOLIDS(portable, )
+DODGESIM_SOLIDS(avx2, DODGESIM_TARGET_AVX2)
+DODGESIM_SOLIDS(avx512, DODGESIM_TARGET_AVX512)
+
+#undef DODGESIM_SOLIDS
+#undef DODGESIM_SOLID
+// NOLINTEND(bugprone-macro-parentheses)
+
+constexpr std::array<std::array<SolidKernels, kSolidTypes>, kVectorLevels> kKernels = {
+    k_portable, k_avx2, k_avx512};
+
+}  // namespace
+
+const SolidKernels& solid_kernels(SolidType type, int vector_level) {
+  return kKernels[static_cast<std::size_t>(vector_level)][static_cast<std::size_t>(type)];
+}
+
+const SolidKernels& solid_kernels(SolidType type) {
+  static const int level = widest_vector_level();
+  return solid_kernels(type, level);
+}
+
+}  // namespace dodgesim
