@@ -23,7 +23,7 @@ namespace dodgesim {
 // under way, which may have left anything in it, or with more than kMaxKeptPrograms programs.
 class ContextLease {
  public:
-  static constexpr std::size_t kMaxKeptPrograms = 64;  // a scene needs 21 at most
+  static constexpr std::size_t kMaxKeptPrograms = 64;  // a scene needs 5 at most
 
   ContextLease();  // throws SimulationError
   ~ContextLease();

@@ -33,6 +33,12 @@ std::ptrdiff_t offset_of(const Rect& region, const Intrinsics& image) {
   return std::ptrdiff_t{region.y0} * image.width + region.x0;
 }
 
+// Of the framebuffer that is bound.
+void read_depth(const Rect& region, const Intrinsics& image, float* depth) {
+  glReadPixels(region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0,
+               GL_DEPTH_COMPONENT, GL_FLOAT, depth + offset_of(region, image));
+}
+
 void set_scissor(const Rect& region) {
   glScissor(region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0);
 }
@@ -50,6 +56,11 @@ void set_state() {
   glActiveTexture(GL_TEXTURE0);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+template <class Part>
+bool flies(const Part& part, const Snapshot& snapshot) {
+  return part.object >= 0 && snapshot.launched[static_cast<std::size_t>(part.object)];
 }
 
 }  // namespace
@@ -79,13 +90,13 @@ class LuminanceRenderer::Impl {
   Canvas& canvas(const Intrinsics& intrinsics);
   void bind(const Canvas& canvas, bool with_ids);
   void draw_static_triangles(Canvas& canvas, const Shot& shot, bool with_ids);
-  void put(const Canvas& canvas, const Rect& region, const float* luminance);
+  void put(const GlTexture& image, GLenum layout, const Rect& region, const float* values);
   void read(const Canvas& canvas, const Rect& region, const PaintedPicture& picture);
   bool mesh_flies(const Snapshot& snapshot) const;
   bool single_solid_flies(const Snapshot& snapshot) const;
-  void draw_meshes(const Shot& shot, const Snapshot& snapshot, bool behind_static,
-                   const PaintedPicture& picture);
   void clear(const Rect& region, const PaintedPicture& picture) const;
+  void draw_static_depth(const Shot& shot, const PaintedPicture& picture);
+  void draw_meshes(const Shot& shot, const Snapshot& snapshot, const PaintedPicture& picture);
 
   Intrinsics intrinsics_;
   DepthRange depth_;
@@ -179,11 +190,6 @@ void LuminanceRenderer::Impl::render_static(const Intrinsics& intrinsics,
   }
 }
 
-template <class Part>
-bool flies(const Part& part, const Snapshot& snapshot) {
-  return part.object >= 0 && snapshot.launched[static_cast<std::size_t>(part.object)];
-}
-
 // Whether OpenGL must draw something of the objects in flight.
 bool LuminanceRenderer::Impl::mesh_flies(const Snapshot& snapshot) const {
   return std::ranges::any_of(scene_.moving_triangles,
@@ -202,33 +208,13 @@ void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen
                                            std::int32_t* object_id) {
   const Shot shot{intrinsics_, X_WC, clipped(region, intrinsics_)};
   if (shot.region.empty()) return;
-  const bool meshes = behind_static || mesh_flies(snapshot);
-  const bool hidden = meshes || !single_solid_flies(snapshot);
-  const PaintedPicture picture = {luminance, hidden ? depth_image_.data() : nullptr, object_id};
-  if (meshes) {
-    draw_meshes(shot, snapshot, behind_static, picture);
-  } else {
-    clear(shot.region, picture);
-  }
-  if (behind_static) primitives_.paint_static_depth(shot, picture);
+  const bool meshes = mesh_flies(snapshot);
+  const bool with_depth = behind_static || meshes || !single_solid_flies(snapshot);
+  const PaintedPicture picture = {luminance, with_depth ? depth_image_.data() : nullptr, object_id};
+  clear(shot.region, picture);
+  if (behind_static) draw_static_depth(shot, picture);
+  if (meshes) draw_meshes(shot, snapshot, picture);
   primitives_.paint_objects(shot, snapshot, picture);
-}
-
-// Over what `picture` shows; its depth and ids are drawn anew.
-void LuminanceRenderer::Impl::draw_meshes(const Shot& shot, const Snapshot& snapshot,
-                                          bool behind_static, const PaintedPicture& picture) {
-  lease_.context().make_current();
-  Canvas& view = canvas(intrinsics_);
-  // llvmpipe rounds otherwise where it writes depth and no ids; who asks for ids must not matter.
-  bind(view, true);
-  set_scissor(shot.region);
-  glClear(GL_DEPTH_BUFFER_BIT);
-  if (behind_static) triangles_.draw_static(shot);
-  constexpr GLint kStatic[4] = {0, 0, 0, 0};
-  glClearBufferiv(GL_COLOR, 1, kStatic);
-  put(view, shot.region, picture.luminance);
-  triangles_.draw_objects(shot, snapshot);
-  read(view, shot.region, picture);
 }
 
 // Nothing is there yet, near or far.
@@ -240,13 +226,39 @@ void LuminanceRenderer::Impl::clear(const Rect& region, const PaintedPicture& pi
   }
 }
 
-// Writes a region of the canvas.
-void LuminanceRenderer::Impl::put(const Canvas& canvas, const Rect& region,
-                                  const float* luminance) {
-  glBindTexture(GL_TEXTURE_2D, canvas.target.luminance.name());
+void LuminanceRenderer::Impl::draw_static_depth(const Shot& shot, const PaintedPicture& picture) {
+  lease_.context().make_current();
+  bind(canvas(intrinsics_), true);
+  set_scissor(shot.region);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  triangles_.draw_static(shot);
+  read_depth(shot.region, intrinsics_, picture.depth);
+  // No ids: what is static has none.
+  primitives_.paint_static_depth(shot, {nullptr, picture.depth, nullptr});
+}
+
+// Over what `picture` shows.
+void LuminanceRenderer::Impl::draw_meshes(const Shot& shot, const Snapshot& snapshot,
+                                          const PaintedPicture& picture) {
+  lease_.context().make_current();
+  Canvas& view = canvas(intrinsics_);
+  // llvmpipe rounds otherwise where it writes depth and no ids; who asks for ids must not matter.
+  bind(view, true);
+  set_scissor(shot.region);
+  constexpr GLint kStatic[4] = {0, 0, 0, 0};
+  glClearBufferiv(GL_COLOR, 1, kStatic);
+  put(view.target.luminance, GL_RED, shot.region, picture.luminance);
+  put(view.target.depth, GL_DEPTH_COMPONENT, shot.region, picture.depth);
+  triangles_.draw_objects(shot, snapshot);
+  read(view, shot.region, picture);
+}
+
+// Writes a region of an image of the camera's canvas.
+void LuminanceRenderer::Impl::put(const GlTexture& image, GLenum layout, const Rect& region,
+                                  const float* values) {
+  glBindTexture(GL_TEXTURE_2D, image.name());
   glTexSubImage2D(GL_TEXTURE_2D, 0, region.x0, region.y0, region.x1 - region.x0,
-                  region.y1 - region.y0, GL_RED, GL_FLOAT,
-                  luminance + offset_of(region, canvas.intrinsics));
+                  region.y1 - region.y0, layout, GL_FLOAT, values + offset_of(region, intrinsics_));
 }
 
 void LuminanceRenderer::Impl::read(const Canvas& canvas, const Rect& region,
@@ -255,8 +267,7 @@ void LuminanceRenderer::Impl::read(const Canvas& canvas, const Rect& region,
   const std::ptrdiff_t first = offset_of(region, canvas.intrinsics);
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   glReadPixels(region.x0, region.y0, width, height, GL_RED, GL_FLOAT, picture.luminance + first);
-  glReadPixels(region.x0, region.y0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT,
-               picture.depth + first);
+  read_depth(region, canvas.intrinsics, picture.depth);
   if (!picture.id) return;
   glReadBuffer(GL_COLOR_ATTACHMENT1);
   glReadPixels(region.x0, region.y0, width, height, GL_RED_INTEGER, GL_INT, picture.id + first);

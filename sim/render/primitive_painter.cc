@@ -147,10 +147,14 @@ void PrimitivePainter::paint_arranged(const Shot& shot, const PaintedPicture& pi
     const Rect& pixels = subject_.pixels;
     const int size = pixels.x1 - pixels.x0;
     for (int y = pixels.y0; y < pixels.y1; ++y) {
-      coverage_.compute(pixels.x0, y, size);
       const std::ptrdiff_t first = std::ptrdiff_t{y} * shot.intrinsics.width + pixels.x0;
       float* const depth = picture.depth ? picture.depth + first : nullptr;
-      if (luminance) paint_row(y, size, depth, picture.luminance + first);
+      if (luminance) {
+        coverage_.compute(pixels.x0, y, size);
+        paint_row(y, size, depth, picture.luminance + first);
+      } else {
+        coverage_.cast_centers(pixels.x0, y, size);
+      }
       mark(size, depth, picture.id ? picture.id + first : nullptr);
     }
   }
@@ -159,8 +163,7 @@ void PrimitivePainter::paint_arranged(const Shot& shot, const PaintedPicture& pi
 void PrimitivePainter::start(const Shot& shot, std::size_t index) {
   const Primitive& primitive = scene_.primitives[index];
   const Surface& surface = primitive.surface;
-  const SolidType type = solid_type(primitive.type);
-  subject_.kernels = &solid_kernels(type);
+  subject_.kernels = &solid_kernels(solid_type(primitive.type));
   subject_.view = single(views_[index], primitive, shot.intrinsics);
   subject_.albedo = static_cast<float>(surface.albedo);
   subject_.emission = static_cast<float>(surface.albedo * surface.emission);
@@ -181,8 +184,8 @@ void PrimitivePainter::start(const Shot& shot, std::size_t index) {
                         static_cast<float>(std::exp2(shot.lod_bias))};
   }
   turn_lights(poses_[index]);
-  const int width = subject_.pixels.x1 - subject_.pixels.x0;
-  coverage_.start(type, subject_.view, width);
+  const int width = shot.intrinsics.width;
+  coverage_.start(*subject_.kernels, subject_.view, width);
   for (FaceRows& face : faces_) face.start(width);
   const auto lanes = static_cast<std::size_t>(whole_vectors(width));
   if (value_.size() >= lanes) return;

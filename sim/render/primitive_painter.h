@@ -1,5 +1,5 @@
-// Paints the solids that are ray-cast: static ones and parts of thrown objects. On the processor,
-// without OpenGL, which would take several times as long (results/bench/tried.md).
+// Paints the solids that are ray-cast: static ones and parts of thrown objects. With loops over
+// pixels of our own, which take less time than shaders of llvmpipe (results/bench/tried.md).
 #pragma once
 
 #include <array>

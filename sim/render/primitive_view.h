@@ -18,10 +18,10 @@ struct PrimitiveView {
   // Outline of an ellipsoid or of the endless cylinder around a cylinder's or capsule's side: {(x,
   // y, 1) conic (x, y, 1)^T = 0}, positive inside, where (x, y) are pixel coordinates relative to
   // conic_origin.
-  Eigen::Matrix3d conic;
-  Eigen::Vector2d conic_origin;
+  Eigen::Matrix3d conic = Eigen::Matrix3d::Zero();
+  Eigen::Vector2d conic_origin = Eigen::Vector2d::Zero();
   // Straight pieces along the side of a pixel that follow this outline to within 0.003 px of area.
-  int outline_pieces;
+  int outline_pieces = 1;
 };
 
 PrimitiveView view_primitive(const Primitive& primitive, const Eigen::Isometry3d& X_WG,

@@ -57,18 +57,15 @@ float texel(vec3 t) { return 1.0; }
 #endif
 )";
 
-constexpr const char* kHalfPlane = R"(
-// Part of a pixel that lies on the inner side of a line at the signed distance s from its centre
-// (positive: centre inside); n: unit normal of the line.
-float half_plane_coverage(float s, vec2 n) {
+constexpr const char* kPartBeyond = R"(
+// Part of a pixel that lies beyond a line at the distance d from its centre; n: unit normal of the
+// line.
+float part_beyond(float d, vec2 n) {
   float a = max(abs(n.x), abs(n.y)), b = min(abs(n.x), abs(n.y));
-  float d = abs(s);
   float h = 0.5 * (a + b);
-  float outside;  // part beyond the line, away from the centre
-  if (d >= h) outside = 0.0;
-  else if (d <= 0.5 * (a - b)) outside = 0.5 - d / a;
-  else outside = (h - d) * (h - d) / (2.0 * a * b);
-  return s >= 0.0 ? 1.0 - outside : outside;
+  if (d >= h) return 0.0;
+  if (d <= 0.5 * (a - b)) return 0.5 - d / a;
+  return (h - d) * (h - d) / (2.0 * a * b);
 }
 )";
 
@@ -185,7 +182,7 @@ bool touches(float edge, float at, float next) {
 void main() {
   vec2 pixel = gl_FragCoord.xy - 0.5;
   float s = dot(line.xy, pixel) - line.z;
-  float beyond = 1.0 - half_plane_coverage(abs(s), line.xy);
+  float beyond = part_beyond(abs(s), line.xy);
   ivec2 own = ivec2(gl_FragCoord.xy);
   vec2 over = s > 0.0 ? -line.xy : line.xy;
   ivec2 step = abs(over.x) > abs(over.y) ? ivec2(sign(over.x), 0) : ivec2(0, sign(over.y));
@@ -280,7 +277,7 @@ std::string edge_vertex_shader() {
 }
 
 std::string edge_fragment_shader() {
-  return std::string(kVersion) + glsl::received(kEdgeUniforms) + kHalfPlane + kEdgeFragment;
+  return std::string(kVersion) + glsl::received(kEdgeUniforms) + kPartBeyond + kEdgeFragment;
 }
 
 }  // namespace dodgesim

@@ -13,7 +13,8 @@ struct LightCount {
 enum class TextureKind { kNone, k2d, kCube };
 
 // The sources assume that GL's window rows run from the top of the image down: gl_FragCoord.xy is
-// the pixel position plus (0.5, 0.5). Output 0: luminance (and coverage as alpha), output 1: id.
+// the pixel position plus (0.5, 0.5). Output 0: luminance (of edges with the part of the pixel
+// beyond as alpha), output 1: id.
 std::string triangle_vertex_shader(const LightCount& lights);
 std::string triangle_fragment_shader(TextureKind texture, const LightCount& lights);
 std::string sky_vertex_shader();

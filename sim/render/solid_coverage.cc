@@ -5,8 +5,8 @@
 
 namespace dodgesim {
 
-void SolidCoverage::start(SolidType type, const SolidView& view, int width) {
-  kernels_ = &solid_kernels(type);
+void SolidCoverage::start(const SolidKernels& kernels, const SolidView& view, int width) {
+  kernels_ = &kernels;
   view_ = view;
   have_below_ = false;
   const auto size = static_cast<std::size_t>(whole_vectors(width + 1));  // corners are one more
@@ -21,18 +21,21 @@ void SolidCoverage::start(SolidType type, const SolidView& view, int width) {
   }
 }
 
-void SolidCoverage::compute(int column, int row, int size) {
-  const float x = static_cast<float>(column), y = static_cast<float>(row);
-  const int lanes = whole_vectors(size);
-  const auto pixels = static_cast<std::size_t>(size);
-  kernels_->entries(view_, 0.0f, x, y, lanes, center_.row());
-  for (std::size_t i = 0; i < pixels; ++i) {
+void SolidCoverage::cast_centers(int column, int row, int size) {
+  kernels_->entries(view_, 0.0f, static_cast<float>(column), static_cast<float>(row),
+                    whole_vectors(size), center_.row());
+  for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i) {
     depth_[i] = center_.t[i];
     depth_at_center_[i] = center_.face[i] >= 0 ? center_.t[i] : 0.0f;
   }
+}
+
+void SolidCoverage::compute(int column, int row, int size) {
+  cast_centers(column, row, size);
   if (kernels_->conic_is_outline) {
-    kernels_->outline_coverage(view_, x, y, lanes, shares_[0].data());
-    std::copy_n(shares_[0].begin(), pixels, whole_.begin());
+    kernels_->outline_coverage(view_, static_cast<float>(column), static_cast<float>(row),
+                               whole_vectors(size), shares_[0].data());
+    std::copy_n(shares_[0].begin(), size, whole_.begin());
     any_[0] = true;
     return;
   }
@@ -64,8 +67,9 @@ void SolidCoverage::cast_corners(int column, int row, int size, Corners& corners
   if (kernels_->side_entries) kernels_->side_entries(view_, x, y, lanes, corners.side.row());
 }
 
-// All of the pixel if its centre and corners meet one face, none if it is not close to the solid;
-// analytic where it sees only the round side, else counted with rays.
+// All of the pixel if its centre and corners meet one face, none if its centre is not close to the
+// solid, analytic where it sees only the round side, else counted with rays. A camera that is close
+// itself is within the larger solid, which no ray enters.
 void SolidCoverage::cover(int column, int row, std::size_t i) {
   const auto all = [i](const Corners& a, const Corners& b, auto part, int face) {
     const auto &p = (a.*part).face, &q = (b.*part).face;
@@ -79,7 +83,7 @@ void SolidCoverage::cover(int column, int row, std::size_t i) {
     any_[static_cast<std::size_t>(face)] = true;
     return;
   }
-  if (close_.face[i] < 0) return;
+  if (face < 0 && close_.face[i] < 0) return;
   const bool round = kernels_->side_entries != nullptr;
   if (round && all(above_, below_, &Corners::side, 0)) {
     if (face < 0) depth_[i] = side_.t[i];

@@ -9,7 +9,8 @@
 
 namespace dodgesim {
 
-// Kernels may write up to this many pixels more than they are asked for: whole vectors are faster.
+// Rows are computed in whole vectors of this many pixels, which is faster. What lies beyond the
+// pixels that were asked for means nothing.
 inline constexpr int kRowLanes = 16;
 inline constexpr int whole_vectors(int size) {
   return (size + kRowLanes - 1) / kRowLanes * kRowLanes;
@@ -17,11 +18,13 @@ inline constexpr int whole_vectors(int size) {
 
 class SolidCoverage {
  public:
-  // A solid, for rows of at most `width` pixels that are computed from the top down: two that
-  // follow one another share the corners of their pixels.
-  void start(SolidType type, const SolidView& view, int width);
+  // Takes a solid, in images of at most `width` pixels.
+  void start(const SolidKernels& kernels, const SolidView& view, int width);
 
-  // Of the pixels (column, row) to (column + size - 1, row).
+  // Of the pixels (column, row) to (column + size - 1, row): what their centres meet; or all. Rows
+  // of a solid have the same columns and follow one another from the top down: two of them share
+  // the corners of their pixels.
+  void cast_centers(int column, int row, int size);
   void compute(int column, int row, int size);
 
   // Of the last compute(). The part of each pixel that a face covers, and whether it covers any of
@@ -29,9 +32,11 @@ class SolidCoverage {
   const float* share(int face) const { return shares_[static_cast<std::size_t>(face)].data(); }
   bool any(int face) const { return any_[static_cast<std::size_t>(face)]; }
   const float* whole() const { return whole_.data(); }
-  // Depth z_C of what is seen [m], where something is; of that which the pixel's centre meets, or
-  // 0.
+  // Depth z_C of what is seen of the solid [m] where whole() is more than 0: where the pixel's
+  // centre meets it, else where that passes closest to a round side, else of the nearest point.
   const float* depth() const { return depth_.data(); }
+
+  // Of the last call of either: the depth [m] where the pixel's centre meets the solid, else 0.
   const float* depth_at_center() const { return depth_at_center_.data(); }
 
  private:

@@ -60,13 +60,13 @@ DODGESIM_INLINE void outline_coverage_row(const SolidView& view, float column, f
                                           float* __restrict coverage) {
   constexpr float kFar = 1.0f;  // [px], more than half a pixel's diagonal
   const SolidView v = view;
-  const float x0 = column - v.conic_x, y = row - v.conic_y;
+  const float y = row - v.conic_y;
   for (int i = 0; i < size; ++i) {
-    const float s = solid::outline_distance(v, x0 + static_cast<float>(i), y).s;
-    coverage[i] = smaller(larger(0.5f + 0.5f * s / kFar, 0.0f), 1.0f);  // 0 or 1: exact
+    const float s = solid::outline_distance(v, (column + static_cast<float>(i)) - v.conic_x, y).s;
+    // 0 or 1 for pixels that are far from the outline; the others follow below.
+    coverage[i] = smaller(larger(0.5f + 0.5f * s / kFar, 0.0f), 1.0f);
   }
-  // Pixels that the outline may cut. In each of pieces x pieces parts of them it is taken as
-  // straight.
+  // In each of pieces x pieces parts of a pixel the outline is taken as straight.
   constexpr int kMost = 64;
   int pixel[kMost];
   float x[kMost], sum[kMost];
@@ -78,7 +78,7 @@ DODGESIM_INLINE void outline_coverage_row(const SolidView& view, float column, f
       cut += (coverage[i] > 0.0f) & (coverage[i] < 1.0f) ? 1 : 0;
     }
     for (int k = 0; k < cut; ++k) {
-      x[k] = x0 + static_cast<float>(pixel[k]) + first;
+      x[k] = ((column + static_cast<float>(pixel[k])) - v.conic_x) + first;
       sum[k] = 0.0f;
     }
     for (int part = 0; part < v.pieces * v.pieces; ++part) {

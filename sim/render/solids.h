@@ -49,7 +49,7 @@ DODGESIM_INLINE Vec3 cross(const Vec3& a, const Vec3& b) {
 }
 DODGESIM_INLINE Vec3 normalized(const Vec3& a) { return (1.0f / std::sqrt(dot(a, a))) * a; }
 DODGESIM_INLINE float root_of(float square) { return std::sqrt(larger(square, 0.0f)); }
-DODGESIM_INLINE float sign_of(float a) { return a < 0.0f ? -1.0f : 1.0f; }
+DODGESIM_INLINE float sign_of(float a) { return std::copysign(1.0f, a); }
 DODGESIM_INLINE float within(float a, float limit) { return smaller(larger(a, -limit), limit); }
 DODGESIM_INLINE float magnitude(float a) { return a < 0.0f ? -a : a; }
 
@@ -165,7 +165,9 @@ struct Cylinder {
     const float t = side ? t_side : t_cap;
     const Vec3 p = v.eye + t * d;
     const Vec3 n = normalized({p.x, p.y, 0.0f});
-    return face_point({p.x, p.y, within(p.z, v.size.z)},
+    // A ray along the plane of the cap meets it nowhere.
+    const float x = within(p.x, v.size.x), y = within(p.y, v.size.x);
+    return face_point({side ? p.x : x, side ? p.y : y, within(p.z, v.size.z)},
                       {side ? n.x : 0.0f, side ? n.y : 0.0f, side ? 0.0f : cap});
   }
 };

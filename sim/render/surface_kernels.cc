@@ -21,6 +21,7 @@ DODGESIM_INLINE Vec3 point_of(const PointRow& points, int i) {
   return {points.x[i], points.y[i], points.z[i]};
 }
 
+// A spot's exponent is left to the C library, which may round otherwise on another processor.
 template <bool kSpot>
 DODGESIM_INLINE void add_lamp(const LightsInG::Lamp& lamp, const PointRow& row, int size,
                               float* __restrict light) {
@@ -60,15 +61,16 @@ DODGESIM_INLINE void light_row(const LightsInG& lights, float albedo, float emis
   for (int i = 0; i < size; ++i) light[i] = albedo * light[i] + emission;
 }
 
-// A place on a face of a texture: from 0 to 1 along its width and height, and the squared length of
-// the step to the next pixel in each direction, in units of the face.
+// A place on a face of a texture: from 0 to 1 along its width and height, and the steps from there
+// to the next pixels, in the same units.
 struct TexturePlace {
   int face;
   float u, v;
   float u_right, v_right, u_down, v_down;
 };
 
-DODGESIM_INLINE float fraction_of(float x) {
+DODGESIM_INLINE float fraction_of(float coordinate) {
+  const float x = solid::within(coordinate, 0x1p24f);  // beyond that there are no fractions
   const float whole = static_cast<float>(static_cast<int>(x));
   return x - (whole > x ? whole - 1.0f : whole);
 }
@@ -144,7 +146,7 @@ DODGESIM_INLINE float squared_step(const TextureOnSolid& x, const TexturePlace& 
   const float u_down = w * at.u_down, v_down = h * at.v_down;
   const float square =
       larger(u_right * u_right + v_right * v_right, u_down * u_down + v_down * v_down);
-  // From a billionth to a billion: levels of any texture, and numbers.
+  // Enough for the levels of any texture, and never infinite or not a number.
   return smaller(larger(x.sharpness * x.sharpness * square, 1e-18f), 1e18f);
 }
 

@@ -129,7 +129,8 @@ void append_with_border(const Level& level, TexturePyramid& pyramid) {
         const bool inside = x >= 0 && x < level.width && y >= 0 && y < level.height;
         const float texel =
             inside ? level.at(face, x, y) : border_texel(level, pyramid.cube, face, x, y);
-        const auto code = static_cast<std::uint32_t>(std::lround(texel / pyramid.unit));
+        const auto code =
+            static_cast<std::uint32_t>(std::lround(std::max(0.0f, texel) / pyramid.unit));
         pyramid.pairs[row + static_cast<std::size_t>(x + 1)] = code | right << 16;
         right = code;
       }

@@ -18,11 +18,12 @@ struct TexturePyramid {
 
   bool cube = false;
   int levels = 0, width = 0, height = 0;  // of a face of the first level, without its border
-  // Of each level, in `pairs`; a corner of the border of the first face. Faces follow one another,
-  // in OpenGL's order.
+  // Where each level begins in `pairs`: with the texel (-1, -1) of the first face, which is of its
+  // border. Faces follow one another, in OpenGL's order.
   std::array<int, kMostLevels> first{};
   // A texel in the lower 16 bits and its right neighbour in the upper ones, so that one reading
-  // gives both, in units of `unit` luminances: grey texels of 8 bits are exact.
+  // gives both, in units of `unit` luminances. Linear grey texels of 8 bits without a tint are
+  // exact.
   std::vector<std::uint32_t> pairs;
   float unit = 0;
 };

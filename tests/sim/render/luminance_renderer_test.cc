@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sim/base/error.h"
 #include "tests/sim/render/full_scene.h"
@@ -131,6 +132,24 @@ TEST(LuminanceRenderer, LightsABallByItsNormals) {
     EXPECT_NEAR(image.at(160, y), 0.5 * std::max(0.0, normal.z()), 1e-4);
   }
   EXPECT_EQ(image.at(160, 140), 0.0);  // the underside
+}
+
+TEST(LuminanceRenderer, LightsAThrownBallByALampWhereverTheyAre) {
+  Scene scene(std::string(kNoHeadlight) +
+              "<worldbody><light pos='1 .5 3' dir='0 0 -1' cutoff='80' exponent='0' "
+              "attenuation='0 1 0' ambient='0 0 0' diffuse='1 1 1'/>" +
+              thrown(0, "<geom type='box' size='.2 .2 .1' rgba='.5 .5 .5 1'/>") + "</worldbody>");
+  BodyState& box = scene.snapshot().objects[0];
+  box.p_W = {1, 0.5, 1};
+  box.q_W = Eigen::AngleAxisd(0.7, Vector3d::UnitZ());
+  Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();  // looks down on it from beside the lamp
+  X_WC.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  X_WC.translation() = Vector3d(1, 0.5, 3);
+  // Its top is 1.9 m below the lamp.
+  const Image image = scene.render(X_WC);
+  EXPECT_NEAR(image.at(160, 120), 0.5 / 1.9, 1e-4);
+  box.q_W = Eigen::AngleAxisd(3.0, Vector3d::UnitX()) * box.q_W;  // now the other side is up
+  EXPECT_NEAR(scene.render(X_WC).at(160, 120), 0.5 / 1.9 * std::cos(std::numbers::pi - 3), 2e-3);
 }
 
 // Few lights reach the fragments by another way than many.

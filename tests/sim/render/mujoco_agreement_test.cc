@@ -180,12 +180,24 @@ TEST_P(AgainstMjrRender, TexturesLieTheSameWay) {
   for (const char* name : {"flat", "sides"}) {
     paint(*model, mj_name2id(model.get(), mjOBJ_TEXTURE, name));
   }
-  LuminanceRenderer renderer(*model, std::vector<int>{}, camera, {});
+  std::vector<int> thrown;
+  Snapshot snapshot;
+  if (const int body = mj_name2id(model.get(), mjOBJ_BODY, "thrown"); body >= 0) {
+    thrown.push_back(body);
+    BodyState& state = snapshot.objects.emplace_back();
+    const mjtNum* q = model->body_quat + 4 * body;
+    state.q_W = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+    state.p_W = Eigen::Map<const Vector3d>(model->body_pos + 3 * body) +
+                state.q_W * Eigen::Map<const Vector3d>(model->body_ipos + 3 * body);
+    snapshot.launched.push_back(true);
+  }
+  LuminanceRenderer renderer(*model, thrown, camera, {});
   Image image(camera);
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
   const Vector3d up = Vector3d(0.1, 0, 1).normalized(), right(0, -1, 0);
   X_WC.linear() << right, -up, up.cross(right);
-  renderer.render({}, X_WC, {0, 0, camera.width, camera.height}, image.luminance.data(), nullptr);
+  renderer.render(snapshot, X_WC, {0, 0, camera.width, camera.height}, image.luminance.data(),
+                  nullptr);
   const std::vector<double> reference = mujoco_image(*model, camera);
   double difference = 0, mean = 0, spread = 0;
   const auto n = static_cast<double>(reference.size());
@@ -197,6 +209,9 @@ TEST_P(AgainstMjrRender, TexturesLieTheSameWay) {
   EXPECT_GT(spread, 0.02);  // something to see
   EXPECT_LT(difference, 0.1 * spread) << "of " << spread;
 }
+
+// What is thrown is ray-cast, unless it is a mesh.
+#define THROWN(geom) "<body name='thrown' pos='2 0 0' euler='20 30 40'><freejoint/>" geom "</body>"
 
 INSTANTIATE_TEST_SUITE_P(
     Shapes, AgainstMjrRender,
@@ -214,7 +229,16 @@ INSTANTIATE_TEST_SUITE_P(
         "<geom type='cylinder' size='.5 .6' pos='2 0 0' euler='60 30 40' material='sides'/>",
         "<geom type='cylinder' size='.5 .6' pos='2 0 0' euler='60 30 40' material='flat'/>",
         "<geom type='mesh' mesh='wedge' pos='2 0 0' euler='60 30 200' material='sides'/>",
-        "<geom type='mesh' mesh='wedge' pos='2 0 0' euler='60 30 200' material='flat'/>"));
+        "<geom type='mesh' mesh='wedge' pos='2 0 0' euler='60 30 200' material='flat'/>",
+        THROWN("<geom type='ellipsoid' size='.7 .4 .6' material='sides'/>"),
+        THROWN("<geom type='box' size='.5 .7 .4' material='sides'/>"),
+        THROWN("<geom type='box' size='.5 .7 .4' euler='100 60 0' material='flat_uniform'/>"),
+        THROWN("<geom type='cylinder' size='.5 .6' euler='40 0 0' material='sides_uniform'/>"),
+        THROWN("<geom type='cylinder' size='.5 .6' euler='-60 0 0' material='flat'/>"),
+        THROWN("<geom type='capsule' size='.4 .4' euler='40 0 0' material='sides'/>"),
+        THROWN("<geom type='mesh' mesh='wedge' euler='40 0 170' material='sides'/>")));
+
+#undef THROWN
 
 }  // namespace
 }  // namespace dodgesim

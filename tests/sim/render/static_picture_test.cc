@@ -208,6 +208,30 @@ TEST(ObjectsOverAStaticPicture, AreHiddenByWhatIsInFrontOfThem) {
   EXPECT_EQ(through.id_at(168, 120), 2);
 }
 
+TEST(ObjectsOverAStaticPicture, AMeshIsHiddenByWhatIsInFrontOfItHoweverThatIsDrawn) {
+  Scene scene(std::string(kWhiteLight) +
+              "<asset><mesh name='wedge' vertex='0 0 0  .1 0 0  0 .1 0  0 0 .1'/></asset>"
+              "<worldbody><geom type='plane' size='9 9 1' pos='6 0 0' zaxis='-1 0 0' "
+              "rgba='.4 .4 .4 1'/>"
+              "<geom type='box' size='.1 .3 .5' pos='2 .8 0' rgba='.3 .3 .3 1'/>"
+              "<geom type='sphere' size='.4' pos='2 -.4 0' rgba='.6 .6 .6 1'/>" +
+              thrown(0, "<geom type='mesh' mesh='wedge' rgba='.9 .9 .9 1'/>") + "</worldbody>");
+  const Isometry3d X_WC = forward_camera();
+  std::vector<float> inverse_depth;
+  const Image still = scene.render_static(X_WC, inverse_depth);
+  const auto shows = [&](const Vector3d& p_W) {
+    scene.snapshot().objects[0].p_W = p_W;
+    const Image over = scene.draw_objects(X_WC, scene.full(), true);
+    const bool id = std::count(over.id.begin(), over.id.end(), 1) > 0;
+    EXPECT_EQ(over.luminance != still.luminance, id);
+    return id;
+  };
+  EXPECT_FALSE(shows({3, 1.2, 0}));   // behind the box
+  EXPECT_FALSE(shows({3, -0.6, 0}));  // behind the sphere
+  EXPECT_TRUE(shows({3, 0.3, 0}));
+  EXPECT_TRUE(shows({1.3, -0.3, 0}));
+}
+
 TEST(ObjectsOverAStaticPicture, DifferFromTheWholePictureOnlyAtTheEdgeThatHidesThem) {
   Scene scene(kHidden);
   auto& objects = scene.snapshot().objects;

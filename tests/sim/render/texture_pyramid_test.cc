@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -139,6 +140,45 @@ TEST(TexturePyramid, ACubeHasItsFacesWhereOpenGlHasThem) {
   EXPECT_NEAR(reader.sharp({0.75F, 0.25F, 1}), texel(4, 3, 1), 2e-5);
   EXPECT_NEAR(reader.sharp({-0.75F, 0.25F, -1}), texel(5, 3, 1), 2e-5);
   EXPECT_NEAR(reader.sharp({-7.5F, 2.5F, -10}), texel(5, 3, 1), 2e-5);  // only the direction counts
+}
+
+TEST(TexturePyramid, ACubesLevelIsThatOfItsTexelsOnTheFace) {
+  LuminanceTexture stripes = random_texture(true, 64, 64);
+  for (std::size_t i = 0; i < stripes.texels.size(); ++i) {
+    stripes.texels[i] = i % 2 == 0 ? 0.0F : 1.0F;
+  }
+  const Reader reader(stripes);
+  // Texel 41 of a row of the face +x, whose s falls with z: 32 texels for every unit of s.
+  const Vec3 white = {2, 0, 2 * (1 - 41.5F / 32)};
+  const auto on_white = [&](Vec3 direction, float texels) {
+    const float step = 2 * texels / 32;
+    return reader.read(white, {step * direction.x, step * direction.y, step * direction.z},
+                       {0, 0, 0});
+  };
+  EXPECT_NEAR(on_white({0, 0, 1}, 1.40F), 1, 1e-4);
+  EXPECT_NEAR(on_white({0, 0, 1}, 1.43F), 0.5, 1e-4);
+  // Away from the cube's centre nothing moves on the face, along the direction that is read.
+  const float length = std::hypot(white.x, white.z);
+  EXPECT_NEAR(on_white({white.x / length, 0, white.z / length}, 3), 1, 1e-4);
+  // Farther out, a texel moves by less: by z / x for a step along x.
+  const float slope = -white.z / white.x;
+  EXPECT_NEAR(on_white({1, 0, 0}, 1.40F / slope), 1, 1e-4);
+  EXPECT_NEAR(on_white({1, 0, 0}, 1.43F / slope), 0.5, 1e-4);
+}
+
+TEST(TexturePyramid, WhatIsNoPlaceIsReadSomewhere) {
+  const float inf = std::numeric_limits<float>::infinity();
+  for (const bool cube : {false, true}) {
+    const Reader reader(random_texture(cube, 8, 8));
+    for (const float bad : {std::nanf(""), inf, -inf, 1e10F, -1e10F, -3e9F}) {
+      for (const bool two_levels : {false, true}) {
+        for (const Vec3& p : {Vec3{bad, 0, 0}, Vec3{0, bad, 0}, Vec3{0, 0, bad}}) {
+          const float value = reader.read(p, {0.1F, 0, 0}, {0, 0.1F, 0}, two_levels);
+          EXPECT_TRUE(std::isnan(value) || (value >= 0 && value <= 1)) << bad;
+        }
+      }
+    }
+  }
 }
 
 TEST(TexturePyramid, ACubeIsContinuousAcrossItsEdgesAndCorners) {
