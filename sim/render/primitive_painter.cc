@@ -55,7 +55,7 @@ TextureRead texture_read(bool cube, bool trilinear) {
 void PrimitivePainter::FaceRows::start(int width) {
   row_below_ = -1;
   // The kernels read one more point than they have pixels.
-  const auto size = static_cast<std::size_t>(whole_vectors(width + 1) + 1);
+  const auto size = static_cast<std::size_t>(whole_vectors(width + 1)) + 1;
   if (rows_[0][0].size() >= size) return;
   for (auto& row : rows_) {
     for (auto& component : row) component.resize(size);

@@ -82,8 +82,9 @@ DODGESIM_INLINE void outline_coverage_row(const SolidView& view, float column, f
       sum[k] = 0.0f;
     }
     for (int part = 0; part < v.pieces * v.pieces; ++part) {
-      const float right = width * static_cast<float>(part % v.pieces);
-      const float down = first + width * static_cast<float>(part / v.pieces);
+      const int part_column = part % v.pieces, part_row = part / v.pieces;
+      const float right = width * static_cast<float>(part_column);
+      const float down = first + width * static_cast<float>(part_row);
       for (int k = 0; k < cut; ++k) {
         sum[k] +=
             solid::half_plane_coverage(solid::outline_distance(v, x[k] + right, y + down), width);

@@ -274,7 +274,7 @@ TEST(SolidKernels, RaysOfAPixelAreCountedByTheFaceTheyMeet) {
   // A quarter of the pixel is above its upper edge z = 0.4, where the top is seen at a distance.
   EXPECT_NEAR(box.count_rays(view, 0, -10.25F, counts), 1, 1e-6);
   EXPECT_EQ(counts[0], 3 * kRaysPerPixel / 4);
-  EXPECT_NEAR(counts[2], kRaysPerPixel / 4, 1);  // farther away, thus narrower
+  EXPECT_NEAR(counts[2], 0.25 * kRaysPerPixel, 1);  // farther away, thus narrower
   // Half of the pixel is beside it.
   box.count_rays(view, 0.5F, -20, counts);
   EXPECT_EQ(counts[0], kRaysPerPixel / 2);

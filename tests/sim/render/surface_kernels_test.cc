@@ -90,7 +90,8 @@ TEST(SurfaceKernels, GiveTheSameBytesAtEveryVectorWidth) {
     for (int level = kAvx2; level <= widest_vector_level(); ++level) {
       const std::vector<Row> wide = all_of(surface_kernels(level));
       for (std::size_t k = 0; k < wide.size(); ++k) {
-        EXPECT_EQ(std::memcmp(wide[k].data(), portable[k].data(), kPoints * sizeof(float)), 0)
+        const void *a = wide[k].data(), *b = portable[k].data();
+        EXPECT_EQ(std::memcmp(a, b, kPoints * sizeof(float)), 0)
             << "function " << k << ", level " << level;
       }
     }
