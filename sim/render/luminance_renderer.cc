@@ -233,8 +233,7 @@ void LuminanceRenderer::Impl::draw_static_depth(const Shot& shot, const PaintedP
   glClear(GL_DEPTH_BUFFER_BIT);
   triangles_.draw_static(shot);
   read_depth(shot.region, intrinsics_, picture.depth);
-  // No ids: what is static has none.
-  primitives_.paint_static_depth(shot, {nullptr, picture.depth, nullptr});
+  primitives_.paint_static(shot, {nullptr, picture.depth, nullptr});
 }
 
 // Over what `picture` shows.

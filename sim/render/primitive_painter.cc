@@ -120,28 +120,22 @@ void PrimitivePainter::arrange(const Shot& shot, const Snapshot* snapshot, Wante
 
 void PrimitivePainter::paint_static(const Shot& shot, const PaintedPicture& picture) {
   arrange(shot, nullptr, {.statics = true, .objects = false});
-  paint_arranged(shot, picture, true);
+  paint_arranged(shot, picture);
 }
 
 void PrimitivePainter::paint_objects(const Shot& shot, const Snapshot& snapshot,
                                      const PaintedPicture& picture) {
   arrange(shot, &snapshot, {.statics = false, .objects = true});
-  paint_arranged(shot, picture, true);
+  paint_arranged(shot, picture);
 }
 
 void PrimitivePainter::paint_all(const Shot& shot, const Snapshot& snapshot,
                                  const PaintedPicture& picture) {
   arrange(shot, &snapshot, {.statics = true, .objects = true});
-  paint_arranged(shot, picture, true);
+  paint_arranged(shot, picture);
 }
 
-void PrimitivePainter::paint_static_depth(const Shot& shot, const PaintedPicture& picture) {
-  arrange(shot, nullptr, {.statics = true, .objects = false});
-  paint_arranged(shot, picture, false);
-}
-
-void PrimitivePainter::paint_arranged(const Shot& shot, const PaintedPicture& picture,
-                                      bool luminance) {
+void PrimitivePainter::paint_arranged(const Shot& shot, const PaintedPicture& picture) {
   for (const std::size_t index : order_) {
     start(shot, index);
     const Rect& pixels = subject_.pixels;
@@ -149,7 +143,7 @@ void PrimitivePainter::paint_arranged(const Shot& shot, const PaintedPicture& pi
     for (int y = pixels.y0; y < pixels.y1; ++y) {
       const std::ptrdiff_t first = std::ptrdiff_t{y} * shot.intrinsics.width + pixels.x0;
       float* const depth = picture.depth ? picture.depth + first : nullptr;
-      if (luminance) {
+      if (picture.luminance) {
         coverage_.compute(pixels.x0, y, size);
         paint_row(y, size, depth, picture.luminance + first);
       } else {

@@ -19,7 +19,7 @@ namespace dodgesim {
 
 // A picture as large as the camera's image.
 struct PaintedPicture {
-  float* luminance;
+  float* luminance;  // null: only what the other two say is painted
   float* depth;      // as DepthRange says; null: nothing hides anything, and none is written
   std::int32_t* id;  // where a solid is at a pixel's centre, 1 + its object; may be null
 };
@@ -33,9 +33,6 @@ class PrimitivePainter {
   void paint_static(const Shot& shot, const PaintedPicture& picture);
   void paint_objects(const Shot& shot, const Snapshot& snapshot, const PaintedPicture& picture);
   void paint_all(const Shot& shot, const Snapshot& snapshot, const PaintedPicture& picture);
-
-  // Only the depth of the static ones.
-  void paint_static_depth(const Shot& shot, const PaintedPicture& picture);
 
  private:
   // Points of one face on two rows of pixels.
@@ -71,7 +68,7 @@ class PrimitivePainter {
   };
 
   void arrange(const Shot& shot, const Snapshot* snapshot, Wanted wanted);
-  void paint_arranged(const Shot& shot, const PaintedPicture& picture, bool luminance);
+  void paint_arranged(const Shot& shot, const PaintedPicture& picture);
   void start(const Shot& shot, std::size_t index);
   void turn_lights(const Eigen::Isometry3d& X_WG);
   void paint_row(int y, int size, const float* depth, float* luminance);
