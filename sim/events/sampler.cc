@@ -53,7 +53,6 @@ Sampler::Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics,
       intrinsics_(intrinsics),
       X_BC_(X_BC),
       object_radius_m_(std::move(object_radius_m)),
-      fast_displacement_px_(std::max(spec.fast_displacement_px, spec.max_displacement_px)),
       max_interval_us_(static_cast<TimeUs>(1e6 / spec.min_rate_hz)),
       parts_(1 + object_radius_m_.size()),
       last_seen_(object_radius_m_.size()) {
@@ -69,7 +68,7 @@ Sampler::Sampler(const SamplingSpec& spec, const Intrinsics& intrinsics,
                               half_height * (2.0 * j / (kGridRows - 1) - 1));
     }
   }
-  const double margin = kViewMarginLimits * fast_displacement_px_ / f;
+  const double margin = kViewMarginLimits * spec.max_displacement_px / f;
   const double right = half_width + margin;
   const double bottom = half_height + margin;
   for (const double sign : {-1.0, 1.0}) {
@@ -127,22 +126,12 @@ void Sampler::sampled(const Sample& sample) {
   required_us_.erase(required_us_.begin(), later);
 }
 
-// The instant at which a part has moved limit_px since its last sample, if the speed lasts.
-TimeUs Sampler::time_of_displacement(const Part& part, double limit_px, TimeUs now_us) const {
-  const double left_px = std::max(0.0, limit_px - part.moved_px);
+// The instant at which the motion of a part asks for its next sample, if the speed lasts.
+TimeUs Sampler::time_of_motion(const Part& part, TimeUs now_us) const {
+  const double left_px = std::max(0.0, spec_.max_displacement_px - part.moved_px);
   // Beyond the longest interval nobody asks.
   if (part.speed_pxps * seconds(max_interval_us_) <= left_px) return kNever;
-  return now_us + static_cast<TimeUs>(1e6 * left_px / part.speed_pxps);
-}
-
-// The instant at which the motion of a part asks for its next sample, if the speed lasts.
-TimeUs Sampler::time_of_motion(std::size_t index, TimeUs now_us) const {
-  const Part& part = parts_[index];
-  TimeUs t_us = time_of_displacement(part, spec_.max_displacement_px, now_us);
-  const TimeUs fast_us = part.last_us + spec_.fast_interval_us;
-  if (index == 0 && t_us < fast_us) {
-    t_us = std::min(fast_us, time_of_displacement(part, fast_displacement_px_, now_us));
-  }
+  const TimeUs t_us = now_us + static_cast<TimeUs>(1e6 * left_px / part.speed_pxps);
   return std::max(t_us, part.last_us + spec_.min_interval_us);
 }
 
@@ -155,9 +144,9 @@ TimeUs Sampler::time_due() const {
 // The sample after now_us that is due first if the speeds last.
 Sample Sampler::next_sample(TimeUs now_us) const {
   const auto later = [now_us](TimeUs t_us) { return std::max(t_us, now_us + 1); };
-  Sample next{later(std::min(time_of_motion(0, now_us), time_due()))};
+  Sample next{later(std::min(time_of_motion(parts_[0], now_us), time_due()))};
   for (std::size_t i = 0; i < object_radius_m_.size(); ++i) {
-    const TimeUs t_us = later(time_of_motion(1 + i, now_us));
+    const TimeUs t_us = later(time_of_motion(parts_[1 + i], now_us));
     if (t_us < next.t_us) next = {t_us, static_cast<int>(i)};
   }
   return next;

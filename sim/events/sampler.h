@@ -3,9 +3,8 @@
 // Between two samples the luminance of a pixel is taken to run linearly in time, so nothing may
 // move far from one sample to the next. For the static scene and for each object the sampler adds
 // up a bound on the distance that any of its visible points moves in the image, and asks for a
-// sample when one of them reaches SamplingSpec::max_displacement_px (fast_displacement_px for a
-// static scene that moves so far within fast_interval_us): of the whole image for the static scene,
-// of the region about the object for an object. Each camera has its own sampler.
+// sample when one of them reaches SamplingSpec::max_displacement_px: of the whole image for the
+// static scene, of the region about the object for an object. Each camera has its own sampler.
 //
 // A region reaches so far beyond the object that it holds the pixels that the object enters or
 // leaves until its next sample. Each pixel's curve then bends where the object's edge comes and
@@ -109,8 +108,7 @@ class Sampler {
     double moved_px = 0;    // since then
     double speed_pxps = 0;  // over the current tick
   };
-  TimeUs time_of_displacement(const Part& part, double limit_px, TimeUs now_us) const;
-  TimeUs time_of_motion(std::size_t part, TimeUs now_us) const;
+  TimeUs time_of_motion(const Part& part, TimeUs now_us) const;
   TimeUs time_due() const;
   void set_speeds(const Snapshot& a, const Snapshot& b, const StaticDistances& distances);
   Sample next_sample(TimeUs now_us) const;
@@ -123,7 +121,6 @@ class Sampler {
   std::vector<double> object_radius_m_;
   std::vector<Eigen::Vector2d> view_grid_;    // normalised image coordinates, corners included
   std::vector<Eigen::Vector3d> view_planes_;  // unit normals into the enlarged view
-  double fast_displacement_px_;               // never below max_displacement_px
   double max_secant_;                         // 1/cos of the angle of the corners of the view
   TimeUs max_interval_us_;
 

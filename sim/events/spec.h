@@ -133,8 +133,6 @@ void EventCameraSpec::visit(Visitor& v) {
 
 struct SamplingSpec {
   double max_displacement_px = 0.5;
-  double fast_displacement_px = 1.0;
-  std::int64_t fast_interval_us = 500;
   double min_rate_hz = 200;
   std::int64_t min_interval_us = 250;
 
@@ -143,19 +141,14 @@ struct SamplingSpec {
     v("max_displacement_px", max_displacement_px, 0.01, 100,
       "Nothing in the image moves farther than this between two samples (0.5 px loses 0.6 % of the "
       "events of a texture of 8 px wavelength, 1 px 2.3 %).");
-    v("fast_displacement_px", fast_displacement_px, 0.01, 100,
-      "The same limit for the static scene where max_displacement_px would ask for samples less "
-      "than fast_interval_us apart: stamps are then precise anyway, and counts lose 1 % more.");
-    v("fast_interval_us", fast_interval_us, 1, 1000000,
-      "Interval below which fast_displacement_px counts; 0.5 ms keep time stamps within 0.1 ms.");
     v("min_rate_hz", min_rate_hz, 1, 4000,
       "Rate of the samples of the whole image when nothing moves; its inverse bounds how late an "
       "event is known.");
     v("min_interval_us", min_interval_us, 1, 1000000,
       "Shortest time between two samples of the same object or of the room, which bounds the cost "
-      "of an object that fills the view. With 250 us and 0.5 px (max_displacement_px) it "
-      "leaves an object under-sampled while it moves faster than 2000 px/s, that is when it passes "
-      "within about a metre.");
+      "of what fills the view. With 250 us and 0.5 px (max_displacement_px) what moves faster than "
+      "2000 px/s is under-sampled: an object that passes within about a metre, or the room while "
+      "the vehicle turns at more than 5 to 10 rad/s.");
   }
 };
 

@@ -120,9 +120,9 @@ DODGESIM_TARGET_AVX2 void read_avx2(const std::uint16_t* means, int stride, cons
     const __m256 fu = _mm256_sub_ps(at_u, _mm256_cvtepi32_ps(column));
     const __m256 fv = _mm256_sub_ps(at_v, _mm256_cvtepi32_ps(row));
     const __m256i at = _mm256_add_epi32(_mm256_mullo_epi32(row, _mm256_set1_epi32(stride)), column);
-    // The camera's next row lies two rows of means below, with the default supersampling.
+    // The camera's next row lies three rows of means below, with the default supersampling.
     const std::uint16_t* const next =
-        means + _mm_cvtsi128_si32(_mm256_castsi256_si128(at)) + 2 * stride;
+        means + _mm_cvtsi128_si32(_mm256_castsi256_si128(at)) + 3 * stride;
     _mm_prefetch(next, _MM_HINT_T0);
     _mm_prefetch(next + stride, _MM_HINT_T0);
     const __m256i top = _mm256_i32gather_epi32(reinterpret_cast<const int*>(means), at, 2);

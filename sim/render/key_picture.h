@@ -10,9 +10,9 @@
 //
 // Where the pixels of the view lie in the key is computed on a grid of nodes and runs linearly
 // between them. A pixel's luminance is the mean over its square aperture, as a pixel of a sensor
-// collects it, and is read from a picture of all such means, half a pixel apart (with the default
-// supersampling of 2), linearly in between; the means are sharpened by what the linear reading
-// smooths away on the average. What all this costs in accuracy: results/sensor/README.md.
+// collects it, and is read from a picture of all such means, a third of a pixel apart (with the
+// default supersampling of 3), linearly in between; the means are sharpened by what the linear
+// reading smooths away on the average. What all this costs in accuracy: results/sensor/README.md.
 #pragma once
 
 #include <Eigen/Dense>
@@ -26,7 +26,7 @@
 namespace dodgesim {
 
 struct KeySpec {
-  std::int64_t supersampling = 2;
+  std::int64_t supersampling = 3;
   std::int64_t margin_px = 32;
   double max_misplacement_px = 2;
   double max_zoom = 0.1;

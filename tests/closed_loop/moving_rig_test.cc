@@ -142,8 +142,6 @@ const Motion kStill = {Vector3d::Zero(), Vector3d::Zero()};
 // Sampled so densely that it does not matter which instants they are.
 TEST_F(MovingRig, AtRestSeesTheBallByItsRegionsAsByWholePictures) {
   setup_.sampling.max_displacement_px /= 8;
-  setup_.sampling.fast_displacement_px /= 8;
-  setup_.sampling.fast_interval_us = 1;
   setup_.sampling.min_interval_us = 50;
   const Seen by_region = see(kStill, KeySpec(), 100000, 4000);
   const Seen by_picture = see(kStill, KeySpec(), 100000);

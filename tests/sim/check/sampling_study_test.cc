@@ -19,7 +19,7 @@ constexpr const char* kModels = DODGESIM_SOURCE_DIR "/models";
 TEST(SamplingStudy, FindsNoDifferenceBetweenTheReferenceAndItself) {
   SamplingOptions options{kModels, 1, 1, EventCameraSpec(), 4000};
   SamplingVariant coarse{"coarse", {}, {}};
-  coarse.sampling.max_displacement_px = coarse.sampling.fast_displacement_px = 4;
+  coarse.sampling.max_displacement_px = 4;
   int reported = 0;
   const auto results = study_sampling(options, {sampling_reference(), coarse},
                                       [&](int finished) { reported = finished; });
@@ -56,28 +56,8 @@ TEST(SamplingStudy, FailsBeyondItsLimits) {
   EXPECT_TRUE(
       fails([](SamplingResult& r) { r.object.events = 0.985 * r.object.reference_events; }));
   EXPECT_TRUE(fails([](SamplingResult& r) { r.object.median_us = 51; }));
-  EXPECT_FALSE(fails([](SamplingResult& r) { r.scene.events = 0.98 * r.scene.reference_events; }));
-  EXPECT_TRUE(fails([](SamplingResult& r) { r.scene.events = 0.97 * r.scene.reference_events; }));
-  EXPECT_FALSE(fails([](SamplingResult& r) { r.scene.median_us = 100; }));
-  EXPECT_TRUE(fails([](SamplingResult& r) { r.scene.median_us = 126; }));
-}
-
-TEST(SamplingStudy, SaysBesideTheWiderLimitsOfTheSceneWhetherItMeetsTheTarget) {
-  const auto expected = [](const SamplingResult& result) {
-    std::vector<std::string> texts;
-    for (const CheckLine& line : judge({result}).lines) texts.push_back(line.expected);
-    return texts;
-  };
-  SamplingResult result = good_result();
-  EXPECT_EQ(expected(result),
-            (std::vector<std::string>{"1.0000 +- 0.0100 of reference", "0.0 to 50.0 us",
-                                      "1.0000 +- 0.0250 of reference; target +- 0.0100: met",
-                                      "0.0 to 125.0 us; target 50.0 us: met"}));
-  result.scene.events = 0.98 * result.scene.reference_events;
-  result.scene.median_us = 100;
-  EXPECT_FALSE(judge({result}).failed());
-  EXPECT_EQ(expected(result).at(2), "1.0000 +- 0.0250 of reference; target +- 0.0100: missed");
-  EXPECT_EQ(expected(result).at(3), "0.0 to 125.0 us; target 50.0 us: missed");
+  EXPECT_TRUE(fails([](SamplingResult& r) { r.scene.events = 0.985 * r.scene.reference_events; }));
+  EXPECT_TRUE(fails([](SamplingResult& r) { r.scene.median_us = 51; }));
 }
 
 TEST(PrescribedThrow, MovesAsItsVelocitiesSay) {
