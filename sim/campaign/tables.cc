@@ -8,6 +8,7 @@
 #include "sim/campaign/statistics_table.h"
 #include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
+#include "sim/files/markup.h"
 
 namespace dodgesim {
 
@@ -180,7 +181,8 @@ std::string errors_of(const Part& part) {
     const std::pair<const FlightResult*, std::string> flights[] = {
         {&result->flown, part.pilot}, {&result->none, "none"}, {&result->oracle, "oracle"}};
     for (const auto& [flight, who] : flights) {
-      if (!flight->failed() || (flight == &result->none && part.pilot == "none")) continue;
+      const bool again = flight != &result->flown && who == part.pilot;
+      if (!flight->failed() || again) continue;
       ++failed;
       errors += "- throw " + std::to_string(result->index) + ", pilot " + who + ": " +
                 flight->error + "\n";
@@ -271,11 +273,17 @@ std::string markdown_of(const Part& part, const TableAxes& axes, const Statistic
 Tables make_tables(const LoadedCampaign& campaign) {
   const std::vector<ThrowResult>& results = campaign.results;
   Tables tables;
-  tables.markdown = "# " + campaign.scenario.name + "\n\n" +
-                    count_text(static_cast<std::int64_t>(results.size()), "throw") + ", " +
-                    pilots_of(campaign.scenario) +
-                    ". Cells: dodged / would have hit (rate, 95 % Wilson interval); for " +
-                    "the pilot none: would have hit / throws.\n\n";
+  const bool thrown = std::ranges::any_of(results, &ThrowResult::thrown);
+  tables.markdown =
+      "# " + markdown_escaped(campaign.scenario.name) + "\n\n" +
+      count_text(static_cast<std::int64_t>(results.size()), thrown ? "throw" : "flight") + ", " +
+      pilots_of(campaign.scenario) + ".";
+  if (thrown) {
+    tables.markdown +=
+        " Cells: dodged / would have hit (rate, 95 % Wilson interval); for the "
+        "pilot none: would have hit / throws.";
+  }
+  tables.markdown += "\n\n";
   if (campaign.stop) tables.markdown += campaign.stop->text() + "\n\n";
   const TableAxes axes = {Axis("size_m", results), Axis("distance_m", results),
                           Axis("speed_mps", results), grid_axes(results)};

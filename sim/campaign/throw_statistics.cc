@@ -80,6 +80,7 @@ void Tally::add(const ThrowResult& result, ThrowResult::FlightOf by) {
   if (flight.ok()) collisions.add(!flight.unharmed());
   if (flight.status == "not flown") return;
   ++throws;
+  if (none.ok()) hit_undisturbed.add(none.hit);
   if (none.ok() && !none.hit) return;
   ++would_have_hit;  // or, where a flight failed, might have
   if (result.dodged(by)) ++dodged;

@@ -44,6 +44,7 @@ struct Tally {
   int throws = 0;          // thrown, flown by the pilot and by the pilot none
   int would_have_hit = 0;  // of those, hit when nobody dodged, or that flight failed
   int dodged = 0;          // of those that would have hit
+  Rate hit_undisturbed;    // by the pilot none, of its flights that did not fail
   int errors = 0;          // flights of this pilot, or of the pilot none, that failed
   Rate collisions;         // hit or crashed, of all flights of the pilot that did not fail, also
                            // of those in which nobody threw
@@ -52,7 +53,7 @@ struct Tally {
   void add(const ThrowResult& result, ThrowResult::FlightOf by = &ThrowResult::flown);
   Rate success() const { return {dodged, would_have_hit, sequential}; }
   // What tables show. The pilot none dodges nothing: of it, how many throws would have hit.
-  Rate shown(bool none) const { return none ? Rate{would_have_hit, throws} : success(); }
+  Rate shown(bool none) const { return none ? hit_undisturbed : success(); }
 };
 
 // What tables show of it, with its errors: "25 / 34 (0.735, 0.569 to 0.854), 1 error".

@@ -75,11 +75,10 @@ NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, dou
   return found;
 }
 
-// Events of a pixel that leaks from a random start, and after each event is held first.
-double leaks_expected(const EventCameraSpec& spec, double duration_s) {
-  if (spec.leak_hz == 0) return 0;
-  const double period_s = 1 / spec.leak_hz;
-  const double cycle_s = period_s + seconds(spec.refractory_us);
+// Events of a pixel that leaks from a random start: the first comes within the period, and after
+// each the pixel is held first.
+double leaks_expected(double period_s, double hold_s, double duration_s) {
+  const double cycle_s = period_s + hold_s;
   const double whole_cycles = std::floor(duration_s / cycle_s);
   return whole_cycles + std::min(1.0, (duration_s - whole_cycles * cycle_s) / period_s);
 }
@@ -105,15 +104,20 @@ void judge_leak(const NoiseCount& leak, const EventCameraSpec& spec, Check& chec
     check.off("noise.leak", "leak_hz is 0");
     return;
   }
-  // Each pixel leaks regularly from a random start: its count is off by less than one.
+  // A pixel's period goes with its threshold. Its count is one of two neighbouring numbers.
+  const double inverse = mean_inverse(leak.thresholds).on;
+  double expected = 0, variance = 1;  // of a whole event, for rounding
+  for (const Thresholds& pixel : leak.thresholds) {
+    if (pixel.dead() || spec.leak_hz == 0) continue;
+    const double period_s = pixel.on * inverse / spec.leak_hz;
+    const double events = leaks_expected(period_s, seconds(spec.refractory_us), leak.duration_s);
+    const double part = events - std::floor(events);
+    expected += events;
+    variance += part * (1 - part);
+  }
   const double seconds_pixels = leak.duration_s * kPixels;
-  const double alive = 1 - spec.dead_pixel_fraction;
-  const double rate_hz = alive * leaks_expected(spec, leak.duration_s) / leak.duration_s;
-  const double per_pixel = rate_hz * leak.duration_s;
-  const double start_sd = std::sqrt(per_pixel < 0.5 ? per_pixel * (1 - per_pixel) : 0.25);
-  const double dead_sd = std::sqrt(spec.dead_pixel_fraction * alive) * per_pixel;
-  const double sigma_hz = std::hypot(start_sd, dead_sd) * std::sqrt(kPixels) / seconds_pixels;
-  check.within("noise.leak.on", leak.on / seconds_pixels, rate_hz, kSigmas * sigma_hz, "Hz", 5);
+  check.within("noise.leak.on", leak.on / seconds_pixels, expected / seconds_pixels,
+               kSigmas * std::sqrt(variance) / seconds_pixels, "Hz", 5);
   check.within("noise.leak.off", leak.off / seconds_pixels, 0, 0, "Hz", 5);
   check.within("noise.leak.other_causes", leak.other, 0, 0, "events", 0);
 }
@@ -135,10 +139,10 @@ ShotExpected shot_expected(const NoiseCount& shot, double share, const EventCame
     const double on_hz = share * spec.shot_noise_on_hz / (pixel.on * inverse.on);
     const double off_hz = share * spec.shot_noise_off_hz / (pixel.off * inverse.off);
     const double events = events_expected(on_hz + off_hz, hold_s(spec), shot.duration_s);
-    const double on = events * on_hz / std::max(1e-12, on_hz + off_hz);
-    expected.on.push_back(on);
-    expected.on_sum += on;
-    expected.off_sum += events - on;
+    const double both_hz = std::max(1e-12, on_hz + off_hz);
+    expected.on.push_back(events * on_hz / both_hz);
+    expected.on_sum += expected.on.back();
+    expected.off_sum += events * off_hz / both_hz;
   }
   return expected;
 }
@@ -264,9 +268,9 @@ Check judge(const NoiseCounts& counts, const EventCameraSpec& expected) {
       "Noise",
       "A constant scene for some seconds, each kind of noise by itself. Rates are means "
       "over all pixels, dead ones included, and hold within three standard deviations of "
-      "the counts, of the random start of the leak and of the number of dead pixels. A "
-      "pixel in its refractory period is silent, and shot noise is in inverse proportion to "
-      "a pixel's thresholds: both are part of what is expected.",
+      "the counts and of the random start of the leak. A pixel in its refractory period is "
+      "silent, and leak and shot noise are in inverse proportion to a pixel's thresholds: both "
+      "are part of what is expected.",
       {},
       {}};
   judge_leak(counts.leak, expected, check);

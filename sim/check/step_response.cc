@@ -20,8 +20,9 @@ constexpr double kFilmS = 0.5;      // after the step
 constexpr int kStepPictures = 400;  // ever farther apart
 
 constexpr double kStepRelativeLimit = 0.02;
-constexpr double kAbsoluteLimitUs = 1.5;  // stamps are rounded to 1 us, and a step takes 1 us
-constexpr double kSpreadLimit = 0.05;     // of some thousand pixels
+constexpr double kAbsoluteLimitUs = 2;  // stamps are rounded to 1 us, and a step takes 1 us
+constexpr double kSpreadLimit = 0.01;
+constexpr double kSpreadSigma = 1;  // the same for the spread as kMedianSigma for the median
 constexpr double kStepSigmas = 3;
 constexpr double kLowest = 0.16, kHighest = 0.84;  // quantiles: a standard deviation about the mean
 
@@ -158,16 +159,18 @@ Check judge(const std::vector<StepAnswer>& answers, const EventCameraSpec& expec
     const auto latency_us = static_cast<double>(expected.latency_us);
     const double median_us = quantile(answer.latencies_us, 0.5);
     const double expected_median_us = quantile(expected_us, 0.5);
+    const double spread_us = spread(expected_us);
+    const double sigma =
+        kStepSigmas /
+        std::sqrt(static_cast<double>(std::max<std::size_t>(1, answer.latencies_us.size())));
     // Where jitter would come before the light, half of its distribution lies at one point.
-    const double chance_us = kStepSigmas * kMedianSigma *
-                             std::max(spread(expected_us), expected.jitter_us) /
-                             std::sqrt(static_cast<double>(answer.latencies_us.size()));
+    const double chance_us = sigma * kMedianSigma * std::max(spread_us, expected.jitter_us);
     check.within(name + ".median", median_us, expected_median_us,
                  kStepRelativeLimit * std::max(0.0, expected_median_us - latency_us) +
                      kAbsoluteLimitUs + chance_us,
                  "us", 1);
-    check.within(name + ".spread", spread(answer.latencies_us), spread(expected_us),
-                 kSpreadLimit * spread(expected_us) + kAbsoluteLimitUs, "us", 1);
+    check.within(name + ".spread", spread(answer.latencies_us), spread_us,
+                 (kSpreadLimit + sigma * kSpreadSigma) * spread_us + kAbsoluteLimitUs, "us", 1);
     measured.x.push_back(answer.lux);
     measured.y.push_back(median_us);
     measured.spread.push_back(spread(answer.latencies_us));

@@ -1,6 +1,7 @@
 #include "sim/config/check_scenario.h"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 
@@ -259,6 +260,34 @@ void check_axis(const Scenario& scenario, const VariedKey& axis, bool in_grid,
   for (const YamlNode& value : axis.values) with_values(scenario, {{axis.key, &value}}, context);
 }
 
+// What is wrong with the keys of each combination, once, and with which values unless with all.
+void check_combinations(const Scenario& scenario, ReadContext& context) {
+  struct Found {
+    Problems::Problem problem;
+    std::string with;  // the first of the combinations: "mission.type hover"
+    int combinations = 0;
+  };
+  std::map<std::string, Found> all;  // by place and sentence
+  const int cells = cell_count(scenario), combinations = cells * sweep_count(scenario);
+  for (int i = 0; i < combinations; ++i) {
+    Assignments values = combination(scenario.grid, i % cells);
+    const Assignments sweep_values = combination(scenario.sweep, i / cells);
+    values.insert(values.end(), sweep_values.begin(), sweep_values.end());
+    ReadContext one = context;  // without problems, so far
+    check_keys_together(with_values(scenario, values, one), one);
+    for (const Problems::Problem& problem : one.problems.all()) {
+      const std::string name = one.problems.place(problem.at) + problem.sentence;
+      Found& found = all.try_emplace(name, Found{problem, label(as_text(values))}).first->second;
+      ++found.combinations;
+    }
+  }
+  for (const auto& [name, found] : all) {
+    const bool always = found.combinations >= combinations;
+    const std::string with = always ? "" : " That is so with " + found.with + ".";
+    context.problems.add(found.problem.at, found.problem.sentence + with);
+  }
+}
+
 }  // namespace
 
 void check_scenario(const Scenario& scenario, ReadContext& context) {
@@ -268,20 +297,7 @@ void check_scenario(const Scenario& scenario, ReadContext& context) {
   check_stop(scenario, context);
   context.problems.raise_if_any();
   if (!check_counts(scenario, context)) return;
-  for (int cell = 0; cell < cell_count(scenario); ++cell) {
-    for (int sweep = 0; sweep < sweep_count(scenario); ++sweep) {
-      Assignments values = combination(scenario.grid, cell);
-      const Assignments sweep_values = combination(scenario.sweep, sweep);
-      values.insert(values.end(), sweep_values.begin(), sweep_values.end());
-      check_keys_together(with_values(scenario, values, context), context);
-      if (context.problems.empty()) continue;
-      if (!values.empty()) {
-        context.problems.add(values.back().second->at,
-                             "That is so with " + label(as_text(values)) + ".");
-      }
-      return;  // others would say the same
-    }
-  }
+  check_combinations(scenario, context);
 }
 
 }  // namespace dodgesim

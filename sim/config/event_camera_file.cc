@@ -38,6 +38,12 @@ EventCameraSpec load(const std::string& path) {
   spec.visit(documenter);
   for (const ParameterDoc& doc : documenter.take()) context.all_keys.push_back(doc.path);
   const YamlNode root = parse_yaml(read_scenario_text(path), context.problems);
+  for (const YamlNode::Key& key : root.keys) {
+    if (key.name != "sensors" && key.name != "events") continue;
+    context.problems.fail(key.at,
+                          "The keys below sensors.events of a scenario stand at the root "
+                          "of a camera's file.");
+  }
   Reader reader(root, "", context);
   spec.visit(reader);
   reader.finish();

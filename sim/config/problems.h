@@ -16,6 +16,11 @@ struct Position {
 
 class Problems {
  public:
+  struct Problem {
+    Position at;
+    std::string sentence;
+  };
+
   // `file` is the file's name as the user gave it; it opens every message.
   explicit Problems(std::string file) : sources_{std::move(file)} {}
 
@@ -37,13 +42,10 @@ class Problems {
   std::string place(Position at) const;
 
   bool empty() const { return problems_.empty(); }
+  const std::vector<Problem>& all() const { return problems_; }  // but those that are only counted
   const std::string& file() const { return sources_.front(); }
 
  private:
-  struct Problem {
-    Position at;
-    std::string sentence;
-  };
   std::vector<std::string> sources_;
   std::vector<Problem> problems_;
   int left_out_ = 0;

@@ -1,5 +1,9 @@
 #include "sim/events/pixel_array.h"
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -36,14 +40,23 @@ constexpr std::size_t kFlags = 64;
 
 // Bit i is flag i.
 std::uint64_t bits_of(const unsigned char* flags) {
-  constexpr std::size_t kBytes = 8;
-  constexpr std::uint64_t kGather = 0x0102040810204080u;  // byte i's lowest bit to bit 56 + i
   std::uint64_t bits = 0;
+#if defined(__SSE2__)
+  constexpr std::size_t kBytes = sizeof(__m128i);
+  for (std::size_t i = 0; i < kFlags; i += kBytes) {
+    const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(flags + i));
+    const int some = _mm_movemask_epi8(_mm_cmpgt_epi8(bytes, _mm_setzero_si128()));
+    bits |= static_cast<std::uint64_t>(some) << i;
+  }
+#else
+  constexpr std::size_t kBytes = sizeof(std::uint64_t);
+  constexpr std::uint64_t kGather = 0x0102040810204080u;  // byte i's lowest bit to bit 56 + i
   for (std::size_t i = 0; i < kFlags; i += kBytes) {
     std::uint64_t bytes = 0;
     std::memcpy(&bytes, flags + i, kBytes);
     bits |= bytes * kGather >> 56 << i;
   }
+#endif
   return bits;
 }
 

@@ -95,7 +95,8 @@ void EventCameraSpec::visit(Visitor& v) {
   v("refractory_us", refractory_us, 0, 1000000,
     "Time a pixel is held in reset after an event (most simulators: 100 us, v2e: 500 us).");
   v("leak_hz", leak_hz, 0, 1000,
-    "Mean rate of ON events of a pixel at rest, due to the leak of its reference (v2e: 0.1). Any "
+    "Mean rate of ON events of a pixel at rest, due to the leak of its reference (v2e: 0.1), "
+    "refractory periods not counted. Any "
     "other event of the pixel, of noise too, starts its leak anew, so with shot noise far fewer "
     "come: with that of sees1 about 0.01 Hz. With 0 the first frame sets the references. With any "
     "leak, however small, each starts below it, as after a long rest in that light: by a random "

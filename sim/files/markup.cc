@@ -1,5 +1,7 @@
 #include "sim/files/markup.h"
 
+#include <cctype>
+
 #include "sim/base/utf8.h"
 
 namespace dodgesim {
@@ -37,6 +39,20 @@ std::string markup_escaped(std::string_view text) {
       out += sequence;
     }
     text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return out;
+}
+
+std::string markdown_escaped(std::string_view text) {
+  constexpr std::string_view kMarkup = "\\`*<>[]|~";
+  const auto in_word = [text](std::size_t i) {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) != 0);
+  };
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool word_ends = text[i] == '_' && !(in_word(i - 1) && in_word(i + 1));
+    if (word_ends || kMarkup.find(text[i]) != std::string_view::npos) out += '\\';
+    out += text[i];
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// Text for HTML and XML.
+// Text for HTML, XML and Markdown.
 #pragma once
 
 #include <string>
@@ -9,5 +9,8 @@ namespace dodgesim {
 // The text as content or attribute: nothing of it is taken for markup. Control characters that XML
 // does not allow become question marks, and what is no character of UTF-8 becomes U+FFFD.
 std::string markup_escaped(std::string_view text);
+
+// The text, a line, as Markdown shows it: backslashes before what would be markup.
+std::string markdown_escaped(std::string_view text);
 
 }  // namespace dodgesim

@@ -29,6 +29,11 @@ void OutputFile::rewrite_front(std::string_view text) {
   }
 }
 
+void OutputFile::finish() {
+  flush();
+  staged_.sync();
+}
+
 void OutputFile::commit() {
   flush();
   staged_.commit();

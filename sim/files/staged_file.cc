@@ -74,9 +74,13 @@ StagedFile::~StagedFile() {
   ::close(fd_);
 }
 
-void StagedFile::commit() {
-  // Some file systems report a full disk only here.
+// Some file systems report a full disk only here.
+void StagedFile::sync() {
   if (::fsync(fd_) != 0 && errno != EINVAL) fail("could not be written", errno);
+}
+
+void StagedFile::commit() {
+  sync();
   const int fd = fd_;
   fd_ = -1;
   if (::close(fd) == 0 && ::rename(partial_.c_str(), path_.c_str()) == 0) return;

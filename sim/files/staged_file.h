@@ -28,7 +28,9 @@ class StagedFile {
   const std::filesystem::path& partial() const { return partial_; }
   int fd() const { return fd_; }  // open for writing until commit()
 
-  // Waits until the disk has the contents and gives the file its name.
+  // Waits until the disk has the contents.
+  void sync();
+  // The same, and gives the file its name.
   void commit();
 
   // Throws IoError "PATH <what>: <reason>." with the text of `error_number`, or without a reason

@@ -154,6 +154,7 @@ void write_baseline(const fs::path& directory, const fs::path& campaign, const G
     files.emplace_back(directory / name).write(read_file(campaign / name));
   }
   files.emplace_back(directory / kManifest).write(manifest.dump(2) + "\n");
+  for (OutputFile& file : files) file.finish();
   for (OutputFile& file : files) file.commit();
 }
 

@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <map>
 
+#include "sim/base/error.h"
+#include "sim/config/expand.h"
+
 namespace dodgesim {
 
 namespace {
@@ -68,11 +71,29 @@ std::string left_out(const std::vector<int>& throws, const std::string& why) {
   return "Left out, because " + why + ": throws " + list_of(throws) + "\n";
 }
 
+std::string text_of(const std::vector<AxisValue>& settings) {
+  return settings.empty() ? "no grid or sweep" : label(settings);
+}
+
 double share_of(const Proportion& p) {
   return p.trials == 0 ? 0 : static_cast<double>(p.successes) / static_cast<double>(p.trials);
 }
 
 }  // namespace
+
+void expect_same_settings(const std::vector<ThrowOutcome>& first,
+                          const std::vector<ThrowOutcome>& second, const std::string& first_name,
+                          const std::string& second_name) {
+  std::map<std::pair<int, int>, const ThrowOutcome*> of_first;
+  for (const ThrowOutcome& t : first) of_first[{t.cell, t.sweep}] = &t;
+  for (const ThrowOutcome& b : second) {
+    const auto a = of_first.find({b.cell, b.sweep});
+    if (a == of_first.end() || a->second->settings == b.settings) continue;
+    throw ScenarioError(first_name + " has " + text_of(a->second->settings) + " where " +
+                        second_name + " has " + text_of(b.settings) +
+                        "; campaigns can be compared if their grids and sweeps are the same.");
+  }
+}
 
 Comparison compare(const std::vector<ThrowOutcome>& first,
                    const std::vector<ThrowOutcome>& second) {

@@ -29,6 +29,12 @@ struct Comparison {
   std::vector<ChangedThrow> lost, gained;  // when paired
 };
 
+// Throws ScenarioError, which names the campaigns as given, if a cell of the grid or a value of the
+// sweep that both have is not the same in both: their throws are of different experiments.
+void expect_same_settings(const std::vector<ThrowOutcome>& first,
+                          const std::vector<ThrowOutcome>& second, const std::string& first_name,
+                          const std::string& second_name);
+
 // Throws that both have are paired if all of them are the same throws (same_throw()).
 Comparison compare(const std::vector<ThrowOutcome>& first, const std::vector<ThrowOutcome>& second);
 

@@ -8,6 +8,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/result_files.h"
+#include "sim/config/numbers.h"
 #include "sim/files/input_file.h"
 
 namespace dodgesim {
@@ -45,6 +46,21 @@ DrawnObject drawn(const CsvTable& table, std::size_t row, const char* kind_colum
   DrawnObject object{table.at(row, kind_column), {}};
   for (const char* column : kDrawnNumbers) object.numbers.push_back(table.number(row, column));
   return object;
+}
+
+// The columns of the grid's and the sweep's keys stand behind those of their numbers.
+std::vector<AxisValue> settings_of(const CsvTable& throws, std::size_t row) {
+  std::vector<AxisValue> settings;
+  const auto& columns = throws.columns();
+  const auto end = std::find(columns.begin(), columns.end(), "objects");
+  auto column = std::find(columns.begin(), end, "sweep");
+  if (column == end) return settings;
+  for (++column; column != end; ++column) {
+    const std::string& text = throws.at(row, *column);
+    const std::optional<double> number = as_number(text);  // reads alike however it is written
+    settings.push_back({*column, number ? to_text(*number) : text});
+  }
+  return settings;
 }
 
 // Reads the objects of one throw after the other.
@@ -157,7 +173,9 @@ std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign) {
       throw IoError(throws.name() + ": throw " + std::to_string(out.number) +
                     " stands behind throw " + std::to_string(all.back().number) + ".");
     }
+    if (throws.has("cell")) out.cell = throws.integer(row, "cell");
     if (throws.has("sweep")) out.sweep = throws.integer(row, "sweep");
+    out.settings = settings_of(throws, row);
     out.label = label_of(throws, row);
     out.draw = draws.of_throw(row, out.number);
     out.seed = campaign.seed;

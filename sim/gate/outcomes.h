@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/config/varied_key.h"
 #include "sim/gate/csv_table.h"
 
 namespace dodgesim {
@@ -30,7 +31,8 @@ struct DrawnObject {
 
 struct ThrowOutcome {
   int number = 0;
-  int sweep = 0;                      // number of the sweep value
+  int cell = 0, sweep = 0;            // numbers of the grid's cell and of the sweep value
+  std::vector<AxisValue> settings;    // the keys of both, in the order of the columns
   std::string label;                  // "0.2 m ball, 5.1 m/s from 3.2 m", or "quiet flight"
   std::vector<DrawnObject> draw;      // empty: nobody threw
   std::optional<std::uint64_t> seed;  // of the noise, too

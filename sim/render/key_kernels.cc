@@ -196,8 +196,12 @@ DODGESIM_TARGET_AVX512 inline bool pick(const std::uint16_t* means, int stride, 
     above = _mm512_cmpeq_epi32_mask(down, _mm512_set1_epi32(n));
     corners.top = _mm512_mask_mov_epi32(corners.top, above, picked);
   }
-  _mm_prefetch(at, _MM_HINT_T0);  // for the next row, as above
-  _mm_prefetch(at + stride, _MM_HINT_T0);
+  // What the camera's next row needs lies three rows of means below, with the default
+  // supersampling.
+  for (int n = 0; n < 3; ++n, at += stride) {
+    _mm_prefetch(at, _MM_HINT_T0);
+    _mm_prefetch(at + kReach / 2, _MM_HINT_T0);
+  }
   return true;
 }
 
@@ -206,13 +210,13 @@ DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, 
   constexpr int kLanes = 16;
   constexpr int kMostRows = kKeySpareRows;  // more take longer than to gather
   const __m512i low = _mm512_set1_epi32(0xffff);
-  // The rows that sixteen pixels meet, as the camera's roll is the same for all.
-  const float fall = kLanes * (v[size - 1] - v[0]) / static_cast<float>(size);
-  const int rows = static_cast<int>(fall < 0 ? -fall : fall) + 2;
   int i = 0;
   for (; i + kLanes <= size; i += kLanes) {
     const Places p = places_at(u + i, v + i);
-    const int row = static_cast<int>(smaller(v[i], v[i + kLanes - 1]));
+    // Places run nearly straight: those at the ends say which rows and columns are needed.
+    const float v0 = v[i], v1 = v[i + kLanes - 1];
+    const int row = static_cast<int>(smaller(v0, v1));
+    const int rows = static_cast<int>(larger(v0, v1)) - row + 1;
     const int column = static_cast<int>(smaller(u[i], u[i + kLanes - 1]));
     Corners c = {_mm512_setzero_si512(), _mm512_setzero_si512()};
     if (rows > kMostRows || !pick(means, stride, p, row, rows, column, c)) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/config/expand.h"
 #include "sim/gate/comparison.h"
 #include "tools/commands/command.h"
 
@@ -73,6 +74,19 @@ std::string names(const std::map<int, std::vector<ThrowOutcome>>& parts) {
   return text;
 }
 
+// "Sweep value 1 (delays.total_ms 60)": with the keys that are the same for all of its throws.
+std::string heading(int sweep, const std::vector<ThrowOutcome>& outcomes) {
+  std::vector<AxisValue> common;
+  for (const AxisValue& setting : outcomes.front().settings) {
+    const bool everywhere = std::ranges::all_of(outcomes, [&](const ThrowOutcome& outcome) {
+      return std::ranges::count(outcome.settings, setting) == 1;
+    });
+    if (everywhere) common.push_back(setting);
+  }
+  return "Sweep value " + std::to_string(sweep) +
+         (common.empty() ? "" : " (" + label(common) + ")");
+}
+
 int compare_campaigns(const CompareArguments& arguments) {
   const auto first = parts_of(arguments.first);
   const auto second = parts_of(arguments.second);
@@ -89,7 +103,11 @@ int compare_campaigns(const CompareArguments& arguments) {
                         "; they cannot be compared one by one.");
   }
   for (const auto& [sweep, outcomes] : first) {
-    if (first.size() > 1) std::cout << (sweep > 0 ? "\n" : "") << "Sweep value " << sweep << ":\n";
+    expect_same_settings(outcomes, second.at(sweep), arguments.first.string(),
+                         arguments.second.string());
+  }
+  for (const auto& [sweep, outcomes] : first) {
+    if (first.size() > 1) std::cout << (sweep > 0 ? "\n" : "") << heading(sweep, outcomes) << ":\n";
     const Comparison comparison = compare(outcomes, second.at(sweep));
     std::cout << comparison_text(comparison, arguments.first.string(), arguments.second.string());
     print_changes("Lost", comparison.lost);

@@ -103,11 +103,15 @@ int run(const RunArguments& arguments) {
   const CampaignSummary summary = fly_campaign(scenario, options);
   if (!summary.complete()) return report_stop(summary, options);
   std::cout << summary.table;
+  // The others were there already.
+  const std::string part =
+      summary.flown < summary.wanted ? std::to_string(summary.flown) + " of " : "";
   std::printf(
-      "%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n"
+      "%s%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n"
       "Report, for any browser: %s\n",
-      count_text(summary.wanted, "throw").c_str(), duration_text(summary.wall_s).c_str(),
-      summary.real_time_factor, options.out.c_str(), (options.out / kReportFile).c_str());
+      part.c_str(), count_text(summary.wanted, "throw").c_str(),
+      duration_text(summary.wall_s).c_str(), summary.real_time_factor, options.out.c_str(),
+      (options.out / kReportFile).c_str());
   if (summary.memory.first_mb > 0) {
     std::printf("Memory of a worker: %.0f MB after its first throw, %.0f MB after its last\n",
                 summary.memory.first_mb, summary.memory.last_mb);

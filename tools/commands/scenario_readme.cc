@@ -90,9 +90,9 @@ sweep FILE --over delays.compute_us=0,3500,30000` does the same to any scenario.
 other value takes the place of the base's, and `~` takes a key away (`throw: ~`). Its `name` and
 `description` do not count. The base is named relative to the file, ends in `.yaml` or `.yml`, and
 lies in the folder of the scenario, below it or at most two folders up; bases may have bases, up to
-8. `--set KEY=VALUE` of `run`, `sweep`, `gate`, `paper` and `validate` comes last, its value is YAML,
-and it may be repeated: `--set 'throw.speed_mps=!uniform [4, 6]'`, `--set grid.size_m=[0.1,0.2]`,
-`--set 'throw=~'`.
+8. `--set KEY=VALUE` of `run`, `sweep`, `gate`, `paper` and `validate` comes after the files (and before
+`--throws` and `--seed`), its value is YAML, and it may be repeated: `--set
+'throw.speed_mps=!uniform [4, 6]'`, `--set grid.size_m=[0.1,0.2]`, `--set 'throw=~'`.
 
 ## Several objects
 

@@ -147,6 +147,26 @@ TEST(Tables, AnOracleIsNotShownBesideItself) {
   EXPECT_TRUE(statistics_of({&results[0]}, "falanga2020").oracle_flew);
 }
 
+TEST(Tables, AnOraclesErrorIsNotShownTwice) {
+  const FlightResult broken = failed("No context.");
+  const std::string markdown =
+      tables({throw_with(0, broken, flown(true), broken)}, "oracle").markdown;
+  EXPECT_THAT(markdown, HasSubstr("1 flight failed"));
+}
+
+TEST(Tables, AThrowThatWasNeverLaunchedWouldNotHaveHit) {
+  const FlightResult broken = failed("It starts inside another.");
+  const Tables made = tables({throw_with(0, broken, broken, FlightResult{})});
+  EXPECT_THAT(made.markdown, HasSubstr("| all | none: would have hit | 0 / 0, 1 error |"));
+  EXPECT_THAT(made.csv, HasSubstr("none,1,0,0,"));
+}
+
+TEST(Tables, ShowTheNameAsItIs) {
+  LoadedCampaign campaign;
+  campaign.scenario.name = "a_b <i>";
+  EXPECT_THAT(make_tables(campaign).markdown, HasSubstr("# a_b \\<i\\>\n"));
+}
+
 TEST(Tables, ErrorsAreShownWithThrowPilotAndReason) {
   const Tables made =
       tables({throw_with(0, failed("The state diverged."), flown(true), flown(true)),
@@ -182,6 +202,7 @@ TEST(Tables, EvasionsOfQuietFlightsAreFalseAlarms) {
   EXPECT_THAT(made.markdown, HasSubstr("False alarms: falanga2020 evaded in 1 / 4 (0.250, "));
   EXPECT_THAT(made.markdown, ::testing::Not(HasSubstr("crashed")));
   EXPECT_THAT(made.markdown, ::testing::Not(HasSubstr("By size")));
+  EXPECT_THAT(made.markdown, HasSubstr("4 flights, pilot falanga2020.\n"));
 }
 
 TEST(Tables, CrashesOfQuietFlightsAreCounted) {

@@ -50,6 +50,7 @@ TEST(Tally, AnErrorNeverCountsAsASuccess) {
   EXPECT_EQ(sum.would_have_hit, 3);
   EXPECT_EQ(sum.dodged, 0);
   EXPECT_EQ(sum.errors, 4);
+  EXPECT_EQ(rate_text(sum.shown(true)), rate_text({1, 2}));  // of what is known
 }
 
 TEST(Tally, CollisionsAreCountedOverAllFlightsThatDidNotFail) {

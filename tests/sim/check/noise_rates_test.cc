@@ -43,6 +43,22 @@ TEST(NoiseCheck, KnowsHowOftenALeakComesThatIsHeldForLong) {
   EXPECT_EQ(failures(judge(measure_noise(spec, 1), spec)), Names());
 }
 
+TEST(NoiseCheck, KnowsThatALeaksPeriodGoesWithThePixelsThreshold) {
+  EventCameraSpec spec;
+  spec.leak_hz = 5;
+  spec.refractory_us = 1000;
+  spec.mismatch_sigma = 0.08;
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    EXPECT_EQ(failures(judge(measure_noise(spec, seed), spec)), Names()) << seed;
+  }
+}
+
+TEST(NoiseCheck, ExpectsNoEventsOfAPolarityThatHasNone) {
+  EventCameraSpec spec;
+  spec.shot_noise_off_hz = 0;
+  EXPECT_EQ(failures(judge(measure_noise(spec, 1), spec)), Names());
+}
+
 TEST(NoiseCheck, KnowsHowManyEventsAHoldLeaves) {
   RandomStream random(1, 0, "renewal");
   const struct {

@@ -41,6 +41,21 @@ TEST(StepResponseCheck, KnowsWhatJitterDoesToTheMedianAndToSeveralEvents) {
   }
 }
 
+TEST(StepResponseCheck, KnowsHowFewOfMostlyDeadPixelsAnswer) {
+  EventCameraSpec spec;
+  spec.dead_pixel_fraction = 0.9;
+  for (const std::uint64_t seed : {1, 3}) {
+    EXPECT_EQ(failures(judge(measure_step_response(spec, seed), spec)), Names()) << seed;
+  }
+}
+
+TEST(StepResponseCheck, AllowsAMicrosecondForTheStepAndOneForTheStamp) {
+  EventCameraSpec spec = event_camera_preset("ideal");
+  spec.photoreceptor_hz = 3000;
+  spec.contrast_threshold_on = 0.1;
+  EXPECT_EQ(failures(judge(measure_step_response(spec, 1), spec)), Names());
+}
+
 TEST(StepResponseCheck, HasTheClosedFormOfOneAndTwoLowPasses) {
   EXPECT_DOUBLE_EQ(step_time_s(0.5, 100, 0), std::log(2) / 100);
   EXPECT_DOUBLE_EQ(step_time_s(0.5, 0, 100), std::log(2) / 100);

@@ -276,8 +276,12 @@ const BadScenario kBadScenarios[] = {
      "dodger: {position: {min_range_m: 0.2}}\nsweep:\n"
      "  dodger.position.max_range_m: [0.1, 1]\n",
      "bad.yaml:1:34: dodger.position.min_range_m is 0.2 but must be less than "
-     "position.max_range_m, which is 0.1.\n"
-     "bad.yaml:3:33: That is so with dodger.position.max_range_m 0.1."},
+     "position.max_range_m, which is 0.1. That is so with dodger.position.max_range_m 0.1."},
+    {"GridWithTwoMistakes",
+     "flight_controller: {period_us: 300}\nthrow: {}\ngrid: {mission.type: [hover, goal]}\n",
+     "bad.yaml:1:32: flight_controller.period_us is 300, but must be a multiple of 250.\n"
+     "bad.yaml:3:30: mission.goal_m is missing, but mission.type goal needs it. That is so with "
+     "mission.type goal."},
     {"GridTooLarge", "throw: {}\nrepeats: 1000000\ngrid: {size_m: [" + numbers(11) + "]}\n",
      "bad.yaml:3:7: repeats, grid and sweep make more than 10000000 throws."},
     {"GridBomb",

@@ -20,5 +20,10 @@ TEST(Markup, LeavesNothingThatIsTakenForMarkup) {
   EXPECT_EQ(markup_escaped("10 µm"), "10 µm");
 }
 
+TEST(Markup, MarkdownShowsTheTextAsItIs) {
+  EXPECT_EQ(markdown_escaped("goal_flight, 10 cm (-20 %)"), "goal_flight, 10 cm (-20 %)");
+  EXPECT_EQ(markdown_escaped("<b> __x__ a|b [c] \\"), R"(\<b\> \_\_x\_\_ a\|b \[c\] \\)");
+}
+
 }  // namespace
 }  // namespace dodgesim

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sim/base/error.h"
 #include "tests/sim/gate/outcomes_fixture.h"
 
 namespace dodgesim {
@@ -31,6 +32,23 @@ TEST(Comparison, PairsEqualThrows) {
   ASSERT_EQ(c.gained.size(), 1U);
   EXPECT_EQ(c.gained[0].number, 4);
   EXPECT_EQ(c.first.trials, 7);
+}
+
+TEST(Comparison, IsOfTheSameGridAndSweep) {
+  auto first = outcomes(tables_of("dd")), second = first;
+  first[1].cell = second[1].cell = 1;
+  first[1].settings = second[1].settings = {{"oracle.range_cap_m", "0.8"}};
+  expect_same_settings(first, second, "a", "b");
+  second[1].settings[0].value = "1.5";
+  try {
+    expect_same_settings(first, second, "a", "b");
+    FAIL() << "compared different experiments";
+  } catch (const ScenarioError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("a has oracle.range_cap_m 0.8 where b has oracle.range_cap_m 1.5;"));
+  }
+  second[1].cell = 2;  // nothing that both have
+  expect_same_settings(first, second, "a", "b");
 }
 
 TEST(Comparison, LeavesOutWhatWouldHaveHitInOneCampaignOnly) {

@@ -53,6 +53,20 @@ TEST(Outcomes, SayWhatBecameOfAThrow) {
   EXPECT_EQ(all[1].label, "0.2 m ball, 5.01 m/s from 3 m");
 }
 
+TEST(Outcomes, SayWhichSettingsOfGridAndSweepAThrowHad) {
+  ThrowResult result = throw_that(3, 'd');
+  result.cell = 1;
+  result.cell_values = {{"throw.size_m", "0.30"}};
+  result.sweep_values = {{"pilot", "oracle"}};
+  CsvLine line;
+  result.visit(line);
+  const auto all = outcomes({CsvTable(line.header() + line.row(), "throws.csv")});
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].cell, 1);
+  EXPECT_EQ(all[0].settings,
+            (std::vector<AxisValue>{{"throw.size_m", "0.3"}, {"pilot", "oracle"}}));
+}
+
 TEST(Outcomes, OfQuietFlightsFailByEvading) {
   const auto all = outcomes(tables_of({quiet_flight_that(0, false), quiet_flight_that(1, true)}));
   EXPECT_TRUE(all[0].counts && all[0].success);
