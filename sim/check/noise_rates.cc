@@ -21,7 +21,7 @@ constexpr double kLongestS = 100;
 constexpr double kLeakEvents = 1.5;  // of a pixel
 constexpr double kPlotFromHz = -0.1, kPlotToHz = 3.9;
 constexpr int kPlotBins = 20;
-constexpr double kMostEvents = 5e6;  // of a film
+constexpr double kMostEvents = 2e6;  // of a film
 
 EventCameraSpec only_leak(const EventCameraSpec& camera) {
   EventCameraSpec spec = without_noise(camera);
