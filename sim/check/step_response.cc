@@ -151,7 +151,8 @@ Check judge(const std::vector<StepAnswer>& answers, const EventCameraSpec& expec
       continue;
     }
     const auto expected_us = expected_latencies_us(expected, answer.lux);
-    const auto all = static_cast<std::size_t>(kThresholdQuantiles * jitter_quantiles(expected));
+    const std::size_t all =
+        std::size_t{kThresholdQuantiles} * static_cast<std::size_t>(jitter_quantiles(expected));
     if (expected_us.size() < all / 2) {
       check.off(name, "most pixels are slower than the film");
       continue;
