@@ -196,9 +196,12 @@ DODGESIM_TARGET_AVX512 inline bool pick(const std::uint16_t* means, int stride, 
     above = _mm512_cmpeq_epi32_mask(down, _mm512_set1_epi32(n));
     corners.top = _mm512_mask_mov_epi32(corners.top, above, picked);
   }
-  // What the camera's next row needs lies three rows of means below, with the default
+  // What the camera's next row needs besides lies three rows of means below, with the default
   // supersampling.
-  for (int n = 0; n < 3; ++n, at += stride) {
+  constexpr int kDown = 3;
+  const int first = larger(kDown, rows + 1);
+  at = means + (row + first) * stride + column;
+  for (int n = first; n <= kDown + rows; ++n, at += stride) {
     _mm_prefetch(at, _MM_HINT_T0);
     _mm_prefetch(at + kReach / 2, _MM_HINT_T0);
   }
