@@ -38,12 +38,10 @@ std::string names_of_keys(const std::vector<ThrowResult>& results) {
   return names;
 }
 
-// Of a key of the grid. A number reads alike however it is written: 0.10 is 0.1.
+// Of a key of the grid.
 std::optional<std::string> value_in_cell(const ThrowResult& result, const std::string& key) {
   for (const AxisValue& of_cell : result.cell_values) {
-    if (of_cell.key != key) continue;
-    const std::optional<double> number = as_number(of_cell.value);
-    return number ? to_text(*number) : of_cell.value;
+    if (of_cell.key == key) return with_one_spelling(of_cell.value);
   }
   return std::nullopt;
 }

@@ -177,7 +177,7 @@ CsvRow csv_row_of(const StatisticsTable& table, const StatisticsTable::Row& row,
   csv.text("pilot", of.pilot);
   csv.count("throws", of.tally.throws);
   csv.count("would_have_hit",
-            of.pilot == "none" ? of.tally.hit_undisturbed.count : of.tally.success().of);
+            of.pilot == "none" ? of.tally.hit_undisturbed.count : of.tally.would_have_hit);
   csv.count("dodged", of.tally.dodged);
   csv.rate("rate", of.tally.success());
   csv.text("rate_interval", of.tally.success().interval_name());

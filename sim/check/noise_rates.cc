@@ -77,8 +77,8 @@ NoiseCount count(const EventCameraSpec& spec, double lux, double duration_s, dou
 
 // Events of a pixel that leaks from a random start: the first comes within the period, and after
 // each the pixel is held first.
-double leaks_expected(double period_s, double hold_s, double duration_s) {
-  const double cycle_s = period_s + hold_s;
+double leaks_expected(double period_s, double refractory_s, double duration_s) {
+  const double cycle_s = period_s + refractory_s;
   const double whole_cycles = std::floor(duration_s / cycle_s);
   return whole_cycles + std::min(1.0, (duration_s - whole_cycles * cycle_s) / period_s);
 }

@@ -105,4 +105,9 @@ template std::optional<int> parse_integer<int>(std::string_view);
 template std::optional<std::int64_t> parse_integer<std::int64_t>(std::string_view);
 template std::optional<std::uint64_t> parse_integer<std::uint64_t>(std::string_view);
 
+std::string with_one_spelling(const std::string& text) {
+  const std::optional<double> number = as_number(text);
+  return number ? to_text(*number) : text;
+}
+
 }  // namespace dodgesim

@@ -26,6 +26,9 @@ std::optional<double> parse_double(std::string_view text);
 // The text as a number; empty if it is none, or beyond the range of double.
 std::optional<double> as_number(std::string_view text);
 
+// The text, but a number in the spelling of to_text(), however it is written: 0.10 is 0.1.
+std::string with_one_spelling(const std::string& text);
+
 // Requires number_form kInteger. Empty when beyond the range of the type.
 template <class Integer>
 std::optional<Integer> parse_integer(std::string_view text);

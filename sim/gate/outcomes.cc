@@ -56,9 +56,7 @@ std::vector<AxisValue> settings_of(const CsvTable& throws, std::size_t row) {
   auto column = std::find(columns.begin(), end, "sweep");
   if (column == end) return settings;
   for (++column; column != end; ++column) {
-    const std::string& text = throws.at(row, *column);
-    const std::optional<double> number = as_number(text);  // reads alike however it is written
-    settings.push_back({*column, number ? to_text(*number) : text});
+    settings.push_back({*column, with_one_spelling(throws.at(row, *column))});
   }
   return settings;
 }

@@ -2,8 +2,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -72,6 +74,23 @@ TEST_F(BaselineTest, KeepsTheEarlierOneWhenTheCampaignIsBroken) {
   fs::remove(campaign_ / "table.md");
   EXPECT_THROW(write_baseline(baseline_, campaign_, {0.2, 0.95, "all"}), IoError);
   EXPECT_EQ(read_baseline(baseline_).rules.must_equal, "physics");
+}
+
+// The largest file is not the first: none may have its name before the last is written.
+TEST_F(BaselineTest, KeepsTheEarlierOneWhenAFileCannotBeWritten) {
+  write_baseline(baseline_, campaign_, {});
+  write("throws.csv", "throw\n0\n1\n");
+  write("table.md", std::string(8192, 't'));
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  rlimit small = before;
+  small.rlim_cur = 4096;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  EXPECT_THROW(write_baseline(baseline_, campaign_, {}), IoError);
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(read_baseline(baseline_).tables.throws.rows(), 1U);
 }
 
 TEST_F(BaselineTest, SaysWhatIsBroken) {
