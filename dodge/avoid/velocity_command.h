@@ -17,7 +17,7 @@ struct VelocityLimitConfig {
   void visit(Visitor& v) {
     v("max_speed_mps", max_speed_mps, 0.01, 100.0,
       "Limit of the commanded speed. Needed: (32) asks for 40 m/s on a ball of 10 m/s. With 2 m/s "
-      "hardly any throw is dodged.");
+      "little more than half as many throws are dodged (results/paper/physics.md).");
     v("evading_threshold_mps", evading_threshold_mps, 0.0, 100.0,
       "The vehicle is evading while the sum of the repulsive forces is larger than this.");
     v("calm_acceleration_mps2", calm_acceleration_mps2, 0.0, 100.0,

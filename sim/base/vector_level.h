@@ -32,4 +32,24 @@ inline int widest_vector_level() {
 #define DODGESIM_TARGET_AVX512
 #endif
 
+// A loop, which must be an always_inline function, compiled for each width.
+template <auto kLoop>
+struct CompiledLoop;
+template <class Result, class... Arguments, Result (*kLoop)(Arguments...)>
+struct CompiledLoop<kLoop> {
+  static Result portable(Arguments... arguments) { return kLoop(arguments...); }
+  DODGESIM_TARGET_AVX2 static Result avx2(Arguments... arguments) { return kLoop(arguments...); }
+  DODGESIM_TARGET_AVX512 static Result avx512(Arguments... arguments) {
+    return kLoop(arguments...);
+  }
+};
+
+// That of one level: a pointer to it.
+template <auto kLoop>
+constexpr auto compiled_for(int vector_level) {
+  using Loop = CompiledLoop<kLoop>;
+  if (vector_level == kAvx512) return Loop::avx512;
+  return vector_level == kAvx2 ? Loop::avx2 : Loop::portable;
+}
+
 }  // namespace dodgesim

@@ -29,7 +29,8 @@ using BenchRun = std::function<std::vector<double>()>;
 // Quantities that are measured together.
 struct BenchCase {
   std::vector<Quantity> quantities;
-  int runs = 5;  // unless BenchOptions say otherwise
+  int runs = 5;        // unless BenchOptions say otherwise
+  bool plots = false;  // draws, if BenchOptions say where
   // Makes everything that is not to be timed.
   std::function<BenchRun(const BenchOptions&)> prepare;
 };

@@ -226,6 +226,7 @@ void add_quantities(const Load& load, std::vector<Quantity>& quantities) {
 
 std::vector<BenchCase> pilot_cases() {
   BenchCase bench;
+  bench.plots = true;
   for (const Load& load : kLoads) add_quantities(load, bench.quantities);
   bench.quantities.push_back({"pilot.curve.ego_motion", "ns/event", "least squares over windows"});
   bench.quantities.push_back({"pilot.curve.clustering", "ns/pixel", "likewise, of moving objects"});

@@ -21,7 +21,8 @@ struct SamplingVariant {
   bool whole_pictures = false;  // objects' regions are taken as whole pictures
 };
 
-// The defaults, the same with whole pictures, and the defaults with one parameter changed.
+// The defaults, the same with whole pictures, a coarser and a finer sampling, and the defaults with
+// one parameter changed.
 std::vector<SamplingVariant> sampling_variants();
 
 // Eight times finer, every picture drawn anew and as finely as can be.

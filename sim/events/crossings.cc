@@ -1,7 +1,5 @@
 #include "sim/events/crossings.h"
 
-#include <array>
-
 #include "sim/base/branchless.h"
 #include "sim/base/vector_level.h"
 #include "sim/events/logarithm.h"
@@ -115,23 +113,6 @@ template <bool kBent>
   }
 }
 
-template <bool kBent>
-void solve_portable(const Row& row) {
-  solve_row<kBent>(row);
-}
-template <bool kBent>
-DODGESIM_TARGET_AVX2 void solve_avx2(const Row& row) {
-  solve_row<kBent>(row);
-}
-template <bool kBent>
-DODGESIM_TARGET_AVX512 void solve_avx512(const Row& row) {
-  solve_row<kBent>(row);
-}
-
-template <bool kBent>
-constexpr std::array<void (*)(const Row&), kVectorLevels> kSolve = {
-    solve_portable<kBent>, solve_avx2<kBent>, solve_avx512<kBent>};
-
 }  // namespace
 
 void Crossings::begin(std::size_t most) {
@@ -171,8 +152,9 @@ void Crossings::solve(double refractory_us, int vector_level) {
                    held_us_.data(), reference_.data(),   off_.data(),
                    on_.data(),      crossing_us_.data(), reference_after_.data(),
                    answer_.data(),  on_event_.data(),    refractory_us};
-  const auto level = static_cast<std::size_t>(vector_level);
-  (bent_ ? kSolve<true> : kSolve<false>)[level](row);
+  const auto solve = bent_ ? compiled_for<solve_row<true>>(vector_level)
+                           : compiled_for<solve_row<false>>(vector_level);
+  solve(row);
 }
 
 }  // namespace dodgesim

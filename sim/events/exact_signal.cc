@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "sim/base/vector_level.h"
@@ -12,29 +11,11 @@ namespace dodgesim {
 namespace {
 
 // In place.
-using Apply = void (*)(const Response&, double* values, std::size_t size);
-
 template <double (Response::*kFunction)(double) const>
 [[gnu::always_inline]] inline void apply(const Response& response, double* values,
                                          std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) values[i] = (response.*kFunction)(values[i]);
 }
-template <double (Response::*kFunction)(double) const>
-void apply_portable(const Response& response, double* values, std::size_t size) {
-  apply<kFunction>(response, values, size);
-}
-template <double (Response::*kFunction)(double) const>
-DODGESIM_TARGET_AVX2 void apply_avx2(const Response& response, double* values, std::size_t size) {
-  apply<kFunction>(response, values, size);
-}
-template <double (Response::*kFunction)(double) const>
-DODGESIM_TARGET_AVX512 void apply_avx512(const Response& response, double* values,
-                                         std::size_t size) {
-  apply<kFunction>(response, values, size);
-}
-template <double (Response::*kFunction)(double) const>
-constexpr std::array<Apply, kVectorLevels> kApply = {
-    apply_portable<kFunction>, apply_avx2<kFunction>, apply_avx512<kFunction>};
 
 class ExactSignal : public PixelSignal {
  public:
@@ -66,8 +47,7 @@ class ExactSignal : public PixelSignal {
   }
 
   void finish(std::span<Candidate> candidates) override {
-    static const auto respond =
-        kApply<&Response::at>[static_cast<std::size_t>(widest_vector_level())];
+    static const auto respond = compiled_for<apply<&Response::at>>(widest_vector_level());
     respond(response_, values_.data(), values_.size());
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       candidates[i].s0 = values_[2 * i];
@@ -76,8 +56,7 @@ class ExactSignal : public PixelSignal {
   }
 
   void set_bounds(std::span<const SignalBounds> bounds) override {
-    static const auto invert =
-        kApply<&Response::inverse>[static_cast<std::size_t>(widest_vector_level())];
+    static const auto invert = compiled_for<apply<&Response::inverse>>(widest_vector_level());
     limits_.resize(2 * bounds.size());
     for (std::size_t i = 0; i < bounds.size(); ++i) {
       limits_[2 * i] = bounds[i].low;

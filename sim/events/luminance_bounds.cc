@@ -1,6 +1,5 @@
 #include "sim/events/luminance_bounds.h"
 
-#include <array>
 #include <bit>
 
 #include "sim/base/vector_level.h"
@@ -44,13 +43,6 @@ struct Part {
   }
 }
 
-void scan_portable(const Part& part) { scan_part(part); }
-DODGESIM_TARGET_AVX2 void scan_avx2(const Part& part) { scan_part(part); }
-DODGESIM_TARGET_AVX512 void scan_avx512(const Part& part) { scan_part(part); }
-
-constexpr std::array<void (*)(const Part&), kVectorLevels> kScan = {scan_portable, scan_avx2,
-                                                                    scan_avx512};
-
 // The bounds are rounded to float; this keeps them on the safe side.
 constexpr double kMargin = 1e-6;
 
@@ -75,7 +67,7 @@ void LuminanceBounds::scan(std::size_t first, std::size_t size, const float* lum
 
 void LuminanceBounds::scan(std::size_t first, std::size_t size, const float* luminance,
                            unsigned char* may_fire, int vector_level) const {
-  kScan.at(static_cast<std::size_t>(vector_level))(
+  compiled_for<scan_part>(vector_level)(
       {size, luminance, low_.data() + first, high_.data() + first, may_fire, epsilon_});
 }
 

@@ -1,7 +1,6 @@
 #include "sim/events/photoreceptor.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -124,31 +123,14 @@ template <int kOrder, bool kOwnTime>
   }
 }
 
-using Kernel = void (*)(const Constants&, const Photoreceptor::Row&);
-
-template <int kOrder, bool kOwnTime>
-void advance_portable(const Constants& c, const Photoreceptor::Row& row) {
-  advance_row<kOrder, kOwnTime>(c, row);
-}
-template <int kOrder, bool kOwnTime>
-DODGESIM_TARGET_AVX2 void advance_avx2(const Constants& c, const Photoreceptor::Row& row) {
-  advance_row<kOrder, kOwnTime>(c, row);
-}
-template <int kOrder, bool kOwnTime>
-DODGESIM_TARGET_AVX512 void advance_avx512(const Constants& c, const Photoreceptor::Row& row) {
-  advance_row<kOrder, kOwnTime>(c, row);
-}
-
-template <int kOrder, bool kOwnTime>
-constexpr std::array<Kernel, kVectorLevels> kKernels = {advance_portable<kOrder, kOwnTime>,
-                                                        advance_avx2<kOrder, kOwnTime>,
-                                                        advance_avx512<kOrder, kOwnTime>};
-
-Kernel kernel_for(int order, bool own_time, int level) {
-  const auto i = static_cast<std::size_t>(level);
-  if (order == 0) return kKernels<0, false>[i];
-  if (order == 1) return own_time ? kKernels<1, true>[i] : kKernels<1, false>[i];
-  return own_time ? kKernels<2, true>[i] : kKernels<2, false>[i];
+auto kernel_for(int order, bool own_time, int level) {
+  if (order == 0) return compiled_for<advance_row<0, false>>(level);
+  if (order == 1) {
+    return own_time ? compiled_for<advance_row<1, true>>(level)
+                    : compiled_for<advance_row<1, false>>(level);
+  }
+  return own_time ? compiled_for<advance_row<2, true>>(level)
+                  : compiled_for<advance_row<2, false>>(level);
 }
 
 }  // namespace

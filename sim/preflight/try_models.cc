@@ -16,6 +16,7 @@
 #include "sim/config/pilot.h"
 #include "sim/control/mixer.h"
 #include "sim/flight/flight.h"
+#include "sim/preflight/placed.h"
 #include "sim/render/scene_geometry.h"
 #include "sim/world/model_trial.h"
 #include "sim/world/models_digest.h"
@@ -172,17 +173,6 @@ void check_world(const World& world, const Trial& trial) {
   check_rotors(world, trial);
   if (trial.stereo) check_stereo(world, trial);
   if (trial.seen) check_visible(world, trial);
-}
-
-// The message behind the place of the longest dotted key that it names and that the scenario gives;
-// a key without a dot, such as name, may be a word of any sentence.
-std::string placed(const std::string& message, const Scenario& campaign) {
-  std::string named;
-  for (const auto& [key, place] : campaign.places) {
-    const bool dotted = key.find('.') != std::string::npos;
-    if (dotted && key.size() > named.size() && message.find(key) != std::string::npos) named = key;
-  }
-  return named.empty() ? message : campaign.places.at(named) + ": " + message;
 }
 
 }  // namespace

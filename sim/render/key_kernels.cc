@@ -237,30 +237,14 @@ DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, 
 constexpr auto read_avx2 = read_portable, read_avx512 = read_portable;
 #endif
 
-// One set of functions a level. The target is an attribute.
-// NOLINTBEGIN(bugprone-macro-parentheses)
-#define DODGESIM_KEY_KERNELS(suffix, target)                                                   \
-  target void halve_##suffix(const float* values, int size, std::uint16_t* halves) {           \
-    halve_row(values, size, halves);                                                           \
-  }                                                                                            \
-  target void place_##suffix(const KeyMap& map, float column, float step, float row, int size, \
-                             float* x, float* y) {                                             \
-    place_row(map, column, step, row, size, x, y);                                             \
-  }                                                                                            \
-  target void spread_##suffix(const float* above, const float* below, float share, int cells,  \
-                              float* out) {                                                    \
-    spread_row(above, below, share, cells, out);                                               \
-  }                                                                                            \
-  constexpr KeyKernels k_##suffix = {halve_##suffix, place_##suffix, spread_##suffix, read_##suffix}
+constexpr KeyKernels kernels(int level) {
+  const auto read = level == kAvx512 ? read_avx512 : (level == kAvx2 ? read_avx2 : read_portable);
+  return {compiled_for<halve_row>(level), compiled_for<place_row>(level),
+          compiled_for<spread_row>(level), read};
+}
 
-DODGESIM_KEY_KERNELS(portable, );
-DODGESIM_KEY_KERNELS(avx2, DODGESIM_TARGET_AVX2);
-DODGESIM_KEY_KERNELS(avx512, DODGESIM_TARGET_AVX512);
-
-#undef DODGESIM_KEY_KERNELS
-// NOLINTEND(bugprone-macro-parentheses)
-
-constexpr std::array<KeyKernels, kVectorLevels> kKernels = {k_portable, k_avx2, k_avx512};
+constexpr std::array<KeyKernels, kVectorLevels> kKernels = {kernels(kPortable), kernels(kAvx2),
+                                                            kernels(kAvx512)};
 
 }  // namespace
 

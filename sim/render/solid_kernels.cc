@@ -11,7 +11,7 @@ namespace dodgesim {
 namespace {
 
 template <class Solid>
-DODGESIM_INLINE void points_row(const SolidView& view, int face, float column, float row, int size,
+DODGESIM_INLINE void put_points(const SolidView& view, int face, float column, float row, int size,
                                 float* __restrict x, float* __restrict y, float* __restrict z,
                                 float* __restrict n_x, float* __restrict n_y,
                                 float* __restrict n_z) {
@@ -26,6 +26,14 @@ DODGESIM_INLINE void points_row(const SolidView& view, int face, float column, f
     n_y[i] = at.n_y;
     n_z[i] = at.n_z;
   }
+}
+
+// The vectoriser believes parameters that they do not overlap.
+template <class Solid>
+DODGESIM_INLINE void points_row(const SolidView& view, int face, float column, float row, int size,
+                                const PointRow& points) {
+  put_points<Solid>(view, face, column, row, size, points.x, points.y, points.z, points.n_x,
+                    points.n_y, points.n_z);
 }
 
 template <class Solid>
@@ -136,56 +144,26 @@ DODGESIM_INLINE float rays_of_pixel(const SolidView& view, float column, float r
   return nearest == kNone ? 0.0f : std::bit_cast<float>(nearest);
 }
 
-// One set of functions a level and a solid. The target is an attribute.
-// NOLINTBEGIN(bugprone-macro-parentheses)
-#define DODGESIM_SOLID(name, level, target)                                                   \
-  target void name##_points_##level(const SolidView& view, int face, float column, float row, \
-                                    int size, const PointRow& points) {                       \
-    points_row<solid::name>(view, face, column, row, size, points.x, points.y, points.z,      \
-                            points.n_x, points.n_y, points.n_z);                              \
-  }                                                                                           \
-  target void name##_entries_##level(const SolidView& view, float larger_by, float column,    \
-                                     float row, int size, const EntryRow& entries) {          \
-    entries_row<solid::name>(view, larger_by, column, row, size, entries);                    \
-  }                                                                                           \
-  target float name##_rays_##level(const SolidView& view, float column, float row,            \
-                                   int(&counts)[kMostFaces]) {                                \
-    return rays_of_pixel<solid::name>(view, column, row, counts);                             \
-  }
-#define DODGESIM_SOLIDS(level, target)                                                      \
-  DODGESIM_SOLID(Ellipsoid, level, target)                                                  \
-  DODGESIM_SOLID(Capsule, level, target)                                                    \
-  DODGESIM_SOLID(Cylinder, level, target)                                                   \
-  DODGESIM_SOLID(Box, level, target)                                                        \
-  target void side_##level(const SolidView& view, float column, float row, int size,        \
-                           const EntryRow& entries) {                                       \
-    side_entries_row(view, column, row, size, entries);                                     \
-  }                                                                                         \
-  target void outline_##level(const SolidView& view, float column, float row, int size,     \
-                              float* coverage) {                                            \
-    outline_coverage_row(view, column, row, size, coverage);                                \
-  }                                                                                         \
-  constexpr std::array<SolidKernels, kSolidTypes> k_##level = {{                            \
-      {solid::Ellipsoid::kFaces, true, Ellipsoid_points_##level, Ellipsoid_entries_##level, \
-       nullptr, outline_##level, Ellipsoid_rays_##level},                                   \
-      {solid::Capsule::kFaces, false, Capsule_points_##level, Capsule_entries_##level,      \
-       side_##level, outline_##level, Capsule_rays_##level},                                \
-      {solid::Cylinder::kFaces, false, Cylinder_points_##level, Cylinder_entries_##level,   \
-       side_##level, outline_##level, Cylinder_rays_##level},                               \
-      {solid::Box::kFaces, false, Box_points_##level, Box_entries_##level, nullptr,         \
-       outline_##level, Box_rays_##level},                                                  \
-  }};
+template <class Solid>
+constexpr SolidKernels kernels_of(int level, bool has_side, bool conic_is_outline) {
+  return {Solid::kFaces,
+          conic_is_outline,
+          compiled_for<points_row<Solid>>(level),
+          compiled_for<entries_row<Solid>>(level),
+          has_side ? compiled_for<side_entries_row>(level) : nullptr,
+          compiled_for<outline_coverage_row>(level),
+          compiled_for<rays_of_pixel<Solid>>(level)};
+}
 
-DODGESIM_SOLIDS(portable, )
-DODGESIM_SOLIDS(avx2, DODGESIM_TARGET_AVX2)
-DODGESIM_SOLIDS(avx512, DODGESIM_TARGET_AVX512)
-
-#undef DODGESIM_SOLIDS
-#undef DODGESIM_SOLID
-// NOLINTEND(bugprone-macro-parentheses)
+constexpr std::array<SolidKernels, kSolidTypes> kernels(int level) {
+  return {kernels_of<solid::Ellipsoid>(level, false, true),
+          kernels_of<solid::Capsule>(level, true, false),
+          kernels_of<solid::Cylinder>(level, true, false),
+          kernels_of<solid::Box>(level, false, false)};
+}
 
 constexpr std::array<std::array<SolidKernels, kSolidTypes>, kVectorLevels> kKernels = {
-    k_portable, k_avx2, k_avx512};
+    kernels(kPortable), kernels(kAvx2), kernels(kAvx512)};
 
 }  // namespace
 

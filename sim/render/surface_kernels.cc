@@ -192,44 +192,18 @@ DODGESIM_INLINE void blend_row(const float* __restrict sum, const float* __restr
   }
 }
 
-// One set of functions a level. The target is an attribute.
-// NOLINTBEGIN(bugprone-macro-parentheses)
-#define DODGESIM_TEXTURE(name, cube, two, target)                                                \
-  target void name(const TextureOnSolid& texture, const PointRow& points, const PointRow& below, \
-                   int size, float* luminance) {                                                 \
-    texture_row<cube, two>(texture, points, below, size, luminance);                             \
-  }
-#define DODGESIM_SURFACE_KERNELS(suffix, target)                                                  \
-  target void light_##suffix(const LightsInG& lights, float albedo, float emission,               \
-                             const PointRow& points, int size, float* luminance) {                \
-    light_row(lights, albedo, emission, points, size, luminance);                                 \
-  }                                                                                               \
-  DODGESIM_TEXTURE(flat_nearest_##suffix, false, false, target)                                   \
-  DODGESIM_TEXTURE(flat_two_##suffix, false, true, target)                                        \
-  DODGESIM_TEXTURE(cube_nearest_##suffix, true, false, target)                                    \
-  DODGESIM_TEXTURE(cube_two_##suffix, true, true, target)                                         \
-  target void accumulate_##suffix(const float* value, const float* share, int size, float* sum) { \
-    accumulate_row(value, share, size, sum);                                                      \
-  }                                                                                               \
-  target void blend_##suffix(const float* sum, const float* coverage, const float* t, int size,   \
-                             float* luminance) {                                                  \
-    blend_row(sum, coverage, t, size, luminance);                                                 \
-  }                                                                                               \
-  constexpr SurfaceKernels k_##suffix = {                                                         \
-      light_##suffix,                                                                             \
-      {flat_nearest_##suffix, flat_two_##suffix, cube_nearest_##suffix, cube_two_##suffix},       \
-      accumulate_##suffix,                                                                        \
-      blend_##suffix}
+constexpr SurfaceKernels kernels(int level) {
+  return {
+      compiled_for<light_row>(level),
+      {compiled_for<texture_row<false, false>>(level),
+       compiled_for<texture_row<false, true>>(level), compiled_for<texture_row<true, false>>(level),
+       compiled_for<texture_row<true, true>>(level)},
+      compiled_for<accumulate_row>(level),
+      compiled_for<blend_row>(level)};
+}
 
-DODGESIM_SURFACE_KERNELS(portable, );
-DODGESIM_SURFACE_KERNELS(avx2, DODGESIM_TARGET_AVX2);
-DODGESIM_SURFACE_KERNELS(avx512, DODGESIM_TARGET_AVX512);
-
-#undef DODGESIM_SURFACE_KERNELS
-#undef DODGESIM_TEXTURE
-// NOLINTEND(bugprone-macro-parentheses)
-
-constexpr std::array<SurfaceKernels, kVectorLevels> kKernels = {k_portable, k_avx2, k_avx512};
+constexpr std::array<SurfaceKernels, kVectorLevels> kKernels = {kernels(kPortable), kernels(kAvx2),
+                                                                kernels(kAvx512)};
 
 }  // namespace
 

@@ -111,6 +111,9 @@ TEST(BenchCommand, RefusesUnknownCasesAndFilesItCannotWrite) {
   EXPECT_EQ(nowhere.output,
             "/no/such/dir/bench.json could not be created: No such file or directory.\n");
   EXPECT_EQ(dodgesim("bench log --runs 0").exit_code, 2);
+  const Outcome undrawn = dodgesim("bench log --runs 1 --plots plots");
+  EXPECT_EQ(undrawn.exit_code, 2);
+  EXPECT_EQ(undrawn.output, "--plots draws the times of the pilot: name a case of it, or none.\n");
 }
 
 }  // namespace

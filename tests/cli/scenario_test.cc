@@ -76,6 +76,23 @@ TEST_F(ScenarioCommandTest, WhatOnlyTheModelsRefuseHasAPlaceToo) {
                                  HasSubstr("lift only 0.4")));
 }
 
+TEST_F(ScenarioCommandTest, ThrowsThatAreImpossibleAreFoundBeforeTheyAreFlown) {
+  write("far.yaml", "pilot: none\nrepeats: 20\nthrow:\n  launch_height_m: 1.5\n  distance_m: 20\n  launch_s: 0\n");
+  const Outcome far = dodgesim("validate " + path("far.yaml"));
+  EXPECT_EQ(far.exit_code, 2);
+  EXPECT_THAT(far.output, ::testing::StartsWith(path("far.yaml") +
+                                                ":5:15: In throw 0: The throw starts at (1"));
+  const std::string uniform = "validate " + path("far.yaml") + " --set ";
+  EXPECT_EQ(dodgesim(uniform + "'throw.distance_m=!uniform [2, 4]'").exit_code, 0);
+  const Outcome some = dodgesim(uniform + "'throw.distance_m=!uniform [2, 10]'");
+  EXPECT_EQ(some.exit_code, 2) << "no draw of twenty is near the room's wall";
+  EXPECT_THAT(some.output, HasSubstr("behind the room's \"wall_front\""));
+  const Outcome cell = dodgesim(uniform + "'grid={throw.distance_m: [3, 20]}'");
+  EXPECT_THAT(cell.output, HasSubstr("In throw 1 (throw.distance_m 20): "));
+  EXPECT_THAT(dodgesim(uniform + "throw.distance_m=2 --set repeats=201").output,
+              HasSubstr("of 201 throws (200 of which were solved)"));
+}
+
 TEST_F(ScenarioCommandTest, BadSettingsAreUsageErrors) {
   const std::string validate = "validate " + path("s.yaml");
   const Outcome typo = dodgesim(validate + " --set throw.spede_mps=3");

@@ -1,8 +1,10 @@
 // dodgesim bench: how fast is it on this machine?
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
 
+#include "sim/base/error.h"
 #include "sim/bench/bench.h"
 #include "sim/files/output_file.h"
 #include "sim/render/osmesa_context.h"
@@ -31,6 +33,10 @@ void list_cases(const std::vector<BenchCase>& cases) {
 void run(const BenchArguments& arguments, const std::string& command_line) {
   const std::vector<BenchCase> cases = select(all_bench_cases(), arguments.cases);
   if (arguments.list) return list_cases(cases);
+  const auto draws = [](const BenchCase& bench) { return bench.plots; };
+  if (!arguments.options.plots_dir.empty() && std::none_of(cases.begin(), cases.end(), draws)) {
+    throw ScenarioError("--plots draws the times of the pilot: name a case of it, or none.");
+  }
   std::optional<OutputFile> json;  // opened first: not to be able to write it is known at once
   if (!arguments.json.empty()) json.emplace(arguments.json);
   const auto measurements = measure(cases, arguments.options, [](const Measurement& measurement) {

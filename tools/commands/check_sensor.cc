@@ -58,16 +58,17 @@ int study(const CheckSensorArguments& arguments) {
 int check_sensor(const CheckSensorArguments& arguments, const std::string& command_line) {
   const EventCameraSpec camera = named_event_camera(arguments.camera);
   std::optional<OutputFile> report;
-  if (!arguments.out.empty()) report.emplace(make_directory(arguments.out) / "report.html");
+  Scenario scenario;
+  if (!arguments.out.empty()) {
+    scenario = load_scenario(DODGESIM_SCENARIOS_DIR "/demo.yaml", arguments.models_dir);
+    scenario.sensors.events = camera;
+    report.emplace(make_directory(arguments.out) / "report.html");
+  }
   std::vector<Check> checks;
   bool failed = false;
   auto make_checks = sensor_checks(camera, arguments.seed);
   if (report) {
-    make_checks.push_back([&] {
-      Scenario scenario = load_scenario(DODGESIM_SCENARIOS_DIR "/demo.yaml", arguments.models_dir);
-      scenario.sensors.events = camera;
-      return judge(measure_time_statistics(scenario, kThrow));
-    });
+    make_checks.push_back([&] { return judge(measure_time_statistics(scenario, kThrow)); });
   }
   for (const auto& make_check : make_checks) {
     checks.push_back(make_check());
@@ -106,7 +107,7 @@ void add_check_sensor_command(CLI::App& program, const std::string& command_line
   command
       ->add_option("--sampling", arguments->sampling,
                    "Instead: what the sampling of the rendered scene costs in accuracy, over this\n"
-                   "many random throws, for several settings; some 10 s a throw")
+                   "many random throws, for several settings; some 30 s a throw")
       ->check(whole_number_between(1, 10000))
       ->excludes(out)
       ->type_name("THROWS");

@@ -74,7 +74,7 @@ std::string names(const std::map<int, std::vector<ThrowOutcome>>& parts) {
   return text;
 }
 
-// "Sweep value 1 (delays.total_ms 60)": with the keys that are the same for all of its throws.
+// "Sweep value 1 (delays.compute_us 60000)": with the keys that are the same for all of its throws.
 std::string heading(int sweep, const std::vector<ThrowOutcome>& outcomes) {
   std::vector<AxisValue> common;
   for (const AxisValue& setting : outcomes.front().settings) {
@@ -133,7 +133,9 @@ void add_compare_command(CLI::App& program, int& exit_code) {
       "nor\n"
       "to land or crash.\n"
       "Campaigns of the same seed and throws are compared throw by throw (McNemar's exact test),\n"
-      "others as independent samples (Boschloo's exact test). Intervals are of 95 %.\n\n"
+      "others of the same grid and sweep as independent samples (Boschloo's exact test). "
+      "Intervals\n"
+      "are of 95 %.\n\n"
       "Example:\n"
       "  dodgesim run s.yaml --out paper\n"
       "  dodgesim run s.yaml --out told --set pilot=oracle\n"

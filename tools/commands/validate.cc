@@ -6,6 +6,7 @@
 #include "sim/config/expand.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
+#include "sim/preflight/try_throws.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -30,9 +31,11 @@ void validate(const ValidateArguments& arguments) {
     std::cout << to_yaml(scenario);
     return;
   }
+  const int tried = try_throws(scenario);
   std::cout << arguments.scenario << ": a valid scenario";
   if (scenario.anyone_throws()) {
     std::cout << " of " << count_text(throw_count(scenario), "throw");
+    if (tried < throw_count(scenario)) std::cout << " (" << tried << " of which were solved)";
   } else {
     std::cout << " in which nobody throws";
   }

@@ -1,0 +1,18 @@
+#include "sim/preflight/placed.h"
+
+namespace dodgesim {
+
+std::string placed(const std::string& message, const Scenario& campaign) {
+  std::size_t first = std::string::npos;
+  std::string named;
+  for (const auto& [key, place] : campaign.places) {
+    if (key.find('.') == std::string::npos) continue;
+    const std::size_t at = message.find(key);
+    if (at > first || at == std::string::npos) continue;
+    if (at < first || key.size() > named.size()) named = key;
+    first = at;
+  }
+  return named.empty() ? message : campaign.places.at(named) + ": " + message;
+}
+
+}  // namespace dodgesim
