@@ -77,11 +77,13 @@ TEST_F(ScenarioCommandTest, WhatOnlyTheModelsRefuseHasAPlaceToo) {
 }
 
 TEST_F(ScenarioCommandTest, ThrowsThatAreImpossibleAreFoundBeforeTheyAreFlown) {
-  write("far.yaml", "pilot: none\nrepeats: 20\nthrow:\n  launch_height_m: 1.5\n  distance_m: 20\n  launch_s: 0\n");
+  write("far.yaml",
+        "pilot: none\nrepeats: 20\nthrow:\n  launch_height_m: 1.5\n  distance_m: 20\n  launch_s: "
+        "0.1\n");
   const Outcome far = dodgesim("validate " + path("far.yaml"));
   EXPECT_EQ(far.exit_code, 2);
   EXPECT_THAT(far.output, ::testing::StartsWith(path("far.yaml") +
-                                                ":5:15: In throw 0: The throw starts at (1"));
+                                                ":5:15: In throw 0: The throw starts at (19.9"));
   const std::string uniform = "validate " + path("far.yaml") + " --set ";
   EXPECT_EQ(dodgesim(uniform + "'throw.distance_m=!uniform [2, 4]'").exit_code, 0);
   const Outcome some = dodgesim(uniform + "'throw.distance_m=!uniform [2, 10]'");
