@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string>
 
 #include "sim/base/error.h"
 #include "sim/campaign/campaign.h"
@@ -50,8 +51,18 @@ void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_
   std::ostringstream message;
   message << "The throw starts at (" << launch_p_W.x() << ", " << launch_p_W.y() << ", "
           << launch_p_W.z() << ") m, behind the room's \"" << geom_name(world, hit->geom)
-          << "\": reduce throw.distance_m or throw.launch_height_m, or move mission.start_m.";
+          << "\" as seen from the vehicle: change throw.distance_m, throw.bearing_deg, "
+             "throw.launch_height_m or the mission.";
   throw ScenarioError(message.str());
+}
+
+// How object i leaves the hand to meet the vehicle. Throws ScenarioError if it cannot.
+BodyState launch_at(const BodyState& vehicle, const Throw& toss, const World& world, int i) {
+  const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
+  const BodyState launch =
+      solve_throw(toss, world.object(i), vehicle.p_W, std::atan2(x_W.y(), x_W.x()));
+  check_launch_in_sight(world, vehicle.p_W, launch.p_W);
+  return launch;
 }
 
 FlightResult summary(const FlightRecord& record, bool thrown) {
@@ -141,16 +152,17 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
   }
   World world(world_spec(scenario, plan.launches));
   world.reset(scenario.mission.start_m, 0, Eigen::Vector3d::Zero());
-  int object = 0;
-  for (FlightPlan::Launch& launch : plan.launches) {
-    const Throw& toss = launch.toss;
-    const BodyState vehicle = undisturbed_vehicle(scenario, throw_index, toss.arrival_us());
-    const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
-    const double heading_rad = std::atan2(x_W.y(), x_W.x());
-    launch.state = solve_throw(toss, world.object(object++), vehicle.p_W, heading_rad);
-    check_launch_in_sight(world, vehicle.p_W, launch.state.p_W);
-    plan.end_us =
-        std::max(plan.end_us, round_to_tick(toss.arrival_us() + microseconds(scenario.after_s)));
+  for (int i = 0; i < world.object_count(); ++i) {
+    FlightPlan::Launch& launch = plan.launches[static_cast<std::size_t>(i)];
+    const BodyState vehicle = undisturbed_vehicle(scenario, throw_index, launch.toss.arrival_us());
+    try {
+      launch.state = launch_at(vehicle, launch.toss, world, i);
+    } catch (const ScenarioError& error) {
+      if (world.object_count() == 1) throw;
+      throw ScenarioError("Object " + std::to_string(i) + ": " + error.what());
+    }
+    plan.end_us = std::max(
+        plan.end_us, round_to_tick(launch.toss.arrival_us() + microseconds(scenario.after_s)));
   }
   return plan;
 }

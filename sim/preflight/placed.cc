@@ -2,7 +2,7 @@
 
 namespace dodgesim {
 
-std::string placed(const std::string& message, const Scenario& campaign) {
+std::string place_named_in(const std::string& message, const Scenario& campaign) {
   std::size_t first = std::string::npos;
   std::string named;
   for (const auto& [key, place] : campaign.places) {
@@ -12,7 +12,11 @@ std::string placed(const std::string& message, const Scenario& campaign) {
     if (at < first || key.size() > named.size()) named = key;
     first = at;
   }
-  return named.empty() ? message : campaign.places.at(named) + ": " + message;
+  return named.empty() ? "" : campaign.places.at(named);
+}
+
+std::string placed(const std::string& message, const std::string& place) {
+  return place.empty() ? message : place + ": " + message;
 }
 
 }  // namespace dodgesim

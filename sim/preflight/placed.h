@@ -7,9 +7,12 @@
 
 namespace dodgesim {
 
-// The message behind the place of the first dotted key that it names and that the scenario gives,
-// the longest of those at one place in it; a key without a dot, such as name, may be a word of any
-// sentence.
-std::string placed(const std::string& message, const Scenario& campaign);
+// "file:line:column" of the first dotted key that the message names and that the scenario gives,
+// the longest of those at one place in it; empty if there is none. A key without a dot, such as
+// name, may be a word of any sentence.
+std::string place_named_in(const std::string& message, const Scenario& campaign);
+
+// "place: message", or the message alone.
+std::string placed(const std::string& message, const std::string& place);
 
 }  // namespace dodgesim

@@ -186,7 +186,7 @@ void try_models(const std::vector<Scenario>& campaigns) {
         try_world(trial.world, trial.places,
                   [&trial](const World& world) { check_world(world, trial); });
       } catch (const ScenarioError& error) {
-        throw ScenarioError(placed(error.what(), campaign));
+        throw ScenarioError(placed(error.what(), place_named_in(error.what(), campaign)));
       }
     }
   }

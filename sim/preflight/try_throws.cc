@@ -1,7 +1,8 @@
 #include "sim/preflight/try_throws.h"
 
-#include <algorithm>
 #include <cstdint>
+#include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
@@ -14,6 +15,14 @@ namespace dodgesim {
 
 namespace {
 
+// Multiples of it, modulo `throws`, meet every throw once, are spread evenly over them from the
+// beginning, and meet every cell before any twice: it has no factor in common with their number.
+std::int64_t stride_through(int throws) {
+  auto stride = static_cast<std::int64_t>(throws / std::numbers::phi);
+  while (std::gcd(stride, throws) != 1) ++stride;
+  return stride;
+}
+
 // "throw 3 (throw.distance_m 9)".
 std::string name_of(const ThrowCase& thrown) {
   std::vector<AxisValue> values = thrown.cell_values;
@@ -22,21 +31,42 @@ std::string name_of(const ThrowCase& thrown) {
   return values.empty() ? number : number + " (" + label(values) + ")";
 }
 
+std::string place_of(const std::string& mistake, const Scenario& campaign) {
+  const std::string named = place_named_in(mistake, campaign);
+  if (!named.empty()) return named;
+  for (const char* key : {"throws", "throw"}) {
+    const auto found = campaign.places.find(key);
+    if (found != campaign.places.end()) return found->second;
+  }
+  return "";
+}
+
+// Simulated time up to the arrivals, which each object needs anew.
+double solved_s(const FlightPlan& plan) {
+  double sum_s = 0;
+  for (const FlightPlan::Launch& launch : plan.launches) {
+    sum_s += 1e-6 * static_cast<double>(launch.toss.arrival_us());
+  }
+  return sum_s;
+}
+
 }  // namespace
 
 int try_throws(const Scenario& campaign) {
   if (!campaign.anyone_throws()) return 0;
   const int throws = throw_count(campaign);
-  const int tried = std::min(throws, kMostTriedThrows);
-  for (int i = 0; i < tried; ++i) {
-    const ThrowCase thrown = case_of(campaign, static_cast<int>(std::int64_t{i} * throws / tried));
+  const std::int64_t stride = stride_through(throws);
+  int solved = 0;
+  for (double sum_s = 0; solved < throws && sum_s < kMostSolvedS; ++solved) {
+    const ThrowCase thrown = case_of(campaign, static_cast<int>(solved * stride % throws));
     try {
-      plan_throw(thrown.scenario, thrown.stream);
+      sum_s += solved_s(plan_throw(thrown.scenario, thrown.stream));
     } catch (const std::runtime_error& error) {
-      throw ScenarioError(placed("In " + name_of(thrown) + ": " + error.what(), campaign));
+      throw ScenarioError(
+          placed("In " + name_of(thrown) + ": " + error.what(), place_of(error.what(), campaign)));
     }
   }
-  return tried;
+  return solved;
 }
 
 }  // namespace dodgesim

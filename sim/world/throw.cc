@@ -1,7 +1,7 @@
 #include "sim/world/throw.h"
 
 #include <cmath>
-#include <string>
+#include <sstream>
 
 #include "sim/base/error.h"
 
@@ -92,9 +92,11 @@ BodyState solve_throw(const Throw& toss, const ObjectPhysics& object,
     }
     launch.v_W -= J.inverse() * error;
   }
-  throw ScenarioError("A throw over " + std::to_string(toss.distance_m) + " m at " +
-                      std::to_string(toss.speed_mps) +
-                      " m/s is impossible: the air drag of the object is too strong.");
+  std::ostringstream message;
+  message << "A throw over " << toss.distance_m << " m at " << toss.speed_mps
+          << " m/s is impossible, as the air drag of the object is too strong: raise "
+             "throw.speed_mps or reduce throw.distance_m.";
+  throw ScenarioError(message.str());
 }
 
 }  // namespace dodgesim

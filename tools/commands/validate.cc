@@ -49,12 +49,14 @@ void validate(const ValidateArguments& arguments) {
 void add_validate_command(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<ValidateArguments>();
   CLI::App* command = program.add_subcommand(
-      "validate", "Check a scenario: every problem in one sentence with file, line and key");
+      "validate",
+      "Check a scenario: every problem in one sentence with file, line and key. Its throws are\n"
+      "solved, too: one that is impossible is a problem (`run` loses that throw only)");
   command->add_option("scenario", arguments->scenario, "The scenario's YAML file")
       ->required()
       ->type_name("SCENARIO.yaml");
   command->add_flag("--resolved", arguments->resolved,
-                    "Print the scenario with every value spelled out");
+                    "Print the scenario with every value spelled out; throws are not solved");
   add_set_option(*command, arguments->set);
   add_models_option(*command, arguments->models_dir);
   add_plugin_option(*command, arguments->plugin);
