@@ -1,6 +1,7 @@
 #include "sim/loop.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -29,7 +30,7 @@ FlightRecord fly(const Scenario& scenario, const FlightPlan& plan, FlightObserve
 
 namespace {
 
-TimeUs microseconds(double seconds) { return static_cast<TimeUs>(seconds * 1e6 + 0.5); }
+TimeUs microseconds(double seconds) { return std::llround(seconds * 1e6); }
 
 TimeUs round_to_tick(TimeUs t_us) { return (t_us + kTickUs / 2) / kTickUs * kTickUs; }
 
@@ -59,7 +60,7 @@ void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_
 // How object i leaves the hand to meet the vehicle. Throws ScenarioError if it cannot.
 BodyState launch_at(const BodyState& vehicle, const Throw& toss, const World& world, int i) {
   const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
-  const BodyState launch =
+  BodyState launch =
       solve_throw(toss, world.object(i), vehicle.p_W, std::atan2(x_W.y(), x_W.x()));
   check_launch_in_sight(world, vehicle.p_W, launch.p_W);
   return launch;

@@ -32,7 +32,7 @@ std::string name_of(const ThrowCase& thrown) {
 }
 
 std::string place_of(const std::string& mistake, const Scenario& campaign) {
-  const std::string named = place_named_in(mistake, campaign);
+  std::string named = place_named_in(mistake, campaign);
   if (!named.empty()) return named;
   for (const char* key : {"throws", "throw"}) {
     const auto found = campaign.places.find(key);
