@@ -237,10 +237,12 @@ DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, 
 constexpr auto read_avx2 = read_portable, read_avx512 = read_portable;
 #endif
 
+constexpr std::array<decltype(KeyKernels::read), kVectorLevels> kRead = {read_portable, read_avx2,
+                                                                         read_avx512};
+
 constexpr KeyKernels kernels(int level) {
-  const auto read = level == kAvx512 ? read_avx512 : (level == kAvx2 ? read_avx2 : read_portable);
   return {compiled_for<halve_row>(level), compiled_for<place_row>(level),
-          compiled_for<spread_row>(level), read};
+          compiled_for<spread_row>(level), kRead[static_cast<std::size_t>(level)]};
 }
 
 constexpr std::array<KeyKernels, kVectorLevels> kKernels = {kernels(kPortable), kernels(kAvx2),

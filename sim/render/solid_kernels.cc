@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <type_traits>
 
 #include "sim/base/vector_level.h"
 
@@ -145,21 +146,20 @@ DODGESIM_INLINE float rays_of_pixel(const SolidView& view, float column, float r
 }
 
 template <class Solid>
-constexpr SolidKernels kernels_of(int level, bool has_side, bool conic_is_outline) {
+constexpr SolidKernels kernels_of(int level, decltype(SolidKernels::side_entries) side_entries) {
   return {Solid::kFaces,
-          conic_is_outline,
+          std::is_same_v<Solid, solid::Ellipsoid>,
           compiled_for<points_row<Solid>>(level),
           compiled_for<entries_row<Solid>>(level),
-          has_side ? compiled_for<side_entries_row>(level) : nullptr,
+          side_entries,
           compiled_for<outline_coverage_row>(level),
           compiled_for<rays_of_pixel<Solid>>(level)};
 }
 
 constexpr std::array<SolidKernels, kSolidTypes> kernels(int level) {
-  return {kernels_of<solid::Ellipsoid>(level, false, true),
-          kernels_of<solid::Capsule>(level, true, false),
-          kernels_of<solid::Cylinder>(level, true, false),
-          kernels_of<solid::Box>(level, false, false)};
+  const auto side = compiled_for<side_entries_row>(level);
+  return {kernels_of<solid::Ellipsoid>(level, nullptr), kernels_of<solid::Capsule>(level, side),
+          kernels_of<solid::Cylinder>(level, side), kernels_of<solid::Box>(level, nullptr)};
 }
 
 constexpr std::array<std::array<SolidKernels, kSolidTypes>, kVectorLevels> kKernels = {

@@ -57,19 +57,16 @@ int study(const CheckSensorArguments& arguments) {
 
 int check_sensor(const CheckSensorArguments& arguments, const std::string& command_line) {
   const EventCameraSpec camera = named_event_camera(arguments.camera);
+  auto make_checks = sensor_checks(camera, arguments.seed);
   std::optional<OutputFile> report;
-  Scenario scenario;
   if (!arguments.out.empty()) {
-    scenario = load_scenario(DODGESIM_SCENARIOS_DIR "/demo.yaml", arguments.models_dir);
+    Scenario scenario = load_scenario(DODGESIM_SCENARIOS_DIR "/demo.yaml", arguments.models_dir);
     scenario.sensors.events = camera;
+    make_checks.push_back([scenario] { return judge(measure_time_statistics(scenario, kThrow)); });
     report.emplace(make_directory(arguments.out) / "report.html");
   }
   std::vector<Check> checks;
   bool failed = false;
-  auto make_checks = sensor_checks(camera, arguments.seed);
-  if (report) {
-    make_checks.push_back([&] { return judge(measure_time_statistics(scenario, kThrow)); });
-  }
   for (const auto& make_check : make_checks) {
     checks.push_back(make_check());
     failed = failed || checks.back().failed();

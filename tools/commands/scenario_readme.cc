@@ -67,8 +67,9 @@ grid:
 ```
 
 Every combination of the values is a cell with `repeats` throws, each with draws of its own: here 6
-cells and 60 throws. Any single key but `extends`, `name`, `description`, `seed`, `repeats`, `pilot`, `throws`,
-`grid`, `sweep` and `stop` may stand there. Throw i = repeat x cells + cell, so more repeats leave the throws that there are as they were.
+cells and 60 throws. Any single key but `extends`, `name`, `description`, `seed`, `repeats`, `pilot`,
+`throws`, `grid`, `sweep` and `stop` may stand there. Throw i = repeat x cells + cell, so more repeats
+leave the throws that there are as they were.
 
 ## Sweeps
 

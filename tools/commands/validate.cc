@@ -49,9 +49,7 @@ void validate(const ValidateArguments& arguments) {
 void add_validate_command(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<ValidateArguments>();
   CLI::App* command = program.add_subcommand(
-      "validate",
-      "Check a scenario: every problem in one sentence with file, line and key. Its throws are\n"
-      "solved, too: one that is impossible is a problem (`run` loses that throw only)");
+      "validate", "Check a scenario: every problem in one sentence with file, line and key");
   command->add_option("scenario", arguments->scenario, "The scenario's YAML file")
       ->required()
       ->type_name("SCENARIO.yaml");
@@ -60,6 +58,9 @@ void add_validate_command(CLI::App& program, int& exit_code) {
   add_set_option(*command, arguments->set);
   add_models_option(*command, arguments->models_dir);
   add_plugin_option(*command, arguments->plugin);
+  command->footer(
+      "Throws are solved, too, as many as it can in some 2 s: one that is impossible is a problem\n"
+      "(run loses that throw only).");
   command->callback([arguments, &exit_code] {
     validate(*arguments);
     exit_code = kOk;
