@@ -16,8 +16,6 @@ constexpr double kFiner = 8;    // the reference
 // In units of the default displacement limit.
 constexpr double kRates[] = {0.25, 0.5, 1, 2, 4, 8};
 
-constexpr double kCountLimit = 0.01;
-constexpr double kStampLimitUs = 50;
 constexpr double kLeastMatched = 0.9;
 constexpr double kLeastFilmed = 5000;
 

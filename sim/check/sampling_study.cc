@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kReferenceFiner = 8;
 constexpr double kLeastEvents = 300;  // of a throw, to be judged by itself
-constexpr double kCountLimit = 0.01, kStampLimitUs = 50;
+
 constexpr const char* kRoom = "room";
 constexpr const char* kVehicle = "qav_rxl";
 constexpr const char* kBall = "ball";

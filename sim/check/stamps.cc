@@ -13,7 +13,7 @@ constexpr int kTextureWidth = 160, kTextureHeight = 120;
 constexpr double kTexturePxps = 500;
 constexpr TimeUs kSampleUs = 1000;  // half a pixel of motion
 constexpr TimeUs kDurationUs = 100000;
-constexpr TimeUs kSettlingUs = 20000;  // events of the first pictures are left out
+constexpr TimeUs kFirstPicturesUs = 20000;  // their events are left out
 
 constexpr double kNear = 0.05;        // of a sample, as a share of the interval
 constexpr double kShareSlack = 0.02;  // about the even share of 2 kNear
@@ -32,7 +32,7 @@ StampPhases measure_stamps(const EventCameraSpec& camera_spec, std::uint64_t see
   StampPhases measured;
   for (const Event& event : events) {
     const TimeUs changed_us = event.t_us - spec.latency_us;
-    if (changed_us < kSettlingUs) continue;
+    if (changed_us < kFirstPicturesUs) continue;
     // Stamps are rounded: the microsecond's middle is where its events are on average.
     measured.phases.push_back((static_cast<double>(changed_us % kSampleUs) + 0.5) / kSampleUs);
   }

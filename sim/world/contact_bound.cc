@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/world/mujoco_eigen.h"
+
 namespace dodgesim {
 
 namespace {
-
-using ConstMap3 = Eigen::Map<const Eigen::Vector3d>;
 
 bool collides(const mjModel& model, int geom) {
   return model.geom_contype[geom] != 0 || model.geom_conaffinity[geom] != 0;
@@ -21,10 +21,9 @@ double box_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& half_size) 
 // At most the distance from p_W to a geom of the room, whose body's frame is W.
 double geom_distance(const mjModel& model, int geom, const Eigen::Vector3d& p_W) {
   const Eigen::Vector3d offset_W = p_W - ConstMap3(model.geom_pos + 3 * geom);
-  const mjtNum* const q = model.geom_quat + 4 * geom;
   const mjtNum* const size = model.geom_size + 3 * geom;
   const auto local = [&] {
-    return Eigen::Vector3d(Eigen::Quaterniond(q[0], q[1], q[2], q[3]).conjugate() * offset_W);
+    return Eigen::Vector3d(quaternion(model.geom_quat + 4 * geom).conjugate() * offset_W);
   };
   switch (model.geom_type[geom]) {
     case mjGEOM_PLANE:

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/world/mujoco_eigen.h"
 
 namespace dodgesim {
 
@@ -148,22 +149,19 @@ Convex Convex::hull(const Eigen::Isometry3d& pose, std::vector<Eigen::Vector3d> 
 }
 
 Convex Convex::from_geom(const mjModel& model, int geom, const std::string& label) {
-  const mjtNum* q = model.geom_quat + 4 * geom;
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-  pose.translation() = Eigen::Map<const Eigen::Vector3d>(model.geom_pos + 3 * geom);
-  const Eigen::Vector3d size = Eigen::Map<const Eigen::Vector3d>(model.geom_size + 3 * geom);
+  const Eigen::Isometry3d X = pose(model.geom_pos + 3 * geom, model.geom_quat + 4 * geom);
+  const ConstMap3 size(model.geom_size + 3 * geom);
   switch (model.geom_type[geom]) {
     case mjGEOM_SPHERE:
-      return sphere(pose.translation(), size[0]);
+      return sphere(X.translation(), size[0]);
     case mjGEOM_CAPSULE:
-      return capsule(pose, size[0], size[1]);
+      return capsule(X, size[0], size[1]);
     case mjGEOM_CYLINDER:
-      return cylinder(pose, size[0], size[1]);
+      return cylinder(X, size[0], size[1]);
     case mjGEOM_ELLIPSOID:
-      return ellipsoid(pose, size);
+      return ellipsoid(X, size);
     case mjGEOM_BOX:
-      return box(pose, size);
+      return box(X, size);
     case mjGEOM_MESH: {
       const int mesh = model.geom_dataid[geom];
       std::vector<Eigen::Vector3d> vertices;
@@ -171,7 +169,7 @@ Convex Convex::from_geom(const mjModel& model, int geom, const std::string& labe
         const float* v = model.mesh_vert + 3 * (model.mesh_vertadr[mesh] + k);
         vertices.emplace_back(v[0], v[1], v[2]);
       }
-      return hull(pose, std::move(vertices));
+      return hull(X, std::move(vertices));
     }
     default:
       throw ScenarioError(label +

@@ -6,24 +6,9 @@
 #include "sim/base/error.h"
 #include "sim/base/gravity.h"
 #include "sim/world/compose.h"
+#include "sim/world/mujoco_eigen.h"
 
 namespace dodgesim {
-
-namespace {
-
-using Map3 = Eigen::Map<Eigen::Vector3d>;
-using ConstMap3 = Eigen::Map<const Eigen::Vector3d>;
-
-Eigen::Quaterniond quaternion(const mjtNum* q) { return {q[0], q[1], q[2], q[3]}; }
-
-Eigen::Isometry3d pose(const mjtNum* p, const mjtNum* q) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.linear() = quaternion(q).toRotationMatrix();
-  X.translation() = ConstMap3(p);
-  return X;
-}
-
-}  // namespace
 
 int ModelReader::find(mjtObj type, const std::string& name) const {
   const int id = mj_name2id(&model_, type, name.c_str());

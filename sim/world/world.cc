@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sim/base/error.h"
+#include "sim/world/mujoco_eigen.h"
 #include "sim/world/room_ray.h"
 
 namespace dodgesim {
@@ -13,11 +14,6 @@ namespace {
 
 // Where objects wait for their launch: far outside every room.
 constexpr double kParkingM = 1000.0;
-
-using Map3 = Eigen::Map<Eigen::Vector3d>;
-using ConstMap3 = Eigen::Map<const Eigen::Vector3d>;
-
-Eigen::Quaterniond quaternion(const mjtNum* q) { return {q[0], q[1], q[2], q[3]}; }
 
 Eigen::Quaterniond rotation(const Eigen::Vector3d& angle_rad) {
   const double angle = angle_rad.norm();

@@ -1,0 +1,23 @@
+#pragma once
+
+// MuJoCo's arrays as Eigen's types, in MuJoCo's order: a vector x y z, a quaternion w x y z.
+
+#include <mujoco/mujoco.h>
+
+#include <Eigen/Geometry>
+
+namespace dodgesim {
+
+using Map3 = Eigen::Map<Eigen::Vector3d>;
+using ConstMap3 = Eigen::Map<const Eigen::Vector3d>;
+
+inline Eigen::Quaterniond quaternion(const mjtNum* q) { return {q[0], q[1], q[2], q[3]}; }
+
+inline Eigen::Isometry3d pose(const mjtNum* p, const mjtNum* q) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = quaternion(q).toRotationMatrix();
+  X.translation() = ConstMap3(p);
+  return X;
+}
+
+}  // namespace dodgesim
