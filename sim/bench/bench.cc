@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "sim/base/error.h"
@@ -112,19 +111,13 @@ std::string line(const Measurement& measurement) {
 std::string bench_json(const std::vector<Measurement>& measurements,
                        const std::string& command_line, const std::string& gl_renderer) {
   const BuildInfo build = build_info();
-  const Machine machine = machine_info();
-  nlohmann::ordered_json json;
-  json["program"] = {
-      {"name", "dodgesim"},         {"version", build.version},       {"commit", build.commit},
-      {"modified", build.modified}, {"build_type", build.build_type}, {"compiler", build.compiler}};
+  Json json;
+  json["program"] = program_group();
   json["libraries"] = {
       {"mujoco", build.mujoco}, {"opencv", build.opencv}, {"gl_renderer", gl_renderer}};
-  json["machine"] = {{"cpu", machine.cpu},
-                     {"cpu_flags", machine.cpu_flags},
-                     {"cores", machine.cores},
-                     {"system", machine.system}};
+  json["machine"] = machine_group();
   json["bench"] = {{"command_line", command_line}, {"finished", utc_now()}};
-  json["cases"] = nlohmann::ordered_json::array();
+  json["cases"] = Json::array();
   for (const Measurement& measurement : measurements) {
     json["cases"].push_back({{"case", measurement.quantity.name},
                              {"unit", measurement.quantity.unit},
@@ -132,7 +125,7 @@ std::string bench_json(const std::vector<Measurement>& measurements,
                              {"median", measurement.median()},
                              {"runs", measurement.runs}});
   }
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return to_text(json, 2) + "\n";
 }
 
 }  // namespace dodgesim

@@ -1,7 +1,6 @@
 #include "sim/campaign/manifest.h"
 
 #include <ctime>
-#include <nlohmann/json.hpp>
 
 #include "sim/campaign/build_info.h"
 
@@ -16,24 +15,33 @@ std::string utc_now() {
   return text;
 }
 
+Json program_group() {
+  const BuildInfo build = build_info();
+  return {{"name", "dodgesim"},        {"version", build.version},
+          {"commit", build.commit},    {"modified", build.modified},
+          {"sources", build.sources},  {"build_type", build.build_type},
+          {"compiler", build.compiler}};
+}
+
+Json machine_group() {
+  const Machine machine = machine_info();
+  return {{"cpu", machine.cpu},
+          {"cpu_flags", machine.cpu_flags},
+          {"cores", machine.cores},
+          {"system", machine.system}};
+}
+
 std::string manifest_json(const Scenario& scenario, const CampaignOptions& options,
                           const CampaignSummary& summary, const std::string& started) {
   const BuildInfo build = build_info();
-  const Machine machine = machine_info();
-  nlohmann::ordered_json manifest;
-  manifest["program"] = {{"name", "dodgesim"},        {"version", build.version},
-                         {"commit", build.commit},    {"modified", build.modified},
-                         {"sources", build.sources},  {"build_type", build.build_type},
-                         {"compiler", build.compiler}};
+  Json manifest;
+  manifest["program"] = program_group();
   manifest["libraries"] = {{"mujoco", build.mujoco},
                            {"opencv", build.opencv},
                            {"eigen", build.eigen},
                            {"yaml_cpp", build.yaml_cpp},
                            {"gl_renderer", options.gl_renderer ? options.gl_renderer() : ""}};
-  manifest["machine"] = {{"cpu", machine.cpu},
-                         {"cpu_flags", machine.cpu_flags},
-                         {"cores", machine.cores},
-                         {"system", machine.system}};
+  manifest["machine"] = machine_group();
   manifest["campaign"] = {{"scenario", scenario.name},
                           {"seed", scenario.seed},
                           {"throws", throw_count(scenario)},
@@ -52,8 +60,7 @@ std::string manifest_json(const Scenario& scenario, const CampaignOptions& optio
   if (summary.flown > 0 && summary.wall_s > 0) {
     manifest["time"]["throws_per_minute"] = 60.0 * summary.flown / summary.wall_s;
   }
-  // A command line may hold bytes that are not UTF-8: replace them rather than fail.
-  return manifest.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return to_text(manifest, 2) + "\n";
 }
 
 }  // namespace dodgesim

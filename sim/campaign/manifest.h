@@ -5,8 +5,13 @@
 #include <string>
 
 #include "sim/campaign/campaign.h"
+#include "sim/files/json.h"
 
 namespace dodgesim {
+
+// Its groups "program" and "machine", also for other files that say what made them.
+Json program_group();
+Json machine_group();
 
 std::string manifest_json(const Scenario& scenario, const CampaignOptions& options,
                           const CampaignSummary& summary, const std::string& started);

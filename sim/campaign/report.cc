@@ -4,7 +4,6 @@
 #include <bit>
 #include <cstring>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <type_traits>
 
 #include "sim/base/shell.h"
@@ -13,6 +12,7 @@
 #include "sim/campaign/report_files.h"
 #include "sim/campaign/statistics_table.h"
 #include "sim/files/base64.h"
+#include "sim/files/json.h"
 #include "sim/files/markup.h"
 
 namespace dodgesim {
@@ -20,8 +20,6 @@ namespace dodgesim {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "The page reads its numbers so.");
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::uint8_t kNone = 255;
 
@@ -276,8 +274,7 @@ std::string replay_line(const std::string& directory, const Scenario& scenario) 
 }
 
 std::string report_html(const LoadedCampaign& campaign, const std::string& directory) {
-  const std::string data = script_safe(
-      data_of(campaign, directory).dump(-1, ' ', false, Json::error_handler_t::replace));
+  const std::string data = script_safe(to_text(data_of(campaign, directory)));
   std::string tracks;
   for (const ThrowResult& result : campaign.results) tracks += result.trajectory;
 

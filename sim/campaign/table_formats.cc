@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "sim/campaign/csv.h"
 #include "sim/campaign/statistics_table.h"
 #include "sim/campaign/text_table.h"
+#include "sim/files/json.h"
 
 namespace dodgesim {
 
@@ -195,8 +195,6 @@ CsvRow csv_row_of(const StatisticsTable& table, const StatisticsTable::Row& row,
   return csv;
 }
 
-using Json = nlohmann::ordered_json;
-
 Json json_number(std::optional<double> value) {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
 }
@@ -272,7 +270,7 @@ std::string to_csv(const StatisticsTable& table) {
 std::string to_json(const StatisticsTable& table) {
   Json rows = Json::array();
   for (const StatisticsTable::Row& row : table.rows) rows.push_back(json_of(table, row));
-  return rows.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return to_text(rows, 2) + "\n";
 }
 
 }  // namespace dodgesim

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <deque>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 
 #include "sim/base/error.h"
 #include "sim/files/directory.h"
 #include "sim/files/input_file.h"
+#include "sim/files/json.h"
 #include "sim/files/output_file.h"
 
 namespace dodgesim {
@@ -16,7 +16,6 @@ namespace dodgesim {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kManifest = "manifest.json";
 constexpr const char* kCopied[] = {"throws.csv", "objects.csv", "scenario.resolved.yaml",
@@ -25,8 +24,8 @@ constexpr const char* kCopied[] = {"throws.csv", "objects.csv", "scenario.resolv
 Json read_manifest(const fs::path& directory) {
   const fs::path path = directory / kManifest;
   try {
-    return Json::parse(read_file(path));
-  } catch (const Json::exception& error) {
+    return parse_json(read_file(path));
+  } catch (const std::invalid_argument& error) {
     throw IoError(path.string() + " is no manifest of a campaign: " + error.what() + ".");
   }
 }
@@ -42,18 +41,18 @@ const Json& value_at(const Json& manifest, const std::string& group, const std::
 std::string text_at(const Json& manifest, const std::string& group, const std::string& key) {
   const Json& value = value_at(manifest, group, key);
   if (value.is_string()) return value.get<std::string>();
-  throw std::invalid_argument(group + "." + key + " must be a text, not " + value.dump());
+  throw std::invalid_argument(group + "." + key + " must be a text, not " + to_text(value));
 }
 
 double number_at(const Json& manifest, const std::string& group, const std::string& key) {
   const Json& value = value_at(manifest, group, key);
   if (value.is_number()) return value.get<double>();
-  throw std::invalid_argument(group + "." + key + " must be a number, not " + value.dump());
+  throw std::invalid_argument(group + "." + key + " must be a number, not " + to_text(value));
 }
 
 std::string kind_of(const Json& manifest) {
   return text_at(manifest, "machine", "cpu_flags") + "\n" +
-         (manifest.contains("libraries") ? manifest["libraries"].dump() : "") + "\n" +
+         (manifest.contains("libraries") ? to_text(manifest["libraries"]) : "") + "\n" +
          text_at(manifest, "program", "compiler") + "\n" +
          text_at(manifest, "program", "build_type");
 }
@@ -153,7 +152,7 @@ void write_baseline(const fs::path& directory, const fs::path& campaign, const G
   for (const char* name : kCopied) {
     files.emplace_back(directory / name).write(read_file(campaign / name));
   }
-  files.emplace_back(directory / kManifest).write(manifest.dump(2) + "\n");
+  files.emplace_back(directory / kManifest).write(to_text(manifest, 2) + "\n");
   for (OutputFile& file : files) file.finish();
   for (OutputFile& file : files) file.commit();
 }

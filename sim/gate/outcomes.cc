@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "sim/base/error.h"
 #include "sim/campaign/result_files.h"
 #include "sim/config/numbers.h"
 #include "sim/files/input_file.h"
+#include "sim/files/json.h"
 
 namespace dodgesim {
 
@@ -127,12 +128,20 @@ bool same_object(const DrawnObject& a, const DrawnObject& b) {
 }
 
 // A number of the campaign. What the manifest does not say is not known.
-std::optional<std::uint64_t> find_number(const nlohmann::json& manifest, const char* key) {
-  if (!manifest.is_object()) return std::nullopt;
-  const auto number = manifest.value(nlohmann::json::json_pointer(std::string("/campaign/") + key),
-                                     nlohmann::json());
-  if (!number.is_number_unsigned()) return std::nullopt;
-  return number.get<std::uint64_t>();
+std::optional<std::uint64_t> find_number(const Json& manifest, const char* key) {
+  const auto group = manifest.find("campaign");
+  if (group == manifest.end() || !group->is_object()) return std::nullopt;
+  const auto number = group->find(key);
+  if (number == group->end() || !number->is_number_unsigned()) return std::nullopt;
+  return number->get<std::uint64_t>();
+}
+
+Json manifest_or_nothing(const fs::path& path) {
+  try {
+    return parse_json(read_file(path));
+  } catch (const std::invalid_argument&) {
+    return Json();
+  }
 }
 
 }  // namespace
@@ -148,7 +157,7 @@ CampaignTables read_tables(const fs::path& directory) {
   if (fs::exists(objects)) tables.objects.emplace(objects);
   const fs::path path = directory / "manifest.json";
   if (!fs::exists(path)) return tables;
-  const auto manifest = nlohmann::json::parse(read_file(path), nullptr, false);
+  const Json manifest = manifest_or_nothing(path);
   tables.seed = find_number(manifest, "seed");
   tables.planned = find_number(manifest, "throws");
   return tables;

@@ -4,15 +4,13 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "sim/base/time.h"
+#include "sim/files/json.h"
 
 namespace dodgesim::foxglove {
-
-using Json = nlohmann::json;
 
 // Schemas of the messages below, and pieces to make others of.
 namespace schema {

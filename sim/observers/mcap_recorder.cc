@@ -14,7 +14,6 @@ namespace dodgesim {
 namespace {
 
 using foxglove::Colour;
-using foxglove::Json;
 using foxglove::Level;
 
 constexpr TimeUs kPoseEveryUs = 4000;
@@ -109,11 +108,11 @@ McapRecorder::McapRecorder(const std::string& path, const Intrinsics& intrinsics
 }
 
 void McapRecorder::add_topic(const std::string& topic, const Json& schema) {
-  topics_[topic] = writer_.add_topic(topic, schema.at("title"), schema.dump());
+  topics_[topic] = writer_.add_topic(topic, schema.at("title"), to_text(schema));
 }
 
 void McapRecorder::write(const std::string& topic, TimeUs t_us, const Json& message) {
-  writer_.write(topics_.at(topic), t_us, message.dump());
+  writer_.write(topics_.at(topic), t_us, to_text(message));
 }
 
 void McapRecorder::say(TimeUs t_us, Level level, const std::string& message) {

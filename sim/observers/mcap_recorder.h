@@ -41,8 +41,8 @@ class McapRecorder : public FlightObserver {
   void finish(const ThrowResult& result);
 
  private:
-  void write(const std::string& topic, TimeUs t_us, const foxglove::Json& message);
-  void add_topic(const std::string& topic, const foxglove::Json& schema);
+  void write(const std::string& topic, TimeUs t_us, const Json& message);
+  void add_topic(const std::string& topic, const Json& schema);
   void say(TimeUs t_us, foxglove::Level level, const std::string& message);
   void begin(const World& world);
   void show_launches(const World& world);

@@ -2,10 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
 
+#include "sim/files/json.h"
 #include "tests/cli/program.h"
 #include "tests/sim/files/temporary_directory.h"
 
@@ -90,7 +90,7 @@ TEST(BenchCommand, WritesAllRunsAndTheMachineAsJson) {
   const std::string file = (root / "bench.json").string();
   const Outcome outcome = dodgesim("bench log --runs 3 --json " + file);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  const auto json = nlohmann::json::parse(contents(file));
+  const auto json = dodgesim::parse_json(contents(file));
   ASSERT_EQ(json["cases"].size(), 2u);
   for (const auto& item : json["cases"]) EXPECT_EQ(item["runs"].size(), 3u);
   EXPECT_EQ(json["cases"][1]["case"], "log.double");

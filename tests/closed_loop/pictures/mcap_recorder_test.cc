@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "sim/files/json.h"
 #include "sim/loop.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/sim/files/mcap_reader.h"
@@ -15,7 +15,6 @@
 namespace dodgesim {
 namespace {
 
-using nlohmann::json;
 using testing::McapMessage;
 using testing::McapReader;
 
@@ -33,7 +32,7 @@ std::vector<unsigned char> from_base64(const std::string& text) {
 }
 
 // Whether the message has the fields that its schema lists, of the types that it says, no others.
-void expect_valid(const json& value, const json& schema, const std::string& where) {
+void expect_valid(const Json& value, const Json& schema, const std::string& where) {
   const std::string type = schema.at("type");
   if (type == "object") {
     ASSERT_TRUE(value.is_object()) << where;
@@ -45,7 +44,7 @@ void expect_valid(const json& value, const json& schema, const std::string& wher
     }
   } else if (type == "array") {
     ASSERT_TRUE(value.is_array()) << where;
-    for (const json& item : value) expect_valid(item, schema.at("items"), where + "[]");
+    for (const Json& item : value) expect_valid(item, schema.at("items"), where + "[]");
   } else if (type == "string") {
     EXPECT_TRUE(value.is_string()) << where;
   } else if (type == "boolean") {
@@ -55,7 +54,7 @@ void expect_valid(const json& value, const json& schema, const std::string& wher
   }
 }
 
-Eigen::Vector3d vector_of(const json& v) {
+Eigen::Vector3d vector_of(const Json& v) {
   return {v["x"].get<double>(), v["y"].get<double>(), v["z"].get<double>()};
 }
 
@@ -80,11 +79,11 @@ class McapRecorderTest : public ::testing::Test {
 TEST_F(McapRecorderTest, EveryMessageIsWhatItsSchemaSays) {
   const McapReader reader(record(scenario_));
   ASSERT_GT(reader.messages().size(), 1000u);
-  std::map<std::string, json> schemas;
-  for (const auto& [name, text] : reader.schemas()) schemas[name] = json::parse(text);
+  std::map<std::string, Json> schemas;
+  for (const auto& [name, text] : reader.schemas()) schemas[name] = parse_json(text);
   for (const McapMessage& message : reader.messages()) {
     ASSERT_EQ(schemas.at(message.schema).at("title"), message.schema);
-    expect_valid(json::parse(message.json), schemas.at(message.schema), message.topic);
+    expect_valid(parse_json(message.json), schemas.at(message.schema), message.topic);
     if (HasFatalFailure()) return;
   }
 }
@@ -96,8 +95,8 @@ TEST_F(McapRecorderTest, ShowsEverythingWhereItTrulyIs) {
   int objects = 0;
   for (const McapMessage& message : reader.of("/tf")) {
     const Snapshot truth = diary.at(static_cast<TimeUs>(message.time_ns / 1000));
-    const json transforms = json::parse(message.json);
-    for (const json& tf : transforms["transforms"]) {
+    const Json transforms = parse_json(message.json);
+    for (const Json& tf : transforms["transforms"]) {
       const std::string child = tf["child_frame_id"];
       if (child == "vehicle") {
         EXPECT_LT((vector_of(tf["translation"]) - truth.vehicle.p_W).norm(), 1e-12);
@@ -116,14 +115,14 @@ TEST_F(McapRecorderTest, ShowsEverythingWhereItTrulyIs) {
     const double up = (truth.vehicle.q_W * Eigen::Vector3d::UnitZ()).z();
     if (up < 0.9) continue;  // it may look at a wall
     const double height_m = truth.vehicle.p_W.z() / up;
-    EXPECT_NEAR(json::parse(message.json)["range_m"], height_m, 0.05 + 0.05 * height_m);
+    EXPECT_NEAR(parse_json(message.json)["range_m"], height_m, 0.05 + 0.05 * height_m);
   }
-  const json box = json::parse(reader.of("/scene/objects").at(0).json)["entities"][0];
+  const Json box = parse_json(reader.of("/scene/objects").at(0).json)["entities"][0];
   EXPECT_EQ(box["frame_id"], "object_0");
   EXPECT_LT((vector_of(box["cubes"][0]["size"]) - Eigen::Vector3d(0.2, 0.4 / 3, 0.1)).norm(), 1e-5);
-  const json room = json::parse(reader.of("/scene/room").at(0).json)["entities"][0];
+  const Json room = parse_json(reader.of("/scene/room").at(0).json)["entities"][0];
   EXPECT_EQ(room["lines"].size(), 6u);  // its walls
-  for (const json& point : room["lines"][0]["points"]) {
+  for (const Json& point : room["lines"][0]["points"]) {
     EXPECT_EQ(std::abs(point["x"].get<double>()), 6);
     EXPECT_EQ(std::abs(point["y"].get<double>()), 4);
     EXPECT_EQ(point["z"], 0);
@@ -134,7 +133,7 @@ TEST_F(McapRecorderTest, TellsWhatHappened) {
   const McapReader reader(record(scenario_));
   std::string log;
   for (const McapMessage& message : reader.of("/log")) {
-    log += json::parse(message.json)["message"].get<std::string>() + "\n";
+    log += parse_json(message.json)["message"].get<std::string>() + "\n";
   }
   EXPECT_THAT(log, ::testing::HasSubstr("Object 0 is thrown, 3."));
   EXPECT_THAT(log, ::testing::HasSubstr("The vehicle evades."));
@@ -142,7 +141,7 @@ TEST_F(McapRecorderTest, TellsWhatHappened) {
   EXPECT_THAT(log, ::testing::HasSubstr("Without dodging it would have been hit."));
   bool evading = false;
   for (const McapMessage& message : reader.of("/command")) {
-    const json command = json::parse(message.json);
+    const Json command = parse_json(message.json);
     EXPECT_NEAR(vector_of(command["velocity_mps"]).norm(), command["speed_mps"], 1e-12);
     evading = evading || command["evading"].get<bool>();
   }
@@ -169,7 +168,7 @@ TEST_F(McapRecorderTest, ShowsTheEventsOfTenMilliseconds) {
   recorder.finish({});
   const McapReader reader(testing::contents(path));
   const auto pixel = [&](const std::string& camera, std::size_t image, int y, int x) {
-    const json message = json::parse(reader.of("/camera/" + camera + "/events").at(image).json);
+    const Json message = parse_json(reader.of("/camera/" + camera + "/events").at(image).json);
     EXPECT_EQ(message["format"], "png");
     const cv::Mat1b picture = cv::imdecode(from_base64(message["data"]), cv::IMREAD_GRAYSCALE);
     EXPECT_EQ(picture.size(), cv::Size(320, 240));

@@ -21,7 +21,9 @@ TEST(MemoryLimit, AnAllocationBeyondItThrows) {
                [gb] {
                  limit_memory(2048);
                  try {
-                   return std::to_string(std::vector<char>(gb << 30).size() >> 30);
+                   std::vector<char> memory;
+                   memory.reserve(gb << 30);
+                   return std::to_string(memory.capacity() >> 30);
                  } catch (const std::bad_alloc&) {
                    return std::string("too much");
                  }

@@ -4,11 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "sim/base/error.h"
 #include "sim/bench/timed_emulation.h"
+#include "sim/files/json.h"
 
 namespace dodgesim {
 namespace {
@@ -95,13 +95,13 @@ TEST(Bench, WritesNumbersWithFiveDigitsAndNoExponent) {
 TEST(Bench, TheJsonHoldsAllRunsAndWhatTheyWereMadeOn) {
   BenchOptions options;
   const auto measurements = measure(three_cases(), options, [](const Measurement&) {});
-  const auto json = nlohmann::json::parse(bench_json(measurements, "dodgesim bench", "softpipe"));
+  const auto json = parse_json(bench_json(measurements, "dodgesim bench", "softpipe"));
   ASSERT_EQ(json["cases"].size(), 4u);
-  EXPECT_EQ(json["cases"][0], (nlohmann::json{{"case", "a.one"},
-                                              {"unit", "s"},
-                                              {"meaning", "what it is"},
-                                              {"median", 3.0},
-                                              {"runs", {1.0, 2.0, 3.0, 4.0, 5.0}}}));
+  EXPECT_EQ(json["cases"][0], (Json{{"case", "a.one"},
+                                    {"unit", "s"},
+                                    {"meaning", "what it is"},
+                                    {"median", 3.0},
+                                    {"runs", {1.0, 2.0, 3.0, 4.0, 5.0}}}));
   EXPECT_EQ(json["libraries"]["gl_renderer"], "softpipe");
   EXPECT_EQ(json["bench"]["command_line"], "dodgesim bench");
   for (const auto& [group, key] :

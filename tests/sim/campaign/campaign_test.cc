@@ -7,10 +7,10 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "sim/base/error.h"
+#include "sim/files/json.h"
 #include "sim/files/output_file.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 
@@ -190,7 +190,7 @@ TEST_F(CampaignTest, TheManifestSaysWhatFlewAndWhere) {
   with_facts.command_line = "dodgesim run fake.yaml \xff";
   with_facts.gl_renderer = [] { return std::string("llvmpipe"); };
   run_campaign(scenario_, with_facts, [&](int index) { return fly(index); });
-  const auto manifest = nlohmann::json::parse(read(root_ / "out" / "manifest.json"));
+  const auto manifest = parse_json(read(root_ / "out" / "manifest.json"));
   EXPECT_GE(manifest["program"]["commit"].get<std::string>().size(), 7u);
   EXPECT_THAT(manifest["program"]["compiler"].get<std::string>(), HasSubstr("g++ "));
   for (const char* library : {"mujoco", "opencv", "eigen", "yaml_cpp", "gl_renderer"}) {

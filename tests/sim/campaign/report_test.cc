@@ -3,9 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "sim/campaign/trajectory.h"
+#include "sim/files/json.h"
 #include "tests/sim/campaign/fake_throws.h"
 
 namespace dodgesim {
@@ -62,8 +61,8 @@ LoadedCampaign campaign(int throws) {
   return campaign;
 }
 
-nlohmann::json data_of(const std::string& html) {
-  return nlohmann::json::parse(between(html, "id=\"data\">", "</script>"));
+Json data_of(const std::string& html) {
+  return parse_json(between(html, "id=\"data\">", "</script>"));
 }
 
 TEST(ReportPage, NeedsNothingButItself) {
@@ -124,7 +123,7 @@ TEST(ReportPage, ValuesOfASweepHaveChartsOfTheirOwn) {
     result.sweep_values = {{"delays.compute_us", result.sweep == 0 ? "0" : "10000"}};
   }
   const auto data = data_of(report_html(swept, "out/x"));
-  EXPECT_EQ(data["sweep_keys"], nlohmann::json::parse(R"(["delays.compute_us"])"));
+  EXPECT_EQ(data["sweep_keys"], parse_json(R"(["delays.compute_us"])"));
   ASSERT_EQ(data["sections"].size(), 2u);
   EXPECT_EQ(data["sections"][1]["values"][0], "10000");
   EXPECT_EQ(data["sections"][1]["pilots"][2]["total"][1], 10);
@@ -144,7 +143,7 @@ TEST(ReportPage, ShowsTheCellsOfAnyGridAndTheHeatMapOfItsFirstTwoNumbers) {
   EXPECT_EQ(data["heat"][0]["key"], "throw.bearing_deg");
   EXPECT_EQ(data["heat"][1]["key"], "delays.command_us");
   ASSERT_EQ(data["cells"]["values"].size(), 6u);
-  EXPECT_EQ(data["cells"]["values"][4], nlohmann::json::parse(R"(["box", "0", "5000"])"));
+  EXPECT_EQ(data["cells"]["values"][4], parse_json(R"(["box", "0", "5000"])"));
   const auto& none = data["sections"][0]["pilots"][2];
   ASSERT_EQ(none["by_cell"].size(), 6u);
   for (const auto& rate : none["by_cell"]) EXPECT_EQ(rate[1], 8);

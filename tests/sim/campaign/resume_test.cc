@@ -26,7 +26,7 @@ using ::testing::ThrowsMessage;
 
 [[noreturn]] void fill_memory() {
   std::vector<std::vector<char>> hoard;
-  for (;;) hoard.emplace_back(std::size_t{100} << 20, 'x');
+  for (;;) hoard.emplace_back().reserve(std::size_t{100} << 20);
 }
 
 class ResumeTest : public CampaignTest {

@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "sim/campaign/statistics_table.h"
+#include "sim/files/json.h"
 #include "tests/sim/campaign/fake_throws.h"
 
 namespace dodgesim {
@@ -68,7 +68,7 @@ TEST(TableFormats, CsvHasEqualColumnsAndEmptyCellsForTheUnknown) {
 }
 
 TEST(TableFormats, JsonIsValidAndHasNullForTheUnknown) {
-  const auto json = nlohmann::json::parse(to_json(table()));
+  const auto json = parse_json(to_json(table()));
   ASSERT_EQ(json.size(), 3u);
   EXPECT_EQ(json[1]["pilots"][0]["dodged"]["rate"], 0);
   EXPECT_EQ(json[1]["pilots"][0]["dodged"]["of"], 1);

@@ -8,10 +8,10 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "sim/base/error.h"
 #include "sim/files/input_file.h"
+#include "sim/files/json.h"
 #include "sim/files/output_file.h"
 #include "tests/sim/gate/outcomes_fixture.h"
 
@@ -103,10 +103,10 @@ TEST_F(BaselineTest, SaysWhatIsBroken) {
               ThrowsMessage<IoError>(HasSubstr("manifest.json: gate.margin is missing.")));
   const auto with = [&](const std::string& key, const std::string& value) {
     write_baseline(baseline_, campaign_, {});
-    auto manifest = nlohmann::json::parse(read_file(baseline_ / "manifest.json"));
+    auto manifest = parse_json(read_file(baseline_ / "manifest.json"));
     const auto dot = key.find('.');
-    manifest[key.substr(0, dot)][key.substr(dot + 1)] = nlohmann::json::parse(value);
-    write_file(baseline_ / "manifest.json", manifest.dump());
+    manifest[key.substr(0, dot)][key.substr(dot + 1)] = parse_json(value);
+    write_file(baseline_ / "manifest.json", to_text(manifest));
     return [this] { read_baseline(baseline_); };
   };
   EXPECT_THAT(with("gate.margin", "\"x\""),
