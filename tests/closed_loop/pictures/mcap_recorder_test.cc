@@ -4,11 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "sim/files/json.h"
 #include "sim/loop.h"
 #include "tests/closed_loop/flights.h"
+#include "tests/closed_loop/pictures/decoded.h"
 #include "tests/sim/files/mcap_reader.h"
 #include "tests/sim/files/temporary_directory.h"
 
@@ -18,15 +17,15 @@ namespace {
 using testing::McapMessage;
 using testing::McapReader;
 
-std::vector<unsigned char> from_base64(const std::string& text) {
+std::string from_base64(const std::string& text) {
   const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<unsigned char> bytes;
+  std::string bytes;
   unsigned bits = 0;
   int count = 0;
   for (const char c : text.substr(0, text.find('='))) {
     bits = bits << 6 | static_cast<unsigned>(digits.find(c));
     count += 6;
-    if (count >= 8) bytes.push_back(static_cast<unsigned char>(bits >> (count -= 8) & 255));
+    if (count >= 8) bytes.push_back(static_cast<char>(bits >> (count -= 8) & 255));
   }
   return bytes;
 }
@@ -170,9 +169,11 @@ TEST_F(McapRecorderTest, ShowsTheEventsOfTenMilliseconds) {
   const auto pixel = [&](const std::string& camera, std::size_t image, int y, int x) {
     const Json message = parse_json(reader.of("/camera/" + camera + "/events").at(image).json);
     EXPECT_EQ(message["format"], "png");
-    const cv::Mat1b picture = cv::imdecode(from_base64(message["data"]), cv::IMREAD_GRAYSCALE);
+    const std::string file = directory_ / "picture.png";
+    std::ofstream(file, std::ios::binary) << from_base64(message["data"]);
+    const cv::Mat3b picture = testing::decoded(file).at(0);
     EXPECT_EQ(picture.size(), cv::Size(320, 240));
-    return static_cast<int>(picture(y, x));
+    return static_cast<int>(picture(y, x)[0]);
   };
   EXPECT_EQ(reader.of("/camera/top/events").at(0).time_ns, 10000000u);
   EXPECT_EQ(pixel("top", 0, 60, 100), 255);

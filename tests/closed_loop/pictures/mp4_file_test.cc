@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <opencv2/videoio.hpp>
 
 #include "sim/base/error.h"
+#include "tests/closed_loop/pictures/decoded.h"
 #include "tests/sim/files/temporary_directory.h"
 
 namespace dodgesim {
@@ -31,17 +31,14 @@ TEST_F(Mp4FileTest, ShowsThePicturesInTheirColours) {
   Mp4File video(path(), "video", picture.cols, picture.rows, 12.5);
   for (int i = 0; i < 5; ++i) video.write(picture.data);
   video.close();
-  cv::VideoCapture reader(path(), cv::CAP_FFMPEG);
-  ASSERT_TRUE(reader.isOpened());
-  EXPECT_EQ(reader.get(cv::CAP_PROP_FPS), 12.5);
-  cv::Mat3b shown;
-  int pictures = 0;
-  for (; reader.read(shown); ++pictures) {
+  EXPECT_EQ(testing::pictures_per_s(path()), 12.5);
+  const std::vector<cv::Mat3b> pictures = testing::decoded(path());
+  for (const cv::Mat3b& shown : pictures) {
     EXPECT_EQ(shown.size(), cv::Size(62, 48));
     EXPECT_LT(cv::norm(shown(20, 10) - cv::Vec3b(200, 30, 30)), 30);
     EXPECT_LT(cv::norm(shown(20, 50) - cv::Vec3b(30, 30, 200)), 30);
   }
-  EXPECT_EQ(pictures, 5);
+  EXPECT_EQ(pictures.size(), 5u);
 }
 
 TEST_F(Mp4FileTest, ThatIsNotClosedIsRemoved) {

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <opencv2/imgcodecs.hpp>
 
 #include "dodge/dodger.h"
 #include "tests/closed_loop/flights.h"
+#include "tests/closed_loop/pictures/decoded.h"
 #include "tests/sim/files/temporary_directory.h"
 
 namespace dodgesim {
@@ -55,7 +55,7 @@ class PosterTest : public ::testing::Test {
     poster_.on_cycle(0, pilot_);
     const std::string file = (directory_ / "poster.png").string();
     poster_.save(file);
-    const cv::Mat picture = cv::imread(file);
+    const cv::Mat picture = testing::decoded(file).at(0);
     return picture.rowRange(600, picture.rows).clone();
   }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tests/dodge/generator.h"
+#include "tests/dodge/solve.h"
 
 namespace dodge {
 namespace {
@@ -74,7 +75,7 @@ double optimal_log_volume(const SixPoints& points) {
         gradient += 2 / slack * Jr;
         hessian += 2 / slack * row.transpose() * row + 4 / (slack * slack) * Jr * Jr.transpose();
       }
-      const Vector9d step = -hessian.ldlt().solve(gradient);
+      const Vector9d step = -solve(hessian, gradient);
       const double decrement = -gradient.dot(step);
       if (decrement < 1e-10) break;
       double length = 1;

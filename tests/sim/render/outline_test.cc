@@ -233,7 +233,7 @@ Vector3d measured_line(const Image& image, const Vector2d& a, const Vector2d& b,
     normal += (Eigen::Matrix2d() << i * i, i, i, 1).finished();
     right += Vector2d(i * crossing, crossing);
   }
-  const Vector2d fit = normal.ldlt().solve(right);  // across = fit.x along + fit.y
+  const Vector2d fit = normal.inverse() * right;  // across = fit.x along + fit.y
   Vector3d line;
   line[across] = 1;
   line[along] = -fit.x();

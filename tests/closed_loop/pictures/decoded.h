@@ -1,0 +1,51 @@
+// Pictures and videos as ffmpeg decodes them.
+#pragma once
+
+#include <cstdio>
+#include <opencv2/core.hpp>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/base/shell.h"
+
+namespace dodgesim::testing {
+
+inline std::string output_of(const std::string& command) {
+  std::string output;
+  FILE* pipe = ::popen((command + " </dev/null").c_str(), "r");
+  if (pipe == nullptr) return output;
+  char part[65536];
+  while (const std::size_t size = std::fread(part, 1, sizeof part, pipe)) output.append(part, size);
+  ::pclose(pipe);
+  return output;
+}
+
+// Blue, green, red. A file of one picture has one; one that ffmpeg cannot read has none.
+inline std::vector<cv::Mat3b> decoded(const std::string& file) {
+  std::istringstream ppm(output_of("ffmpeg -v error -i " + shell_quoted(file) +
+                                   " -vsync passthrough -f image2pipe -c:v ppm -"));
+  std::vector<cv::Mat3b> pictures;
+  std::string type;
+  int width = 0, height = 0, white = 0;
+  while (ppm >> type >> width >> height >> white && ppm.get() == '\n') {
+    cv::Mat3b picture(height, width);
+    ppm.read(picture.ptr<char>(), static_cast<std::streamsize>(3 * picture.total()));
+    for (cv::Vec3b& pixel : picture) std::swap(pixel[0], pixel[2]);
+    pictures.push_back(picture);
+  }
+  return pictures;
+}
+
+// Of a video; NaN if ffmpeg cannot read it.
+inline double pictures_per_s(const std::string& file) {
+  std::istringstream rate(output_of(
+      "ffprobe -v error -show_entries stream=r_frame_rate -of csv=p=0 " + shell_quoted(file)));
+  double pictures = 0, seconds = 0;
+  char slash = 0;
+  rate >> pictures >> slash >> seconds;
+  return pictures / seconds;
+}
+
+}  // namespace dodgesim::testing
