@@ -50,6 +50,25 @@ bool is_command(CLI::App& program, const std::string& name) {
   return false;
 }
 
+// A value that a script's variable should have held, and did not.
+void refuse_empty_values(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_items_expected_max() == 0) continue;  // a flag
+    option->check(
+        [](const std::string& text) { return text.empty() ? "nothing was given" : std::string(); });
+  }
+  for (CLI::App* part : command.get_subcommands({})) refuse_empty_values(*part);
+}
+
+// CLI11 takes the next argument for the value of "--option=".
+const char* empty_value(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument.starts_with("--") && argument.find('=') == argument.size() - 1) return argv[i];
+  }
+  return nullptr;
+}
+
 int no_such_command(CLI::App& program, const std::string& name) {
   std::cerr << "dodgesim has no command " << shell_quoted(name) << "; it has";
   const char* before = " ";
@@ -98,8 +117,13 @@ int run_program(int argc, char** argv) {
   add_bench_command(program, joined(argc, argv), exit_code);
   add_check_sensor_command(program, joined(argc, argv), exit_code);
   add_paper_command(program, joined(argc, argv), exit_code);
+  refuse_empty_values(program);
   if (argc > 1 && argv[1][0] != '-' && !is_command(program, argv[1])) {
     return no_such_command(program, argv[1]);
+  }
+  if (const char* option = empty_value(argc, argv)) {
+    std::cerr << option << " nothing was given; dodgesim COMMAND --help says what there is.\n";
+    return kUsageError;
   }
   try {
     program.parse(argc, argv);

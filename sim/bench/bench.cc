@@ -8,6 +8,7 @@
 #include "sim/campaign/build_info.h"
 #include "sim/campaign/manifest.h"
 #include "sim/config/closest_name.h"
+#include "sim/files/json.h"
 
 namespace dodgesim {
 

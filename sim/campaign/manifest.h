@@ -9,7 +9,7 @@
 
 namespace dodgesim {
 
-// Its groups "program" and "machine", also for other files that say what made them.
+// The manifest's groups "program" and "machine", also for other files that say what made them.
 Json program_group();
 Json machine_group();
 

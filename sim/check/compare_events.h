@@ -17,7 +17,7 @@ struct EventDifference {
 
 // How far a sampling's events may be from a much finer one's: of their count, and the median of
 // stamps.
-constexpr double kCountLimit = 0.01, kStampLimitUs = 50;
+constexpr double kSamplingCountLimit = 0.01, kSamplingStampLimitUs = 50;
 
 // Partners are events of the same pixel. Where its two sequences of polarities are the same, they
 // are paired in order; elsewhere as far as the sequences agree from the beginning, and from the

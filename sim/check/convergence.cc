@@ -76,8 +76,8 @@ Check judge(const std::vector<Sampled>& rates) {
     tails.x.push_back(rate.displacement_px);
     tails.y.push_back(d.percentile_90_us);
     if (rate.displacement_px > default_displacement_px()) continue;
-    check.within(name + ".count", d.count_ratio, 1, kCountLimit, "of reference", 4);
-    check.between(name + ".stamps", d.median_us, 0, kStampLimitUs, "us", 1);
+    check.within(name + ".count", d.count_ratio, 1, kSamplingCountLimit, "of reference", 4);
+    check.between(name + ".stamps", d.median_us, 0, kSamplingStampLimitUs, "us", 1);
     check.between(name + ".matched", d.matched, kLeastMatched, 1, "of events", 4);
   }
   check.plots.push_back({"Events more or less than the reference",

@@ -208,8 +208,9 @@ Check judge(const std::vector<SamplingResult>& results) {
       {},
       {}};
   const auto judge_part = [&check](const std::string& part, const SamplingAccuracy& accuracy) {
-    check.within(part + ".count", accuracy.count_ratio(), 1, kCountLimit, "of reference", 4);
-    check.between(part + ".stamps", accuracy.median_us, 0, kStampLimitUs, "us", 1);
+    check.within(part + ".count", accuracy.count_ratio(), 1, kSamplingCountLimit, "of reference",
+                 4);
+    check.between(part + ".stamps", accuracy.median_us, 0, kSamplingStampLimitUs, "us", 1);
   };
   judge_part("sampling.object", results.front().object);
   judge_part("sampling.scene", results.front().scene);

@@ -11,7 +11,7 @@ std::string to_text(const Json& json, int indent) {
 Json parse_json(std::string_view text) {
   try {
     return Json::parse(text);
-  } catch (const Json::parse_error& error) {
+  } catch (const Json::exception& error) {
     throw std::invalid_argument(error.what());
   }
 }

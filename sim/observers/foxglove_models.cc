@@ -5,6 +5,7 @@
 
 #include "sim/world/compose.h"
 #include "sim/world/geom_color.h"
+#include "sim/world/mujoco_eigen.h"
 
 namespace dodgesim::foxglove {
 
@@ -39,11 +40,9 @@ Json mesh_triangles(const mjModel& model, int mesh, const Json& pose, const Colo
 }
 
 void add_geom(const mjModel& model, int geom, const Colour& colour, Json& entity) {
-  const mjtNum* at = model.geom_pos + 3 * geom;
-  const mjtNum* turn = model.geom_quat + 4 * geom;
   const mjtNum* size = model.geom_size + 3 * geom;
-  const Vector3d p(at[0], at[1], at[2]);
-  const Eigen::Quaterniond q(turn[0], turn[1], turn[2], turn[3]);
+  const Vector3d p = ConstMap3(model.geom_pos + 3 * geom);
+  const Eigen::Quaterniond q = dodgesim::quaternion(model.geom_quat + 4 * geom);
   const Json X = pose(p, q);
   switch (model.geom_type[geom]) {
     case mjGEOM_PLANE:

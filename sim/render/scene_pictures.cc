@@ -5,6 +5,7 @@
 
 #include "sim/base/error.h"
 #include "sim/world/compose.h"
+#include "sim/world/mujoco_eigen.h"
 
 namespace dodgesim {
 
@@ -65,7 +66,7 @@ ScenePictures::~ScenePictures() {
 void ScenePictures::place(int body, const BodyState& state) {
   mjtNum* q = data_->qpos + model_.jnt_qposadr[model_.body_jntadr[body]];
   // MuJoCo's frame has its origin at the body, the state's at the centre of mass.
-  const Eigen::Map<const Eigen::Vector3d> center(model_.body_ipos + 3 * body);
+  const ConstMap3 center(model_.body_ipos + 3 * body);
   const Eigen::Vector3d p_W = state.p_W - state.q_W * center;
   std::copy_n(p_W.data(), 3, q);
   q[3] = state.q_W.w(), q[4] = state.q_W.x(), q[5] = state.q_W.y(), q[6] = state.q_W.z();

@@ -79,6 +79,10 @@ TEST_F(DodgesimTest, SaysWhatIsWrongWithACommandLine) {
   const std::pair<const char*, const char*> cases[] = {
       {"fly s.yaml", "dodgesim has no command fly; it has run, sweep, "},
       {"run " DODGESIM_SOURCE_DIR "/scenarios/demo.yaml --out ''", "--out: nothing was given"},
+      {"bench --json ''", "--json: nothing was given"},
+      {"run s.yaml --out= --force", "--out= nothing was given"},
+      {"merge '' --out d", "directories: nothing was given"},
+      {"sweep s.yaml --over ''", "--over: nothing was given"},
       {"explain throw --markdown", "key excludes --markdown"},
       {"replay d --throw 0 --video v.avi", "v.avi must be the name of a file that ends in .mp4"},
       {"replay d --throw 0 --mcap v.bag", "v.bag must be the name of a file that ends in .mcap"},

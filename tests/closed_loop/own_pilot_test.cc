@@ -25,7 +25,9 @@ Sight sight_of(const std::string& cluster) {
       "room: field\n"
       "pilot: dodgesim\n"
       "seed: 77\n"
-      "repeats: 8\n"
+      "repeats: " +
+      std::to_string(kThrows) +
+      "\n"
       "mission: {start_m: [0, 0, 2]}\n"
       "throw: {size_m: 0.2, distance_m: !uniform [3, 4], speed_mps: 8,\n"
       "        bearing_deg: !uniform [-25, 25], launch_height_m: !uniform [1.2, 1.8],\n"

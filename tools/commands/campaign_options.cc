@@ -39,7 +39,6 @@ void add_campaign_options(CLI::App& command, const std::string& by_default,
       .add_option(
           "--out", options.out,
           "Where the results go; made when missing [" + (kDefaultOut / by_default).string() + "]")
-      ->check(not_empty())
       ->type_name("DIR");
   command.add_option("-j,--jobs", options.jobs, "Worker processes; results do not depend on it")
       ->check(whole_number_between(1, 1024))

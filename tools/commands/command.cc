@@ -47,13 +47,6 @@ CLI::Validator whole_number_between(std::uint64_t least, std::uint64_t most) {
   return between("a whole number", least, most);
 }
 
-CLI::Validator not_empty() {
-  return {[](const std::string& text) {
-            return text.empty() ? std::string("nothing was given") : std::string();
-          },
-          ""};
-}
-
 CLI::Validator file_ending(const std::string& extension) {
   return {[extension](const std::string& text) {
             return std::filesystem::path(text).extension() == extension
@@ -75,7 +68,6 @@ void add_plugin_option(CLI::App& command, std::string& file) {
   command
       .add_option("--plugin", file,
                   "Your pilot's shared library (dodge/plugin.h), for pilot: plugin")
-      ->check(not_empty())
       ->type_name("FILE.so");
 }
 

@@ -63,7 +63,6 @@ int completeness(const std::string& directory, const LoadedCampaign& campaign);
 // What the value of an option must be; the ranges of CLI11 let a NaN pass.
 CLI::Validator number_between(double least, double most);
 CLI::Validator whole_number_between(std::uint64_t least, std::uint64_t most);
-CLI::Validator not_empty();
 CLI::Validator file_ending(const std::string& extension);
 
 }  // namespace dodgesim

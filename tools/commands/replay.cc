@@ -290,7 +290,6 @@ void add_replay_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("--stages", arguments->stages,
                    "Write the pilot's stages, a PNG for each of its cycles while an object flies")
-      ->check(not_empty())
       ->type_name("DIR2");
   command
       ->add_option("--picture", arguments->picture,
@@ -303,7 +302,6 @@ void add_replay_command(CLI::App& program, int& exit_code) {
                    "reach the computer before the flight ends, and print how well the pilot finds\n"
                    "an object's events. Causes: 0 the static scene, moved by ego-motion; 1 + i\n"
                    "object i; 253 leak; 254 shot noise; 255 a hot pixel")
-      ->check(not_empty())
       ->type_name("FILE.h5|.npy|.txt");
   command->add_option("--camera", arguments->camera, "Whose events: top or bottom")
       ->check(CLI::IsMember({"top", "bottom"}))

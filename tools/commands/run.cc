@@ -143,7 +143,6 @@ CLI::App* add_campaign_command(CLI::App& program, const std::string& name, const
                    "Fly only a part: INDEX/COUNT (from 0), auto/COUNT (the index from\n"
                    "SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX or AWS_BATCH_JOB_ARRAY_INDEX) or\n"
                    "auto (Slurm: the count, too); see dodgesim merge")
-      ->check(not_empty())
       ->type_name("PART");
   command->add_flag("--truth", options.truth,
                     "Also write truth.csv: of the events that the pilot takes for an obstacle's,\n"

@@ -78,7 +78,6 @@ void add_table_command(CLI::App& program, int& exit_code) {
       })
       ->type_name("KEYS");
   command->add_option("--out", arguments->out, "Where it goes, instead of the terminal")
-      ->check(not_empty())
       ->type_name("FILE");
   command->footer(
       "Rates (dodged of those that would have hit, hit or crashed, detected of those in view, "

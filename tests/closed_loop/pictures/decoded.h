@@ -29,9 +29,9 @@ inline std::vector<cv::Mat3b> decoded(const std::string& file) {
   std::vector<cv::Mat3b> pictures;
   std::string type;
   int width = 0, height = 0, white = 0;
-  while (ppm >> type >> width >> height >> white && ppm.get() == '\n') {
+  while (ppm >> type >> width >> height >> white && white == 255 && ppm.get() == '\n') {
     cv::Mat3b picture(height, width);
-    ppm.read(picture.ptr<char>(), static_cast<std::streamsize>(3 * picture.total()));
+    if (!ppm.read(picture.ptr<char>(), static_cast<std::streamsize>(3 * picture.total()))) break;
     for (cv::Vec3b& pixel : picture) std::swap(pixel[0], pixel[2]);
     pictures.push_back(picture);
   }

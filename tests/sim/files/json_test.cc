@@ -29,6 +29,7 @@ TEST(ParseJson, SaysWhereATextIsNone) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("line 2, column 7"));
   }
   EXPECT_THROW(parse_json(""), std::invalid_argument);
+  EXPECT_THROW(parse_json("[1e999]"), std::invalid_argument);
 }
 
 }  // namespace
