@@ -15,7 +15,8 @@ function(find_opencv)
     else()
       find_path(DODGE_OPENCV_HEADERS opencv2/core.hpp HINTS ${prefixes}
                 PATH_SUFFIXES opencv4 include/opencv4 REQUIRED)
-      find_library(DODGE_OPENCV_${module} opencv_${module} HINTS ${prefixes} REQUIRED)
+      find_library(DODGE_OPENCV_${module} opencv_${module} HINTS ${prefixes}
+                   PATH_SUFFIXES lib lib64 REQUIRED)
       set(library ${DODGE_OPENCV_${module}})
       set(headers ${DODGE_OPENCV_HEADERS})
     endif()

@@ -60,8 +60,7 @@ void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_
 // How object i leaves the hand to meet the vehicle. Throws ScenarioError if it cannot.
 BodyState launch_at(const BodyState& vehicle, const Throw& toss, const World& world, int i) {
   const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
-  BodyState launch =
-      solve_throw(toss, world.object(i), vehicle.p_W, std::atan2(x_W.y(), x_W.x()));
+  BodyState launch = solve_throw(toss, world.object(i), vehicle.p_W, std::atan2(x_W.y(), x_W.x()));
   check_launch_in_sight(world, vehicle.p_W, launch.p_W);
   return launch;
 }
