@@ -30,10 +30,12 @@ Json outline(const Vector3d& p, const Eigen::Quaterniond& q, const mjtNum* half_
 }
 
 Json mesh_triangles(const mjModel& model, int mesh, const Json& pose, const Colour& colour) {
-  std::vector<Vector3d> corners;
   const float* vertices = model.mesh_vert + 3 * model.mesh_vertadr[mesh];
   const int* faces = model.mesh_face + 3 * model.mesh_faceadr[mesh];
-  for (int i = 0; i < 3 * model.mesh_facenum[mesh]; ++i) {
+  const int count = 3 * model.mesh_facenum[mesh];
+  std::vector<Vector3d> corners;
+  corners.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
     corners.push_back(Eigen::Map<const Eigen::Vector3f>(vertices + 3 * faces[i]).cast<double>());
   }
   return triangles(pose, corners, colour);
