@@ -214,7 +214,8 @@ TEST(DistanceToSurface, AgreesWithBruteForceOnPlanesOfSymmetry) {
       Ellipsoid ellipsoid = random_ellipsoid(random);
       ellipsoid.semi_axes_m = axes;
       // Every combination of coordinates at 0, inside and outside.
-      const Vector3d p(0.2 * (k % 3), 0.15 * (k / 3 % 3), 0.08 * (k / 9));
+      const int x = k % 3, y = k / 3 % 3, z = k / 9;
+      const Vector3d p(0.2 * x, 0.15 * y, 0.08 * z);
       const Vector3d p_W = ellipsoid.centre_W + ellipsoid.axes_W * p;
       const SurfaceDistance surface = distance_to_surface(ellipsoid, p_W);
       EXPECT_NEAR(std::abs(surface.distance_m), brute_force_distance(ellipsoid, p_W), 1e-6)

@@ -20,7 +20,7 @@ TEST(MemoryLimit, AnAllocationBeyondItThrows) {
                [gb] {
                  limit_memory(2048);
                  try {
-                   static_cast<void>(::operator new(gb << 30));  // freed with the child
+                   ::operator delete(::operator new(gb << 30));
                    return std::to_string(gb);
                  } catch (const std::bad_alloc&) {
                    return std::string("too much");

@@ -14,7 +14,6 @@ namespace dodgesim {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
 
 // Quantities whose values are 1, 2, 3, ... from run to run.
