@@ -1,6 +1,6 @@
 # find_opencv(core imgproc ...) makes dodge_opencv_core, ...: of OpenCV's own CMake package if that has
 # been found before, or else of what lies where CMAKE_PREFIX_PATH, OpenCV_ROOT or OpenCV_DIR say or the
-# system has it. Debian has that package in libopencv-dev alone, with VTK, Qt and MPI: 560 MB more.
+# system has it. Debian has that package in libopencv-dev alone, along with VTK, Qt and MPI.
 function(find_opencv)
   set(prefixes ${OpenCV_ROOT} $ENV{OpenCV_ROOT})
   if(OpenCV_DIR)

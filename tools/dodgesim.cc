@@ -50,23 +50,17 @@ bool is_command(CLI::App& program, const std::string& name) {
   return false;
 }
 
-// A value that a script's variable should have held, and did not.
-void refuse_empty_values(CLI::App& command) {
-  for (CLI::Option* option : command.get_options()) {
-    if (option->get_items_expected_max() == 0) continue;  // a flag
-    option->check(
-        [](const std::string& text) { return text.empty() ? "nothing was given" : std::string(); });
-  }
-  for (CLI::App* part : command.get_subcommands({})) refuse_empty_values(*part);
-}
-
-// CLI11 takes the next argument for the value of "--option=".
-const char* empty_value(int argc, char** argv) {
+// What stands before a value that is empty, as a script's variable that was never set; CLI11 would
+// take the next argument for the value of "--option=".
+std::string before_nothing(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
-    if (argument.starts_with("--") && argument.find('=') == argument.size() - 1) return argv[i];
+    if (argument.empty()) return argv[i - 1];
+    if (argument.starts_with("--") && argument.find('=') == argument.size() - 1) {
+      return argument.substr(0, argument.size() - 1);
+    }
   }
-  return nullptr;
+  return "";
 }
 
 int no_such_command(CLI::App& program, const std::string& name) {
@@ -117,12 +111,11 @@ int run_program(int argc, char** argv) {
   add_bench_command(program, joined(argc, argv), exit_code);
   add_check_sensor_command(program, joined(argc, argv), exit_code);
   add_paper_command(program, joined(argc, argv), exit_code);
-  refuse_empty_values(program);
   if (argc > 1 && argv[1][0] != '-' && !is_command(program, argv[1])) {
     return no_such_command(program, argv[1]);
   }
-  if (const char* option = empty_value(argc, argv)) {
-    std::cerr << option << " nothing was given; dodgesim COMMAND --help says what there is.\n";
+  if (const std::string before = before_nothing(argc, argv); !before.empty()) {
+    std::cerr << before << ": nothing was given\nRun with --help for more information.\n";
     return kUsageError;
   }
   try {

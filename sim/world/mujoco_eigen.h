@@ -1,6 +1,5 @@
-#pragma once
-
 // MuJoCo's arrays as Eigen's types, in MuJoCo's order: a vector x y z, a quaternion w x y z.
+#pragma once
 
 #include <mujoco/mujoco.h>
 

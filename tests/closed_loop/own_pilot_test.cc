@@ -12,7 +12,7 @@ namespace dodgesim {
 namespace {
 
 constexpr double kBallM = 0.2;
-constexpr int kThrows = 8;
+constexpr int kThrows = 12;
 
 struct Sight {
   int whole = 0;      // detections of about the ball's own size

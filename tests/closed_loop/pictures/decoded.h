@@ -1,7 +1,6 @@
 // Pictures and videos as ffmpeg decodes them.
 #pragma once
 
-#include <cstdio>
 #include <opencv2/core.hpp>
 #include <sstream>
 #include <string>
@@ -9,23 +8,15 @@
 #include <vector>
 
 #include "sim/base/shell.h"
+#include "tests/cli/program.h"
 
 namespace dodgesim::testing {
 
-inline std::string output_of(const std::string& command) {
-  std::string output;
-  FILE* pipe = ::popen((command + " </dev/null").c_str(), "r");
-  if (pipe == nullptr) return output;
-  char part[65536];
-  while (const std::size_t size = std::fread(part, 1, sizeof part, pipe)) output.append(part, size);
-  ::pclose(pipe);
-  return output;
-}
-
 // Blue, green, red. A file of one picture has one; one that ffmpeg cannot read has none.
 inline std::vector<cv::Mat3b> decoded(const std::string& file) {
-  std::istringstream ppm(output_of("ffmpeg -v error -i " + shell_quoted(file) +
-                                   " -vsync passthrough -f image2pipe -c:v ppm -"));
+  std::istringstream ppm(shell("ffmpeg -v error -i " + shell_quoted(file) +
+                               " -vsync passthrough -f image2pipe -c:v ppm -")
+                             .output);
   std::vector<cv::Mat3b> pictures;
   std::string type;
   int width = 0, height = 0, white = 0;
@@ -40,8 +31,9 @@ inline std::vector<cv::Mat3b> decoded(const std::string& file) {
 
 // Of a video; NaN if ffmpeg cannot read it.
 inline double pictures_per_s(const std::string& file) {
-  std::istringstream rate(output_of(
-      "ffprobe -v error -show_entries stream=r_frame_rate -of csv=p=0 " + shell_quoted(file)));
+  std::istringstream rate(
+      shell("ffprobe -v error -show_entries stream=r_frame_rate -of csv=p=0 " + shell_quoted(file))
+          .output);
   double pictures = 0, seconds = 0;
   char slash = 0;
   rate >> pictures >> slash >> seconds;
