@@ -1,7 +1,5 @@
 #include "dodge/camera_model.h"
 
-#include <cmath>
-
 namespace dodge {
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/campaign.h"
+#include "sim/config/pilot.h"
 #include "sim/config/resolve_throw.h"
 #include "sim/flight/explain_throw.h"
 #include "sim/world/room_ray.h"
@@ -38,7 +39,7 @@ TimeUs round_to_tick(TimeUs t_us) { return (t_us + kTickUs / 2) / kTickUs * kTic
 BodyState undisturbed_vehicle(const Scenario& scenario, int throw_index, TimeUs t_us) {
   FlightPlan quiet;
   quiet.throw_index = throw_index;
-  quiet.pilot = "none";
+  quiet.pilot = kNoPilot;
   quiet.end_us = t_us;
   return fly(scenario, quiet).last.vehicle;
 }
@@ -65,18 +66,21 @@ BodyState launch_at(const BodyState& vehicle, const Throw& toss, const World& wo
   return launch;
 }
 
+// To a flight's or an object's result.
+template <class Result>
+void copy_approach(const Approach& approach, Result& result) {
+  result.hit = approach.hit;
+  result.hit_us = approach.hit_us;
+  result.closest_us = approach.closest_us;
+  if (approach.closest_us) result.clearance_m = approach.clearance_m;
+}
+
 FlightResult summary(const FlightRecord& record, bool thrown) {
   FlightResult result;
   result.status = "ok";
   result.crashed = record.verdict.crashed;
   if (!thrown) return result;
-  const Approach& nearest = record.verdict.nearest;
-  result.hit = nearest.hit;
-  if (nearest.hit) result.hit_us = nearest.hit_us;
-  if (nearest.closest_us >= 0) {
-    result.closest_us = nearest.closest_us;
-    result.clearance_m = nearest.clearance_m;
-  }
+  copy_approach(record.verdict.nearest, result);
   return result;
 }
 
@@ -108,13 +112,7 @@ Approach approach(const FlightRecord& record, int object) {
 }
 
 void copy_object(const FlightRecord& record, ObjectRow& row) {
-  const Approach found = approach(record, row.object);
-  row.hit = found.hit;
-  if (found.hit) row.hit_us = found.hit_us;
-  if (found.closest_us >= 0) {
-    row.closest_us = found.closest_us;
-    row.clearance_m = found.clearance_m;
-  }
+  copy_approach(approach(record, row.object), row);
   const auto i = static_cast<std::size_t>(row.object);
   if (i >= record.sightings.size()) return;
   row.first_detection_us = record.sightings[i].first_us;
@@ -181,14 +179,14 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
   FlightRecord record;
   FlightTiming timing;
   result.flown = attempt(scenario, plan, scenario.pilot, observer, &record, &timing);
-  FlightRecord none = scenario.pilot == "none" ? record : FlightRecord{};
+  FlightRecord none = scenario.pilot == kNoPilot ? record : FlightRecord{};
   if (!plan.launches.empty()) {
     const auto also = [&](const std::string& pilot, FlightRecord* seen) {
       if (pilot == scenario.pilot) return result.flown;
       return attempt(scenario, plan, pilot, nullptr, seen);
     };
-    result.none = also("none", &none);
-    if (scenario.fly_oracle) result.oracle = also("oracle", nullptr);
+    result.none = also(kNoPilot, &none);
+    if (scenario.fly_oracle) result.oracle = also(kOraclePilot, nullptr);
     for (ObjectRow& row : result.object_rows) row.none_hit = approach(none, row.object).hit;
   }
   for (ObjectRow& row : result.object_rows) copy_object(record, row);

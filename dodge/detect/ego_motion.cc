@@ -6,7 +6,7 @@ namespace dodge {
 
 namespace {
 
-constexpr std::size_t kRateSamples = 1024;  // one second at 1 kHz
+constexpr std::size_t kRateSamples = 2048;  // half a second at 4 kHz
 constexpr double kMostBins = 4096;          // of faster turns events are misplaced by more
 
 Eigen::Vector3d interpolate(const ImuSample& a, const ImuSample& b, TimeUs t_us) {

@@ -4,7 +4,7 @@ namespace dodge {
 
 namespace {
 
-constexpr std::size_t kStates = 128;  // half a second at 250 Hz
+constexpr std::size_t kStates = 2048;  // half a second at 4 kHz
 
 bool is_finite(const StateEstimate& state) {
   return state.p_WB.allFinite() && state.q_WB.coeffs().allFinite() && state.v_WB.allFinite() &&

@@ -1,4 +1,5 @@
-// The state estimates of the recent past, and the state at any instant near them.
+// The state estimates of the recent past, half a second at up to 4 kHz, and the state at any
+// instant near them.
 #pragma once
 
 #include <optional>

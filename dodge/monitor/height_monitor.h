@@ -26,8 +26,8 @@ struct HeightMonitorConfig {
       "height, but nothing lands in scenarios/quiet_hover.yaml, 2 m high, nor with --set "
       "room=field --set 'mission.start_m=[-2, 0, 10]'.");
     v("persist_us", persist_us, std::int64_t{0}, std::int64_t{60000000},
-      "How long the discrepancy must last without a break: longer than a ball or a box below the "
-      "vehicle, or an outlier.");
+      "How long the discrepancy must last without a break: longer than a ball passes below the "
+      "vehicle (a simulated range sensor sees the room only), or an outlier.");
     v("max_gap_us", max_gap_us, std::int64_t{1000}, std::int64_t{60000000},
       "A pause this long between two readings that can be used is a break, too: in a dodge the "
       "tilt makes them useless.");

@@ -1,19 +1,15 @@
 // How digests are written.
 #pragma once
 
-#include <array>
 #include <cinttypes>
 #include <cstdint>
-#include <cstdio>
 #include <string>
+
+#include "sim/base/formatted.h"
 
 namespace dodgesim {
 
 // 16 hexadecimal digits.
-inline std::string digits_of(std::uint64_t digest) {
-  std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016" PRIx64, digest);
-  return text.data();
-}
+inline std::string digits_of(std::uint64_t digest) { return formatted("%016" PRIx64, digest); }
 
 }  // namespace dodgesim

@@ -1,10 +1,10 @@
 #include "sim/bench/bench.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/campaign/build_info.h"
 #include "sim/campaign/manifest.h"
 #include "sim/config/closest_name.h"
@@ -104,9 +104,8 @@ std::string line(const Measurement& measurement) {
   const double value = measurement.median();
   int decimals = 4;
   for (double limit = 1; decimals > 0 && value >= limit; limit *= 10) --decimals;
-  char number[64];
-  std::snprintf(number, sizeof number, "%.*f", decimals, value);
-  return measurement.quantity.name + " " + number + " " + measurement.quantity.unit;
+  return measurement.quantity.name + " " + formatted("%.*f", decimals, value) + " " +
+         measurement.quantity.unit;
 }
 
 std::string bench_json(const std::vector<Measurement>& measurements,

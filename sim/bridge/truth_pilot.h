@@ -1,7 +1,9 @@
 // Pilots that need no perception. `oracle` knows the true state of every object in its range, as
-// late as an event would tell, and forgets those that move away from it; `none` sees nothing and
-// only flies to the goal. Both use the flight core's avoidance and fly through the same delays,
-// controller and motors as the paper's pilot.
+// late as an event would tell but for its looking once a millisecond: with the default delays its
+// newest truth is 2 ms old when a cycle begins, the light of a pilot's newest event 1.1 ms. It
+// forgets those that move away from it. `none` sees nothing and only flies to the goal. Both use
+// the flight core's avoidance and fly through the same delays, controller and motors as the paper's
+// pilot.
 #pragma once
 
 #include <optional>

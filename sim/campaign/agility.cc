@@ -61,7 +61,7 @@ bool passes_moved(const Encounter& encounter, double from_s, const Moved& moved)
     X_WB.linear() = shift.linear() * X_WB.linear();
     X_WB.translation() += shift.translation();
     const Isometry3d X_BO = X_WB.inverse() * object_at(encounter, t_s);
-    const double gap_m = convex_gap(encounter.hull, encounter.shape, X_BO, kFarM).distance_m;
+    const double gap_m = convex_gap_m(encounter.hull, encounter.shape, X_BO, kFarM);
     if (gap_m < kTouchingM) return false;
     t_s += std::max(gap_m / (object_mps + kVehicleMps), kLeastStepS);
   }

@@ -146,14 +146,7 @@ ThrowResult blank_result(const ThrowCase& thrown) {
   if (result.objects == 0) return result;
   const ObjectRow& first = result.object_rows.front();
   result.object = first.kind;
-  result.size_m = first.size_m;
-  result.speed_mps = first.speed_mps;
-  result.distance_m = first.distance_m;
-  result.bearing_deg = first.bearing_deg;
-  result.aim_offset_m = first.aim_offset_m;
-  result.spin_radps = first.spin_radps;
-  result.launch_height_m = first.launch_height_m;
-  result.launch_us = first.launch_us;
+  static_cast<DrawnThrow&>(result) = first;
   return result;
 }
 

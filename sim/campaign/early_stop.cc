@@ -1,7 +1,6 @@
 #include "sim/campaign/early_stop.h"
 
-#include <cstdio>
-
+#include "sim/base/formatted.h"
 #include "sim/config/expand.h"
 
 namespace dodgesim {
@@ -33,14 +32,12 @@ SequentialInterval EarlyStop::interval() const {
 
 std::string EarlyStop::text() const {
   const Interval interval = this->interval().interval;
-  char text[240];
-  std::snprintf(text, sizeof text,
-                "%s after %d throws: %d of %d dodged, %.4g %% interval %.3f to %.3f (valid though "
-                "the results decided when to stop; asked for: +- %g).",
-                end_ ? "Ended by stop" : "Not ended by stop", next_, sum_.dodged,
-                sum_.would_have_hit, 100 * spec_.confidence, interval.lo, interval.hi,
-                spec_.half_width);
-  return text;
+  return formatted(
+      "%s after %d throws: %d of %d dodged, %.4g %% interval %.3f to %.3f (valid though the "
+      "results "
+      "decided when to stop; asked for: +- %g).",
+      end_ ? "Ended by stop" : "Not ended by stop", next_, sum_.dodged, sum_.would_have_hit,
+      100 * spec_.confidence, interval.lo, interval.hi, spec_.half_width);
 }
 
 }  // namespace dodgesim

@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cstring>
 #include <fstream>
-#include <utility>
 
 #include "sim/base/error.h"
 #include "sim/campaign/wire.h"

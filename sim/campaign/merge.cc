@@ -145,7 +145,7 @@ CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
   CampaignOptions flown = options;
   flown.models = sources.identity.models;
   flown.plugin = sources.identity.plugin;
-  write_file(options.out / "manifest.json", manifest_json(scenario, flown, summary, started));
+  write_file(options.out / kManifestFile, manifest_json(scenario, flown, summary, started));
   return summary;
 }
 

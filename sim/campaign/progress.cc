@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "sim/base/formatted.h"
+
 namespace dodgesim {
 
 namespace {
@@ -40,15 +42,9 @@ void Progress::finish() {
 
 std::string duration_text(double duration_s) {
   const long s = std::lround(duration_s);
-  char text[48];
-  if (s >= 3600) {
-    std::snprintf(text, sizeof(text), "%ld h %02ld min", s / 3600, s / 60 % 60);
-  } else if (s >= 60) {
-    std::snprintf(text, sizeof(text), "%ld min %02ld s", s / 60, s % 60);
-  } else {
-    std::snprintf(text, sizeof(text), "%ld s", s);
-  }
-  return text;
+  if (s >= 3600) return formatted("%ld h %02ld min", s / 3600, s / 60 % 60);
+  if (s >= 60) return formatted("%ld min %02ld s", s / 60, s % 60);
+  return formatted("%ld s", s);
 }
 
 }  // namespace dodgesim

@@ -1,5 +1,6 @@
-// What one throw of a campaign leaves behind. visit() lists the columns of throws.csv and
-// detections.csv; the same list carries a result from a worker process to the campaign.
+// What one throw of a campaign leaves behind. visit() lists the columns of throws.csv, objects.csv,
+// detections.csv and truth.csv; the same list carries a result from a worker process to the
+// campaign.
 #pragma once
 
 #include <array>
@@ -41,13 +42,8 @@ struct FlightResult {
   }
 };
 
-// One thrown object of a throw: a row of objects.csv.
-struct ObjectRow {
-  int throw_index = 0;
-  int object = 0;
-
-  // As drawn.
-  std::string kind;
+// How an object is thrown, as drawn (sim/world/throw.h).
+struct DrawnThrow {
   double size_m = 0;
   double speed_mps = 0;
   double distance_m = 0;
@@ -56,6 +52,25 @@ struct ObjectRow {
   std::array<double, 3> spin_radps{};
   double launch_height_m = 0;
   TimeUs launch_us = 0;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("size_m", size_m);
+    v("speed_mps", speed_mps);
+    v("distance_m", distance_m);
+    v("bearing_deg", bearing_deg);
+    v("aim_offset_m", aim_offset_m);
+    v("spin_radps", spin_radps);
+    v("launch_height_m", launch_height_m);
+    v("launch_us", launch_us);
+  }
+};
+
+// One thrown object of a throw: a row of objects.csv.
+struct ObjectRow : DrawnThrow {
+  int throw_index = 0;
+  int object = 0;
+  std::string kind;
 
   // What came of it with the scenario's pilot. The flight ends when any object hits.
   bool hit = false;
@@ -71,14 +86,7 @@ struct ObjectRow {
     v("throw", throw_index);
     v("object", object);
     v("kind", kind);
-    v("size_m", size_m);
-    v("speed_mps", speed_mps);
-    v("distance_m", distance_m);
-    v("bearing_deg", bearing_deg);
-    v("aim_offset_m", aim_offset_m);
-    v("spin_radps", spin_radps);
-    v("launch_height_m", launch_height_m);
-    v("launch_us", launch_us);
+    DrawnThrow::visit(v);
     v("hit", hit);
     v("hit_us", hit_us);
     v("closest_us", closest_us);
@@ -185,7 +193,7 @@ struct EventTruthSums {
   }
 };
 
-struct ThrowResult {
+struct ThrowResult : DrawnThrow {
   // One of the flights below: &ThrowResult::flown, none or oracle.
   using FlightOf = FlightResult ThrowResult::*;
 
@@ -198,17 +206,9 @@ struct ThrowResult {
   std::vector<AxisValue> cell_values;   // the keys of the grid and their values in this cell
   std::vector<AxisValue> sweep_values;  // likewise of the sweep
 
-  // The first object as drawn, and how many there are. Without an object nobody threw.
+  // How many objects there are, and the first one's kind. Without an object nobody threw.
   int objects = 0;
   std::string object;
-  double size_m = 0;
-  double speed_mps = 0;
-  double distance_m = 0;
-  double bearing_deg = 0;
-  std::array<double, 2> aim_offset_m{};  // lateral, vertical
-  std::array<double, 3> spin_radps{};
-  double launch_height_m = 0;
-  TimeUs launch_us = 0;
 
   FlightResult flown;   // the scenario's pilot
   FlightResult none;    // would it have hit?
@@ -263,14 +263,7 @@ struct ThrowResult {
     v("", sweep_values);
     v("objects", objects);
     v("object", object);
-    v("size_m", size_m);
-    v("speed_mps", speed_mps);
-    v("distance_m", distance_m);
-    v("bearing_deg", bearing_deg);
-    v("aim_offset_m", aim_offset_m);
-    v("spin_radps", spin_radps);
-    v("launch_height_m", launch_height_m);
-    v("launch_us", launch_us);
+    DrawnThrow::visit(v);
     v("flown", flown);
     v("none", none);
     v("oracle", oracle);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kResultFiles[] = {"manifest.json",  "throws.csv", "objects.csv",
+constexpr const char* kResultFiles[] = {kManifestFile,    kThrowsFile,  kObjectsFile,
                                         "detections.csv", "timing.csv", "table.md",
                                         "table.csv",      "truth.csv",  kReportFile};
 
@@ -25,8 +25,8 @@ constexpr const char* kResultFiles[] = {"manifest.json",  "throws.csv", "objects
 class RowFiles {
  public:
   RowFiles(const fs::path& out, const Scenario& scenario, bool truth)
-      : throws_(out / "throws.csv"),
-        objects_(out / "objects.csv"),
+      : throws_(out / kThrowsFile),
+        objects_(out / kObjectsFile),
         detections_(out / "detections.csv"),
         timing_(out / "timing.csv") {
     throws_.write(csv_header(blank_result(case_of(scenario, 0))));

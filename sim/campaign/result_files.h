@@ -22,5 +22,8 @@ bool belongs_to_campaign(const std::filesystem::path& file);
 
 inline constexpr const char* kJournalFile = "results.bin";
 inline constexpr const char* kScenarioFile = "scenario.resolved.yaml";
+inline constexpr const char* kManifestFile = "manifest.json";
+inline constexpr const char* kThrowsFile = "throws.csv";
+inline constexpr const char* kObjectsFile = "objects.csv";
 
 }  // namespace dodgesim

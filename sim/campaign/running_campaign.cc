@@ -125,8 +125,7 @@ CampaignSummary RunningCampaign::finish() {
   }
   write_result_files(options_.out, scenario_, index, options_.truth, summary_);
   summary_.wall_s = seconds_since(begin_);
-  write_file(options_.out / "manifest.json",
-             manifest_json(scenario_, options_, summary_, started_));
+  write_file(options_.out / kManifestFile, manifest_json(scenario_, options_, summary_, started_));
   return std::move(summary_);
 }
 

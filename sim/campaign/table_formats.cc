@@ -2,13 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <map>
 
+#include "sim/base/formatted.h"
 #include "sim/campaign/csv.h"
 #include "sim/campaign/statistics_table.h"
 #include "sim/campaign/text_table.h"
+#include "sim/config/pilot.h"
 #include "sim/files/json.h"
 
 namespace dodgesim {
@@ -17,11 +18,7 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-std::string rounded(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
+std::string rounded(double value) { return formatted("%.3g", value); }
 
 std::string sample_text(const Measured& sample) {
   if (sample.count() == 0) return "-";
@@ -158,7 +155,7 @@ class CsvRow {
 std::vector<std::size_t> named_pilots(const StatisticsTable& table,
                                       const StatisticsTable::Row& row) {
   std::vector<std::size_t> pilots = shown_pilots(table);
-  if (row.statistics.flown().pilot == "none") std::erase(pilots, std::size_t{2});
+  if (row.statistics.flown().pilot == kNoPilot) std::erase(pilots, std::size_t{2});
   return pilots;
 }
 
@@ -177,7 +174,7 @@ CsvRow csv_row_of(const StatisticsTable& table, const StatisticsTable::Row& row,
   csv.text("pilot", of.pilot);
   csv.count("throws", of.tally.throws);
   csv.count("would_have_hit",
-            of.pilot == "none" ? of.tally.hit_undisturbed.count : of.tally.would_have_hit);
+            of.pilot == kNoPilot ? of.tally.hit_undisturbed.count : of.tally.would_have_hit);
   csv.count("dodged", of.tally.dodged);
   csv.rate("rate", of.tally.success());
   csv.text("rate_interval", of.tally.success().interval_name());

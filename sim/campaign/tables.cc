@@ -8,6 +8,7 @@
 #include "sim/campaign/statistics_table.h"
 #include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
+#include "sim/config/pilot.h"
 #include "sim/files/markup.h"
 
 namespace dodgesim {
@@ -179,7 +180,7 @@ std::string errors_of(const Part& part) {
   int failed = 0;
   for (const ThrowResult* result : part.results) {
     const std::pair<const FlightResult*, std::string> flights[] = {
-        {&result->flown, part.pilot}, {&result->none, "none"}, {&result->oracle, "oracle"}};
+        {&result->flown, part.pilot}, {&result->none, kNoPilot}, {&result->oracle, kOraclePilot}};
     for (const auto& [flight, who] : flights) {
       const bool again = flight != &result->flown && who == part.pilot;
       if (!flight->failed() || again) continue;

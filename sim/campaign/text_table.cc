@@ -1,8 +1,6 @@
 #include "sim/campaign/text_table.h"
 
-#include <array>
-#include <cstdio>
-
+#include "sim/base/formatted.h"
 #include "sim/campaign/csv.h"
 
 namespace dodgesim {
@@ -46,11 +44,7 @@ std::string TextTable::to_csv() const {
   return text;
 }
 
-std::string fixed_text(double value, int digits) {
-  std::array<char, 64> text;
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
-}
+std::string fixed_text(double value, int digits) { return formatted("%.*f", digits, value); }
 
 std::string with_interval(double value, const Interval& interval, int digits) {
   return fixed_text(value, digits) + " (" + fixed_text(interval.lo, digits) + " to " +

@@ -1,10 +1,9 @@
 #include "sim/campaign/throw_statistics.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <utility>
 
+#include "sim/base/formatted.h"
 #include "sim/campaign/text_table.h"
 #include "sim/config/pilot.h"
 
@@ -55,9 +54,7 @@ std::optional<double> Rate::value() const {
 
 std::string Rate::interval_name() const {
   if (!sequential) return "Wilson 95 %";
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "sequential %.4g %%", 100 * sequential->confidence);
-  return text.data();
+  return formatted("sequential %.4g %%", 100 * sequential->confidence);
 }
 
 std::string rate_text(const Rate& rate) {
@@ -115,12 +112,12 @@ std::vector<Part> parts_of(const std::vector<ThrowResult>& results, const std::s
 ThrowStatistics statistics_of(const Results& results, const std::string& pilot) {
   ThrowStatistics sum;
   sum.pilots[0].pilot = pilot;
-  sum.pilots[1].pilot = "oracle";
-  sum.pilots[2].pilot = "none";
+  sum.pilots[1].pilot = kOraclePilot;
+  sum.pilots[2].pilot = kNoPilot;
   for (const ThrowResult* result : results) {
     // Not beside itself.
     sum.oracle_flew =
-        sum.oracle_flew || (pilot != "oracle" && result->oracle.status != "not flown");
+        sum.oracle_flew || (pilot != kOraclePilot && result->oracle.status != "not flown");
     add_flight(*result, &ThrowResult::flown, sum.pilots[0]);
     add_flight(*result, &ThrowResult::oracle, sum.pilots[1]);
     add_flight(*result, &ThrowResult::none, sum.pilots[2]);

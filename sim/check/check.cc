@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "sim/base/formatted.h"
 
 namespace dodgesim {
 
@@ -18,9 +19,7 @@ std::string padded(std::string text, std::size_t width) {
 }  // namespace
 
 std::string quantity_text(double value, int decimals, const std::string& unit) {
-  char number[64];
-  std::snprintf(number, sizeof number, "%.*f", decimals, value);
-  return unit.empty() ? number : number + (" " + unit);
+  return formatted("%.*f", decimals, value) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string outcome_text(Outcome outcome) {

@@ -1,7 +1,6 @@
 #include "sim/check/readout_burst.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim/check/film.h"
 #include "sim/events/response.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "sim/base/formatted.h"
 #include "sim/check/compare_events.h"
 #include "sim/check/film.h"
 #include "sim/check/prescribed_throw.h"
@@ -88,17 +88,11 @@ SamplingVariant changed(const std::string& name, const std::function<void(Sampli
   return variant;
 }
 
-std::string number(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 }  // namespace
 
 std::vector<SamplingVariant> sampling_variants() {
   const auto displacement = [](double px) {
-    return changed("max_displacement_px " + number("%g", px),
+    return changed("max_displacement_px " + formatted("%g", px),
                    [px](SamplingVariant& v) { v.sampling.max_displacement_px = px; });
   };
   const auto supersampling = [](std::int64_t n) {
@@ -106,7 +100,7 @@ std::vector<SamplingVariant> sampling_variants() {
                    [n](SamplingVariant& v) { v.keys.supersampling = n; });
   };
   const auto misplacement = [](double px) {
-    return changed("max_misplacement_px " + number("%g", px),
+    return changed("max_misplacement_px " + formatted("%g", px),
                    [px](SamplingVariant& v) { v.keys.max_misplacement_px = px; });
   };
   return {changed("defaults", [](SamplingVariant&) {}),
@@ -187,13 +181,13 @@ std::string sampling_table(const std::vector<SamplingResult>& results) {
   for (const SamplingResult& result : results) {
     table += "| " + result.variant;
     for (const SamplingAccuracy* a : {&result.object, &result.scene}) {
-      table += " | " + number("%+.2f %%", 100 * (a->count_ratio() - 1)) + " | " +
-               number("%.1f %%", 100 * a->worst_count) + " | " + number("%.0f", a->median_us) +
-               " | " + number("%.0f", a->worst_median_us);
+      table += " | " + formatted("%+.2f %%", 100 * (a->count_ratio() - 1)) + " | " +
+               formatted("%.1f %%", 100 * a->worst_count) + " | " +
+               formatted("%.0f", a->median_us) + " | " + formatted("%.0f", a->worst_median_us);
     }
-    table += " | " + number("%.0f", result.pictures) + " | " + number("%.0f", result.regions) +
-             " | " + number("%.1f", result.keys) + " | " + number("%.2f", result.simulated_per_s) +
-             " |\n";
+    table += " | " + formatted("%.0f", result.pictures) + " | " +
+             formatted("%.0f", result.regions) + " | " + formatted("%.1f", result.keys) + " | " +
+             formatted("%.2f", result.simulated_per_s) + " |\n";
   }
   return table;
 }

@@ -1,7 +1,6 @@
 #include "sim/check/stamps.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim/check/film.h"
 

@@ -1,7 +1,6 @@
 #include "sim/check/time_statistics.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include "sim/loop.h"

@@ -1,6 +1,5 @@
 #include "sim/config/check_scenario.h"
 
-#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <string_view>
@@ -9,6 +8,7 @@
 #include "sim/base/utf8.h"
 #include "sim/config/expand.h"
 #include "sim/config/numbers.h"
+#include "sim/config/pilot.h"
 #include "sim/sensors/sample_clock.h"
 
 namespace dodgesim {
@@ -96,6 +96,12 @@ void check_stop(const Scenario& scenario, ReadContext& context) {
                          "stop and sweep are both given, but the success rates of different sweep "
                          "values are not one.");
   }
+  if (cell_count(scenario) > 1) {
+    context.problems.add(position_of(context, "stop"),
+                         "stop and grid are both given, but a campaign that ends within a round of "
+                         "its cells has flown some oftener than others, and its interval would "
+                         "not hold: draw the key instead, as in size_m: !choice [0.1, 0.2].");
+  }
 }
 
 // What the flight core says of a parameter, at the place of its key; of several, at that of all.
@@ -176,7 +182,7 @@ void check_range_sensor(const Scenario& scenario, ReadContext& context) {
 void check_speed_limit(const Scenario& scenario, ReadContext& context) {
   const double limit_mps = scenario.controller.evading_speed_limit_mps;
   const double pilot_mps = scenario.dodger.velocity_limit.max_speed_mps;
-  if (scenario.pilot == "none" || pilot_mps <= limit_mps) return;
+  if (scenario.pilot == kNoPilot || pilot_mps <= limit_mps) return;
   add_contradiction("dodger.velocity_limit.max_speed_mps", pilot_mps, "not exceed",
                     "controller.evading_speed_limit_mps", limit_mps, context);
 }
@@ -270,9 +276,7 @@ void check_combinations(const Scenario& scenario, ReadContext& context) {
   std::map<std::string, Found> all;  // by place and sentence
   const int cells = cell_count(scenario), combinations = cells * sweep_count(scenario);
   for (int i = 0; i < combinations; ++i) {
-    Assignments values = combination(scenario.grid, i % cells);
-    const Assignments sweep_values = combination(scenario.sweep, i / cells);
-    values.insert(values.end(), sweep_values.begin(), sweep_values.end());
+    const Assignments values = values_of(scenario, i % cells, i / cells);
     ReadContext one = context;  // without problems, so far
     check_keys_together(with_values(scenario, values, one), one);
     for (const Problems::Problem& problem : one.problems.all()) {

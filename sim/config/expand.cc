@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "sim/base/joined.h"
 #include "sim/config/layers.h"
 
 namespace dodgesim {
@@ -13,6 +14,17 @@ int combinations(const VariedKeys& axes) {
   int count = 1;
   for (const VariedKey& axis : axes) count *= static_cast<int>(axis.values.size());
   return count;
+}
+
+// The values of combination number `index` of the axes.
+Assignments combination(const VariedKeys& axes, int index) {
+  Assignments values(axes.size());
+  for (std::size_t k = axes.size(); k-- > 0;) {
+    const auto count = static_cast<int>(axes[k].values.size());
+    values[k] = {axes[k].key, &axes[k].values[static_cast<std::size_t>(index % count)]};
+    index /= count;
+  }
+  return values;
 }
 
 }  // namespace
@@ -31,13 +43,10 @@ int throw_count(const Scenario& scenario) {
   return cell_count(scenario) * scenario.repeats * sweep_count(scenario);
 }
 
-Assignments combination(const VariedKeys& axes, int index) {
-  Assignments values(axes.size());
-  for (std::size_t k = axes.size(); k-- > 0;) {
-    const auto count = static_cast<int>(axes[k].values.size());
-    values[k] = {axes[k].key, &axes[k].values[static_cast<std::size_t>(index % count)]};
-    index /= count;
-  }
+Assignments values_of(const Scenario& scenario, int cell, int sweep) {
+  Assignments values = combination(scenario.grid, cell);
+  const Assignments sweep_values = combination(scenario.sweep, sweep);
+  values.insert(values.end(), sweep_values.begin(), sweep_values.end());
   return values;
 }
 
@@ -72,13 +81,10 @@ ThrowCase case_of(const Scenario& scenario, int t) {
   if (t < 0 || result.sweep >= sweep_count(scenario)) {
     throw std::out_of_range("The scenario has no throw " + std::to_string(t) + ".");
   }
-  Assignments values = combination(scenario.grid, result.cell);
-  result.cell_values = as_text(values);
-  const Assignments sweep_values = combination(scenario.sweep, result.sweep);
-  result.sweep_values = as_text(sweep_values);
-  values.insert(values.end(), sweep_values.begin(), sweep_values.end());
+  result.cell_values = as_text(combination(scenario.grid, result.cell));
+  result.sweep_values = as_text(combination(scenario.sweep, result.sweep));
   ReadContext context(scenario.name);
-  result.scenario = with_values(scenario, values, context);
+  result.scenario = with_values(scenario, values_of(scenario, result.cell, result.sweep), context);
   context.problems.raise_if_any();
   result.scenario.grid.clear();
   result.scenario.sweep.clear();
@@ -86,11 +92,13 @@ ThrowCase case_of(const Scenario& scenario, int t) {
 }
 
 std::string label(const std::vector<AxisValue>& values) {
-  std::string text;
-  for (const AxisValue& value : values) {
-    text += (text.empty() ? "" : ", ") + value.key + " " + value.value;
-  }
-  return text;
+  return joined(values, [](const AxisValue& value) { return value.key + " " + value.value; });
+}
+
+std::string label(const ThrowCase& thrown) {
+  std::vector<AxisValue> values = thrown.cell_values;
+  values.insert(values.end(), thrown.sweep_values.begin(), thrown.sweep_values.end());
+  return label(values);
 }
 
 void for_each_combination(const Scenario& scenario,
@@ -115,11 +123,7 @@ bool flies_plugin(const Scenario& scenario) {
 std::string pilots_of(const Scenario& scenario) {
   for (const VariedKey& axis : scenario.sweep) {
     if (axis.key != "pilot") continue;
-    std::string names;
-    for (const YamlNode& value : axis.values) {
-      names.append(names.empty() ? "" : ", ").append(value.text);
-    }
-    return "pilots " + names;
+    return "pilots " + joined(axis.values, &YamlNode::text);
   }
   return "pilot " + scenario.pilot;
 }

@@ -36,6 +36,7 @@ ThrowCase case_of(const Scenario& scenario, int t);
 
 // "delays.compute_us 3500, pilot oracle"; empty without values.
 std::string label(const std::vector<AxisValue>& values);
+std::string label(const ThrowCase& thrown);  // of its cell and sweep
 
 // With the values of each cell and each value of the sweep, once.
 void for_each_combination(const Scenario& scenario,
@@ -53,8 +54,8 @@ std::string pilots_of(const Scenario& scenario);
 using Assignments = std::vector<std::pair<std::string, const YamlNode*>>;
 Scenario with_values(Scenario scenario, const Assignments& values, ReadContext& context);
 
-// The values of combination number `index` of the axes, which must outlive them.
-Assignments combination(const VariedKeys& axes, int index);
+// Those of a cell and of a value of the sweep, by their numbers. The scenario must outlive them.
+Assignments values_of(const Scenario& scenario, int cell, int sweep);
 std::vector<AxisValue> as_text(const Assignments& values);
 
 }  // namespace dodgesim

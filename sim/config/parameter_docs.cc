@@ -1,8 +1,7 @@
 #include "sim/config/parameter_docs.h"
 
-#include <algorithm>
-
 #include "sim/base/error.h"
+#include "sim/base/joined.h"
 #include "sim/config/closest_name.h"
 #include "sim/config/numbers.h"
 #include "sim/config/writer.h"
@@ -74,14 +73,7 @@ void Documenter::operator()(const char* key, bool& value, const char* doc) {
 
 void Documenter::operator()(const char* key, const std::string& value,
                             std::initializer_list<const char*> allowed, const char* doc) {
-  std::string type;
-  std::size_t i = 0;
-  for (const char* name : allowed) {
-    if (i > 0) type += i + 1 < allowed.size() ? ", " : " or ";
-    type += name;
-    ++i;
-  }
-  add(key, type, "", value, doc);
+  add(key, joined(allowed, {}, " or "), "", value, doc);
 }
 
 void Documenter::operator()(const char* key, const Eigen::Vector3d& value, double min, double max,

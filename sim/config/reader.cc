@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <type_traits>
 
+#include "sim/base/joined.h"
 #include "sim/config/closest_name.h"
 #include "sim/config/numbers.h"
 
@@ -184,11 +185,7 @@ void Reader::operator()(const char* key, std::string& value,
     value = node->text;
     return;
   }
-  std::string wanted = "must be ";
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) wanted += i + 1 < names.size() ? ", " : " or ";
-    wanted += names[i];
-  }
+  std::string wanted = "must be " + joined(names, {}, " or ");
   const std::string near = text ? closest_name(node->text, names) : "";
   if (!near.empty()) wanted += " (did you mean " + near + "?)";
   problem(*node, full(key), wanted);

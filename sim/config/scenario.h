@@ -23,8 +23,7 @@
 #include "sim/control/velocity_controller.h"
 #include "sim/events/spec.h"
 #include "sim/motors/motors.h"
-#include "sim/render/key_picture.h"
-#include "sim/render/luminance_renderer.h"
+#include "sim/render/spec.h"
 #include "sim/sensors/imu.h"
 #include "sim/sensors/range_sensor.h"
 #include "sim/sensors/state_estimator.h"
@@ -65,7 +64,7 @@ struct SensorsSpec {
     v("keys", keys, "When the room is drawn anew, and how finely.");
     v("imu", imu, "Gyroscope and accelerometer.");
     v("state_estimate", state_estimate, "Pose and velocity as the vehicle's estimator gives them.");
-    v("range", range, "The range sensor that looks down.");
+    v("range", range, "The range sensor that looks down. It sees the room, not thrown objects.");
   }
 };
 
@@ -216,9 +215,10 @@ struct Scenario {
              "that its values can be compared throw by throw. They are never pooled.");
     v("stop", stop,
       "Sequential stopping, with an interval that stays valid; without this key all throws are "
-      "flown.");
+      "flown. All throws must be of one kind: without sweep and grid (draw a key with !choice "
+      "instead).");
     const std::string before = dodger_preset(pilot);
-    v("pilot", pilot, {kPaperPilot, kOwnPilot, "oracle", "none", kPluginPilot},
+    v("pilot", pilot, {kPaperPilot, kOwnPilot, kOraclePilot, kNoPilot, kPluginPilot},
       "Who flies. falanga2020: the paper's dodger; dodgesim: the same with what improves it (as a "
       "value of sweep it takes the place of all keys of dodger); oracle: one that is told the true "
       "obstacle; none: one that never dodges; plugin: your own, from the library that the option "
@@ -240,7 +240,10 @@ struct Scenario {
     v("duration_s", duration_s, 0.1, 3600,
       "Length of a flight when nobody throws (with a throw, after_s ends it).");
     v("sensors", sensors, "What the vehicle senses, and how badly.");
-    v("delays", delays, "The latency chain, in simulated time.");
+    v("delays", delays,
+      "The latency chain, in simulated time. What arrives is dealt with at the next tick of 250 "
+      "us: "
+      "a delay that is no multiple of that acts as the next one.");
     v("dodger", dodger,
       "Detection and avoidance. The defaults are those of falanga2020; dodge/presets.cc has what "
       "dodgesim does otherwise.");

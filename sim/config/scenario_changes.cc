@@ -11,19 +11,9 @@ namespace {
 // Values by their dotted key.
 using Values = std::map<std::string, std::string>;
 
-std::string text_of(const YamlNode& node) {
-  std::string text = node.tag.empty() ? "" : node.tag + " ";
-  if (node.kind == YamlNode::Kind::kScalar) return text + node.text;
-  text += "[";
-  for (std::size_t i = 0; i < node.items.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + text_of(node.items[i]);
-  }
-  return text + "]";
-}
-
 void collect(const YamlNode& node, const std::string& path, Values& values) {
   if (node.kind != YamlNode::Kind::kMap) {
-    values[path] = text_of(node);
+    values[path] = to_text(node);
     return;
   }
   for (std::size_t i = 0; i < node.items.size(); ++i) {

@@ -1,8 +1,7 @@
 #include "sim/config/writer.h"
 
-#include <array>
-#include <cstdio>
-
+#include "sim/base/formatted.h"
+#include "sim/base/joined.h"
 #include "sim/config/numbers.h"
 
 namespace dodgesim {
@@ -11,17 +10,10 @@ namespace {
 
 constexpr std::size_t kIndent = 2;
 
-std::string list(const std::vector<std::string>& items) {
-  std::string text = "[";
-  for (std::size_t i = 0; i < items.size(); ++i) text += (i > 0 ? ", " : "") + items[i];
-  return text + "]";
-}
+std::string list(const std::vector<std::string>& items) { return "[" + joined(items) + "]"; }
 
 std::string list(const std::vector<double>& values) {
-  std::vector<std::string> items;
-  items.reserve(values.size());
-  for (const double value : values) items.push_back(to_text(value));
-  return list(items);
+  return "[" + joined(values, [](double value) { return to_text(value); }) + "]";
 }
 
 // Names of models are letters, digits, _ and -, but YAML reads some of those as something else.
@@ -35,9 +27,7 @@ std::string name_text(const std::string& name) {
 std::string quoted_character(char c) {
   const bool control = (c >= 0 && c < 0x20) || c == 0x7f;
   if (!control) return {c};
-  std::array<char, 5> text{};
-  std::snprintf(text.data(), text.size(), "\\x%02x", static_cast<unsigned>(c));
-  return text.data();
+  return formatted("\\x%02x", static_cast<unsigned>(c));
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "sim/base/vector_level.h"
 #include "sim/events/luminance_bounds.h"

@@ -1,4 +1,5 @@
 #include "sim/files/npy_header.h"
+#include "sim/base/joined.h"
 
 #include <algorithm>
 #include <charconv>
@@ -157,12 +158,8 @@ class HeaderParser {
 NpyHeader parse_npy_header(std::string_view text) { return HeaderParser(text).parse(); }
 
 std::string shape_text(const std::vector<std::uint64_t>& shape) {
-  std::string text = "(";
-  for (std::size_t i = 0; i < shape.size(); ++i) {
-    if (i > 0) text += ", ";
-    text += std::to_string(shape[i]);
-  }
-  return text + (shape.size() == 1 ? ",)" : ")");
+  return "(" + joined(shape, [](std::uint64_t side) { return std::to_string(side); }) +
+         (shape.size() == 1 ? ",)" : ")");
 }
 
 std::string npy_front(const std::string& descr, const std::vector<std::uint64_t>& shape,

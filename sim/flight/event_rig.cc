@@ -9,6 +9,7 @@
 #include "sim/base/random.h"
 #include "sim/base/wall_clock.h"
 #include "sim/events/event_hash.h"
+#include "sim/render/flicker.h"
 
 namespace dodgesim {
 

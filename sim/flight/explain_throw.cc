@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include "sim/config/pilot.h"
+
 namespace dodgesim {
 
 namespace {
@@ -13,7 +15,7 @@ using Eigen::Vector3d;
 Encounter encounter(const FlightRecord& none) {
   const auto i = static_cast<std::size_t>(none.verdict.nearest_object);
   Encounter contact;
-  contact.contact_us = none.verdict.nearest.hit_us;
+  contact.contact_us = none.verdict.nearest.hit_us.value();
   contact.vehicle = none.last.vehicle;
   contact.object = none.last.objects[i];
   contact.hull = none.hull;
@@ -73,15 +75,12 @@ bool turned(Commands commands, const Encounter& undisturbed) {
   });
 }
 
-// The pilot's answer to the detection of an object.
-void add_answer(const Testimony& testimony, const Testimony::Object& object, bool perceives,
-                CollisionEvidence& evidence) {
-  TimeUs from_us = 0;
-  if (perceives) {
-    if (object.detections.empty()) return;
-    from_us = object.detections.front().output_us;
-  }
-  Commands commands = answer(testimony, from_us);
+// The pilot's answer to the detection of an object. Commands arrive command_delay_us after their
+// output.
+void add_answer(const Testimony& testimony, const Testimony::Object& object,
+                TimeUs command_delay_us, CollisionEvidence& evidence) {
+  if (evidence.perceives && object.detections.empty()) return;
+  Commands commands = answer(testimony, evidence.earliest_command_us.value_or(0));
   if (commands.empty()) return;
   evidence.command_us = commands.front().t_us;
   if (evidence.undisturbed) commands = before(evidence.undisturbed->contact_us, commands);
@@ -92,7 +91,9 @@ void add_answer(const Testimony& testimony, const Testimony::Object& object, boo
     evidence.last_command_W = commands.back().v_W - commands.front().vehicle_v_W;
   }
   for (const Testimony::Object::Detection& detection : object.detections) {
-    if (detection.output_us <= *evidence.command_us) evidence.position_error_W = detection.error_W;
+    if (detection.output_us + command_delay_us <= *evidence.command_us) {
+      evidence.position_error_W = detection.error_W;
+    }
   }
 }
 
@@ -123,7 +124,7 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
   }
   // Of a later object nobody knows how it would have met a vehicle that stayed.
   if (would_hit && none->verdict.nearest_object == hitter) evidence.undisturbed = encounter(*none);
-  add_answer(testimony, object, evidence.perceives, evidence);
+  add_answer(testimony, object, flown.command_delay_us, evidence);
   return evidence;
 }
 
@@ -168,8 +169,9 @@ void explain_throw(const FlightPlan& plan, const FlightRecord* none, const Fligh
   }
   result.false_alarm =
       result.first_command_us && (plan.launches.empty() || perceives(plan.pilot)) &&
-      (!result.first_detection_us || *result.first_command_us < *result.first_detection_us);
-  if (plan.pilot == "none") return;
+      (!result.first_detection_us ||
+       *result.first_command_us - flown.command_delay_us < *result.first_detection_us);
+  if (plan.pilot == kNoPilot) return;
   const CollisionEvidence evidence = evidence_of(plan, none, flown);
   const EscapeTimes times = escape_times(flown.agility, evidence);
   result.escape_left_s = times.left_s;

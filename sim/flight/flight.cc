@@ -1,12 +1,12 @@
 #include "sim/flight/flight.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <sstream>
 
 #include "dodge/dodger.h"
 #include "sim/base/error.h"
+#include "sim/config/pilot.h"
 #include "sim/world/room_ray.h"
 
 namespace dodgesim {
@@ -124,7 +124,7 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
   const dodge::Config& core = scenario_.dodger;
   TruthPilot::Setup setup;
   setup.oracle = scenario_.oracle;
-  setup.blind = plan_.pilot == "none";
+  setup.blind = plan_.pilot == kNoPilot;
   setup.delay_us = scenario_.sensors.events.latency_us + scenario_.delays.transport_us;
   setup.lifetime_s = dodge::decay_lifetime_s(core.repulsive);
   for (const auto& launch : plan_.launches) setup.sizes_m.push_back(launch.toss.object.size_m);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sim/base/error.h"
+#include "sim/campaign/result_files.h"
 #include "sim/files/directory.h"
 #include "sim/files/input_file.h"
 #include "sim/files/json.h"
@@ -17,12 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kManifest = "manifest.json";
-constexpr const char* kCopied[] = {"throws.csv", "objects.csv", "scenario.resolved.yaml",
-                                   "table.md"};
+constexpr const char* kCopied[] = {kThrowsFile, kObjectsFile, kScenarioFile, "table.md"};
 
 Json read_manifest(const fs::path& directory) {
-  const fs::path path = directory / kManifest;
+  const fs::path path = directory / kManifestFile;
   try {
     return parse_json(read_file(path));
   } catch (const std::invalid_argument& error) {
@@ -70,14 +69,15 @@ auto from_manifest(const fs::path& directory, Take take) {
   try {
     return take(manifest);
   } catch (const std::invalid_argument& error) {
-    throw IoError((directory / kManifest).string() + ": " + error.what() + ".");
+    throw IoError((directory / kManifestFile).string() + ": " + error.what() + ".");
   }
 }
 
 void expect(bool right, const fs::path& directory, const std::string& key,
             const std::string& allowed) {
   if (right) return;
-  throw IoError((directory / kManifest).string() + ": gate." + key + " must be " + allowed + ".");
+  throw IoError((directory / kManifestFile).string() + ": gate." + key + " must be " + allowed +
+                ".");
 }
 
 void check(const GateRules& rules, const fs::path& directory) {
@@ -94,7 +94,7 @@ void check(const CsvTable& throws, const fs::path& directory) {
   for (std::size_t row = 0; row < throws.rows(); ++row) {
     const std::string& number = throws.at(row, "throw");
     if (numbers.insert(number).second && number == std::to_string(row)) continue;
-    throw IoError((directory / "throws.csv").string() + ":" + std::to_string(throws.line(row)) +
+    throw IoError((directory / kThrowsFile).string() + ":" + std::to_string(throws.line(row)) +
                   ": Throw " + number + " stands where throw " + std::to_string(row) +
                   " must; a baseline has every throw once, in order.");
   }
@@ -106,7 +106,7 @@ std::string machine_kind(const fs::path& directory) { return from_manifest(direc
 
 Baseline read_baseline(const fs::path& directory) {
   Baseline baseline = {
-      read_tables(directory), read_file(directory / "scenario.resolved.yaml"),
+      read_tables(directory), read_file(directory / kScenarioFile),
       from_manifest(directory, rules_of),
       from_manifest(directory,
                     [](const Json& manifest) { return text_at(manifest, "program", "commit"); }),
@@ -114,19 +114,19 @@ Baseline read_baseline(const fs::path& directory) {
   check(baseline.rules, directory);
   check(baseline.tables.throws, directory);
   if (!baseline.tables.objects) {
-    throw IoError((directory / "objects.csv").string() + " is missing.");
+    throw IoError((directory / kObjectsFile).string() + " is missing.");
   }
   return baseline;
 }
 
 bool holds_baseline_files(const fs::path& directory) {
   const auto is_there = [&](const char* name) { return fs::exists(directory / name); };
-  return is_there(kManifest) || std::any_of(std::begin(kCopied), std::end(kCopied), is_there);
+  return is_there(kManifestFile) || std::any_of(std::begin(kCopied), std::end(kCopied), is_there);
 }
 
 bool is_marked_as_baseline(const fs::path& directory) {
   try {
-    return read_file(directory / kManifest).find("\"gate\":") != std::string::npos;
+    return read_file(directory / kManifestFile).find("\"gate\":") != std::string::npos;
   } catch (const IoError&) {
     return false;
   }
@@ -152,7 +152,7 @@ void write_baseline(const fs::path& directory, const fs::path& campaign, const G
   for (const char* name : kCopied) {
     files.emplace_back(directory / name).write(read_file(campaign / name));
   }
-  files.emplace_back(directory / kManifest).write(to_text(manifest, 2) + "\n");
+  files.emplace_back(directory / kManifestFile).write(to_text(manifest, 2) + "\n");
   for (OutputFile& file : files) file.finish();
   for (OutputFile& file : files) file.commit();
 }

@@ -1,11 +1,12 @@
 #include "sim/gate/comparison.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <map>
+#include <span>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
+#include "sim/base/joined.h"
 #include "sim/config/expand.h"
 
 namespace dodgesim {
@@ -48,13 +49,6 @@ void add_pair(const ThrowOutcome& a, const ThrowOutcome& b, Comparison& sum) {
   sum.counts.add(a.success, b.success);
   if (a.success == b.success) return;
   (a.success ? sum.lost : sum.gained).push_back({a.number, a.label, a.what, b.what});
-}
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  std::array<char, 200> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
 }
 
 std::string rate_line(const std::string& name, const Proportion& rate) {
@@ -141,10 +135,7 @@ std::string comparison_text(const Comparison& comparison, const std::string& fir
 
 std::string list_of(const std::vector<std::string>& items) {
   constexpr std::size_t kMost = 10;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(items.size(), kMost); ++i) {
-    text += (i == 0 ? "" : ", ") + items[i];
-  }
+  std::string text = joined(std::span(items).first(std::min(items.size(), kMost)));
   if (items.size() > kMost) text += " and " + std::to_string(items.size() - kMost) + " more";
   return text;
 }

@@ -1,10 +1,10 @@
 #include "sim/gate/gate.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
+#include "sim/base/formatted.h"
 #include "sim/files/markup.h"
 
 namespace dodgesim {
@@ -79,17 +79,15 @@ GateCheck rate_can_fall(const Comparison& comparison, const GateRules& rules, bo
 
 GateCheck rate_holds(const Comparison& comparison, const GateRules& rules) {
   const DropVerdict drop = judge_drop(comparison.counts, rules.margin, rules.confidence);
-  char text[160];
+  std::string text;
   if (drop.fell) {
-    std::snprintf(text, sizeof text,
-                  "it fell by %.3f, surely more than the margin of %g (p = %.2g)", drop.drop,
-                  rules.margin, drop.p_fell);
+    text = formatted("it fell by %.3f, surely more than the margin of %g (p = %.2g)", drop.drop,
+                     rules.margin, drop.p_fell);
   } else if (drop.kept) {
-    std::snprintf(text, sizeof text, "surely not lower by the margin of %g (p = %.2g)",
-                  rules.margin, drop.p_kept);
+    text = formatted("surely not lower by the margin of %g (p = %.2g)", rules.margin, drop.p_kept);
   } else {
-    std::snprintf(text, sizeof text,
-                  "no proof that it fell by more than %g, nor that it did not: %lld throws are few",
+    text =
+        formatted("no proof that it fell by more than %g, nor that it did not: %lld throws are few",
                   rules.margin, static_cast<long long>(comparison.counts.total()));
   }
   return {"success rate", drop.fell ? Result::kFailed : Result::kPassed, text};

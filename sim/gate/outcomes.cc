@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/campaign/result_files.h"
 #include "sim/config/numbers.h"
 #include "sim/files/input_file.h"
@@ -35,12 +35,8 @@ bool gave_up(const CsvTable& table, std::size_t row) {
 std::string label_of(const CsvTable& throws, std::size_t row) {
   const std::string& object = throws.at(row, "object");
   if (object.empty()) return "quiet flight";
-  char text[100];
-  std::snprintf(text, sizeof text, ", %.3g m/s from %.3g m", throws.number(row, "speed_mps"),
-                throws.number(row, "distance_m"));
-  char size[40];
-  std::snprintf(size, sizeof size, "%.3g m ", throws.number(row, "size_m"));
-  return size + object + text;
+  return formatted("%.3g m %s, %.3g m/s from %.3g m", throws.number(row, "size_m"), object.c_str(),
+                   throws.number(row, "speed_mps"), throws.number(row, "distance_m"));
 }
 
 DrawnObject drawn(const CsvTable& table, std::size_t row, const char* kind_column) {
@@ -147,15 +143,15 @@ Json manifest_or_nothing(const fs::path& path) {
 }  // namespace
 
 CampaignTables read_tables(const fs::path& directory) {
-  const fs::path throws = directory / "throws.csv";
+  const fs::path throws = directory / kThrowsFile;
   if (!fs::exists(throws) && fs::exists(directory / kJournalFile)) {
     throw IoError(directory.string() + " is not finished, so it has no throws.csv: the same run " +
                   "with --resume flies what is missing.");
   }
   CampaignTables tables{CsvTable(throws)};
-  const fs::path objects = directory / "objects.csv";
+  const fs::path objects = directory / kObjectsFile;
   if (fs::exists(objects)) tables.objects.emplace(objects);
-  const fs::path path = directory / "manifest.json";
+  const fs::path path = directory / kManifestFile;
   if (!fs::exists(path)) return tables;
   const Json manifest = manifest_or_nothing(path);
   tables.seed = find_number(manifest, "seed");

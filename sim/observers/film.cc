@@ -1,11 +1,11 @@
 #include "sim/observers/film.h"
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 #include "sim/files/png.h"
@@ -26,12 +26,6 @@ const cv::Vec3b kGreen(90, 160, 60), kPurple(170, 60, 130);  // as in the paper'
 void write_text(cv::Mat3b& image, const std::string& text, int x, int y) {
   cv::putText(image, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, 0.45, {0, 0, 0}, 3, cv::LINE_AA);
   cv::putText(image, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, 0.45, {255, 255, 255}, 1, cv::LINE_AA);
-}
-
-std::string with_number(const char* pattern, double a) {
-  char text[80];
-  std::snprintf(text, sizeof text, pattern, a);
-  return text;
 }
 
 }  // namespace
@@ -109,11 +103,11 @@ void Film::compose(const Snapshot& snapshot) {
 }
 
 void Film::caption(const Snapshot& snapshot) {
-  write_text(picture_, with_number("t = %.3f s", seconds(snapshot.t_us)), 10, 20);
+  write_text(picture_, formatted("t = %.3f s", seconds(snapshot.t_us)), 10, 20);
   for (std::size_t i = 0; i < snapshot.objects.size(); ++i) {
     if (!snapshot.launched[i]) continue;
     const double distance_m = (snapshot.objects[i].p_W - snapshot.vehicle.p_W).norm();
-    write_text(picture_, with_number("object at %.2f m", distance_m), 10,
+    write_text(picture_, formatted("object at %.2f m", distance_m), 10,
                40 + 20 * static_cast<int>(i));
   }
   write_text(picture_, std::to_string(detections_) + " detections" + (evading_ ? ", evading" : ""),
@@ -143,9 +137,8 @@ void StageFilm::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
   cv::Mat3b picture = stage_panels(*dodger, 0);
   const cv::Mat3b bottom = stage_panels(*dodger, 1);
   if (!bottom.empty()) cv::vconcat(picture, bottom, picture);
-  char name[40];
-  std::snprintf(name, sizeof name, "/stages_%09lld_us.png", static_cast<long long>(now_us));
-  write_file(directory_ + name, png_of(picture));
+  const auto stamp_us = static_cast<long long>(now_us);
+  write_file(directory_ + formatted("/stages_%09lld_us.png", stamp_us), png_of(picture));
   ++pictures_;
 }
 

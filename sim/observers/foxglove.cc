@@ -1,7 +1,6 @@
 #include "sim/observers/foxglove.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include "sim/files/base64.h"
 

@@ -1,11 +1,11 @@
 #include "sim/observers/mcap_recorder.h"
 
 #include <array>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/files/png.h"
 #include "sim/observers/foxglove_models.h"
 
@@ -28,13 +28,6 @@ constexpr std::array<const char*, 2> kCameras = {"top", "bottom"};
 const Colour kRoom(0.6, 0.6, 0.6, 0.35), kObject(1.0, 0.45, 0.1, 1), kVehiclePath(0.2, 0.6, 1, 1);
 const Colour kCalm(0.3, 0.8, 0.4, 0.9), kEvading(0.95, 0.2, 0.2, 0.9);
 const Colour kDetection(0.9, 0.1, 0.8, 0.9), kUncertainty(0.9, 0.1, 0.8, 0.25);
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[200];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
 
 std::string camera_frame(std::size_t i) { return std::string("camera_") + kCameras.at(i); }
 std::string object_frame(std::size_t i) { return "object_" + std::to_string(i); }
@@ -173,8 +166,8 @@ void McapRecorder::show_launches(const World& world) {
                        entities.back());
     if (!shown_[i]) {
       say(now_.t_us, Level::kInfo,
-          format("Object %zu is thrown, %.2f m away.", i,
-                 (now_.objects[i].p_W - now_.vehicle.p_W).norm()));
+          formatted("Object %zu is thrown, %.2f m away.", i,
+                    (now_.objects[i].p_W - now_.vehicle.p_W).norm()));
     }
     shown_[i] = true;
   }
@@ -279,7 +272,7 @@ void McapRecorder::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
         foxglove::ellipsoid(pose, Eigen::Vector3d::Constant(size_m), kDetection));
     entity["spheres"].push_back(foxglove::ellipsoid(pose, {deep_m, size_m, size_m}, kUncertainty));
     if (detections_++ == 0) {
-      say(now_us, Level::kInfo, format("First detection, %.2f m deep.", detection.depth_m));
+      say(now_us, Level::kInfo, formatted("First detection, %.2f m deep.", detection.depth_m));
     }
   }
   write("/scene/detections", now_us, foxglove::scene_update({entity}));
@@ -325,7 +318,7 @@ void McapRecorder::finish(const ThrowResult& result) {
     say(*result.landed_us, Level::kInfo, "The vehicle has landed.");
   } else if (flown.clearance_m) {
     say(flown.closest_us.value_or(end_us), Level::kInfo,
-        format("Closest approach: %.3f m between the surfaces.", *flown.clearance_m));
+        formatted("Closest approach: %.3f m between the surfaces.", *flown.clearance_m));
   }
   if (result.none.ok()) {
     say(end_us, Level::kInfo,

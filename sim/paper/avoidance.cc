@@ -7,7 +7,9 @@
 #include <sstream>
 
 #include "dodge/presets.h"
+#include "sim/base/joined.h"
 #include "sim/campaign/text_table.h"
+#include "sim/config/pilot.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/losses.h"
 #include "sim/paper/pair.h"
@@ -36,8 +38,6 @@ constexpr const char* kAvoidanceProtocol = R"(How the protocol is read:
   and the other did not.
 )";
 
-constexpr const char* kSecondPilot = "dodgesim";
-
 // A name in front of rows, and the throws in them; an empty name stands for all throws of a set.
 struct Group {
   std::string name;
@@ -57,14 +57,14 @@ using Sets = std::span<const Set>;
 // Each scenario by falanga2020 and then by dodgesim, whose oracle is told of what it may believe.
 std::vector<PaperFlight> flights_of_both(const std::vector<std::string>& scenarios) {
   std::ostringstream range_m;
-  range_m << dodge::preset(kSecondPilot).position.max_range_m;
+  range_m << dodge::preset(kOwnPilot).position.max_range_m;
   std::vector<PaperFlight> flights;
   for (const std::string& scenario : scenarios) {
     flights.push_back({scenario + "_falanga2020", scenario + ".yaml", {}});
-    flights.push_back({scenario + "_dodgesim",
-                       scenario + ".yaml",
-                       {paper_setting("pilot", kSecondPilot),
-                        paper_setting("oracle.range_cap_m", range_m.str())}});
+    flights.push_back(
+        {scenario + "_dodgesim",
+         scenario + ".yaml",
+         {paper_setting("pilot", kOwnPilot), paper_setting("oracle.range_cap_m", range_m.str())}});
   }
   return flights;
 }
@@ -104,11 +104,9 @@ std::string range_text(const LoadedCampaign& campaign) {
 
 // "27 not detected, 3 seen late".
 std::string causes_text(const std::map<std::string, int>& causes) {
-  std::string text;
-  for (const auto& [cause, count] : causes) {
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + cause;
-  }
-  return text;
+  return joined(causes, [](const auto& cause_count) {
+    return std::to_string(cause_count.second) + " " + cause_count.first;
+  });
 }
 
 void add_losses(const std::string& name, Sets sets, const LoadedCampaign* Set::*pilot,
@@ -117,7 +115,7 @@ void add_losses(const std::string& name, Sets sets, const LoadedCampaign* Set::*
   for (const Set& set : sets) {
     for (const ThrowResult& result : (set.*pilot)->results) losses.add(result);
   }
-  table.rows.push_back({name, pilot == &Set::falanga2020 ? "falanga2020" : kSecondPilot,
+  table.rows.push_back({name, pilot == &Set::falanga2020 ? kPaperPilot : kOwnPilot,
                         rate_text(losses.dodged()), range_text(*(sets.front().*pilot)),
                         rate_text(losses.dodged_by_oracle()), ratio_text(losses),
                         rate_text(losses.lost_to_perception()), causes_text(losses.perception),
@@ -126,7 +124,7 @@ void add_losses(const std::string& name, Sets sets, const LoadedCampaign* Set::*
 
 TextTable cause_table(const PilotPair& all) {
   TextTable table;
-  table.head = {"cause of hits and crashes", "falanga2020", "dodgesim"};
+  table.head = {"cause of hits and crashes", kPaperPilot, kOwnPilot};
   std::set<std::string> causes;
   for (const auto& [cause, count] : all.first_causes) causes.insert(cause);
   for (const auto& [cause, count] : all.second_causes) causes.insert(cause);

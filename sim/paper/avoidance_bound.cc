@@ -38,7 +38,7 @@ Encounter head_on(const std::vector<Convex>& hull, double speed_mps) {
   const double behind_m = reach_m(hull, -Eigen::Vector3d::UnitX()) + kMeanBallRadiusM;
   double gap_m = 0;
   do {
-    gap_m = convex_gap(hull, {ball}, X_BO).distance_m;
+    gap_m = convex_gap_m(hull, {ball}, X_BO);
     X_BO.translation().x() -= gap_m;
     if (X_BO.translation().x() < -behind_m) {
       throw ScenarioError("A ball of 20 cm flies through the middle of the vehicle's hull: there " +

@@ -1,7 +1,5 @@
 #include "sim/paper/experiment.h"
 
-#include <algorithm>
-
 #include "sim/base/shell.h"
 
 namespace dodgesim {

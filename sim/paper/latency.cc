@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/config/pilot.h"
 #include "sim/paper/avoidance_bound.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/rate_grid.h"
@@ -139,8 +140,8 @@ PaperTables analyse_latency(const std::vector<LoadedCampaign>& campaigns) {
   const std::vector<LatencyCurves> all = {
       curves_of("oracle, 1.5 m", "oracle_1_5m", within("1.5", oracle), oracle),
       curves_of("oracle, 3 m", "oracle_3m", within("3", oracle), oracle),
-      curves_of("falanga2020, 3 m", "falanga2020", parts_of(faithful), faithful),
-      curves_of("dodgesim", "dodgesim", parts_of(own), own)};
+      curves_of("falanga2020, 3 m", kPaperPilot, parts_of(faithful), faithful),
+      curves_of(kOwnPilot, kOwnPilot, parts_of(own), own)};
   PaperTables tables;
   std::vector<RateGrid> grids;
   tables.markdown = lost_table(all, oracle).to_markdown() + "\n";
@@ -163,7 +164,7 @@ PaperExperiment latency_experiment() {
           "Success against the latency of perception",
           {{"latency_oracle", "claims_latency_oracle.yaml", {}},
            {"latency_falanga2020", sweep, {paper_setting("dodger.position.max_range_m", "3")}},
-           {"latency_dodgesim", sweep, {paper_setting("pilot", "dodgesim")}}},
+           {"latency_dodgesim", sweep, {paper_setting("pilot", kOwnPilot)}}},
           analyse_latency};
 }
 

@@ -1,6 +1,7 @@
 // What the paper's pilot can dodge, by the speed of the object and by the distance from which on it
 // is believed.
 #include "sim/base/error.h"
+#include "sim/config/pilot.h"
 #include "sim/paper/avoidance_bound.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/rate_grid.h"
@@ -73,7 +74,7 @@ PaperTables analyse_speed(const std::vector<LoadedCampaign>& campaigns) {
   const SpeedCurve curves[] = {
       curve(0, campaigns[0], campaigns[1]), curve(0, campaigns[2], campaigns[3]),
       curve(0, campaigns[4], campaigns[5]), curve(1, campaigns[4], campaigns[5])};
-  const char* names[] = {"falanga2020", "dodgesim", "oracle, 1.5 m", "oracle"};
+  const char* names[] = {kPaperPilot, kOwnPilot, "oracle, 1.5 m", kOraclePilot};
   RateGrid grid{"dodged", {}, curves[0].columns, {}};
   Plot plot;
   plot.title = "Throws dodged by their speed";
@@ -145,24 +146,24 @@ TextTable bound_table(const std::vector<double>& range_m, const Scenario& scenar
 }
 
 PaperTables analyse_range(const std::vector<LoadedCampaign>& campaigns) {
-  const RangeRows faithful = rows_of("falanga2020", "dodger.position.max_range_m", campaigns[0]);
-  const RangeRows oracle = rows_of("oracle", "oracle.range_cap_m", campaigns[1]);
+  const RangeRows faithful = rows_of(kPaperPilot, "dodger.position.max_range_m", campaigns[0]);
+  const RangeRows oracle = rows_of(kOraclePilot, "oracle.range_cap_m", campaigns[1]);
   return {
       faithful.grid.with_sum().table().to_markdown() + "\n" +
           oracle.grid.with_sum().table().to_markdown() + "\n" +
           bound_table(oracle.range_m, campaigns[1].scenario).to_markdown() + "\n" + kRangeProtocol,
       rates_csv({faithful.grid, oracle.grid}),
-      {plot_of(faithful, "falanga2020", campaigns[0]), plot_of(oracle, "oracle", campaigns[1])}};
+      {plot_of(faithful, kPaperPilot, campaigns[0]), plot_of(oracle, kOraclePilot, campaigns[1])}};
 }
 
 }  // namespace
 
 PaperExperiment speed_experiment() {
   const std::string slow = "claims_speed_slow.yaml", fast = "claims_speed.yaml";
-  const std::vector<Setting> own = {paper_setting("pilot", "dodgesim")};
+  const std::vector<Setting> own = {paper_setting("pilot", kOwnPilot)};
   const std::vector<Setting> oracle = {
-      paper_setting("pilot", "oracle"), paper_setting("sweep", "{oracle.range_cap_m: [1.5, 0]}"),
-      paper_setting("repeats", "60"),
+      paper_setting("pilot", kOraclePilot),
+      paper_setting("sweep", "{oracle.range_cap_m: [1.5, 0]}"), paper_setting("repeats", "60"),
       // No wall ends an escape.
       paper_setting("room", "field"), paper_setting("after_s", "0.6")};
   return {"speed",

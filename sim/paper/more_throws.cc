@@ -8,6 +8,7 @@
 
 #include "sim/campaign/text_table.h"
 #include "sim/campaign/trajectory.h"
+#include "sim/config/pilot.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/losses.h"
 #include "sim/paper/pair.h"
@@ -133,7 +134,7 @@ std::vector<PaperFlight> flights_of_more_throws() {
     flights.push_back(
         {name + std::string("_oracle_in_view"),
          scenario,
-         {paper_setting("pilot", "oracle"), paper_setting("oracle.field_of_view", "true")}});
+         {paper_setting("pilot", kOraclePilot), paper_setting("oracle.field_of_view", "true")}});
   }
   return flights;
 }

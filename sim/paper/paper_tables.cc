@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/base/error.h"
+#include "sim/base/joined.h"
 #include "sim/campaign/build_info.h"
 #include "sim/campaign/journal.h"
 #include "sim/campaign/result_files.h"
@@ -23,14 +24,6 @@ LoadedCampaign load_with_rows(const fs::path& directory, const std::string& mode
                   [&](ThrowResult result) { results.push_back(std::move(result)); });
   return campaign_of(parse_scenario(index.identity.scenario, kScenarioFile, models_dir),
                      index.identity.program, std::move(results));
-}
-
-std::string names_of(const std::vector<PaperExperiment>& experiments) {
-  std::string names;
-  for (const PaperExperiment& experiment : experiments) {
-    names += (names.empty() ? "" : ", ") + experiment.name;
-  }
-  return names;
 }
 
 std::string flown_markdown(const PaperExperiment& experiment,
@@ -95,8 +88,8 @@ std::vector<PaperExperiment> experiments_named(const std::vector<std::string>& n
   };
   for (const std::string& name : names) {
     if (std::any_of(all.begin(), all.end(), named(name))) continue;
-    throw ScenarioError("There is no experiment \"" + name + "\"; there are " + names_of(all) +
-                        ".");
+    throw ScenarioError("There is no experiment \"" + name + "\"; there are " +
+                        joined(all, &PaperExperiment::name) + ".");
   }
   std::vector<PaperExperiment> chosen;
   for (const PaperExperiment& experiment : all) {

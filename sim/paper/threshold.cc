@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "dodge/presets.h"
+#include "sim/config/pilot.h"
 #include "sim/flight/flight.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/rate_grid.h"
@@ -116,7 +117,7 @@ TextTable threshold_table(const std::string& name, const std::string& key, doubl
 }
 
 PaperTables analyse_threshold(const std::vector<LoadedCampaign>& campaigns) {
-  const dodge::TimeImageConfig paper = dodge::preset("falanga2020").time_image;
+  const dodge::TimeImageConfig paper = dodge::preset(kPaperPilot).time_image;
   const TextTable a = threshold_table("a [s]", "dodger.time_image.threshold_a_s",
                                       paper.threshold_a_s, campaigns[0]);
   const TextTable b =

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "sim/base/formatted.h"
 #include "sim/files/png.h"
 
 namespace dodgesim {
@@ -93,9 +93,7 @@ std::vector<double> ticks(const Scale& scale) {
 }
 
 std::string tick_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", std::abs(value) < 1e-12 ? 0.0 : value);
-  return text;
+  return formatted("%g", std::abs(value) < 1e-12 ? 0.0 : value);
 }
 
 void write(cv::Mat3b& image, const std::string& text, cv::Point at, double align) {

@@ -15,6 +15,11 @@ std::string place_named_in(const std::string& message, const Scenario& campaign)
   return named.empty() ? "" : campaign.places.at(named);
 }
 
+std::string place_of_key(const std::string& key, const Scenario& campaign) {
+  const auto at = campaign.places.find(key);
+  return at == campaign.places.end() ? "" : at->second;
+}
+
 std::string placed(const std::string& message, const std::string& place) {
   return place.empty() ? message : place + ": " + message;
 }

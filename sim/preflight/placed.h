@@ -12,6 +12,9 @@ namespace dodgesim {
 // name, may be a word of any sentence.
 std::string place_named_in(const std::string& message, const Scenario& campaign);
 
+// "file:line:column" of a dotted key that the scenario gives; empty if it does not.
+std::string place_of_key(const std::string& key, const Scenario& campaign);
+
 // "place: message", or the message alone.
 std::string placed(const std::string& message, const std::string& place);
 

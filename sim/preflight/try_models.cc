@@ -82,11 +82,7 @@ std::vector<Trial> trials_of(const Scenario& campaign) {
   std::map<std::string, Trial> trials;  // each kind of world once
   std::set<std::string> kinds;
   for_each_combination(campaign, [&](const Scenario& scenario) {
-    WorldSpec world;
-    world.models_dir = scenario.models_dir;
-    world.room = scenario.room;
-    world.vehicle = scenario.vehicle;
-    world.vehicle_overrides = scenario.vehicle_overrides;
+    const WorldSpec world = world_spec(scenario, {});
     Trial& trial = trials.try_emplace(description(world), Trial{world, {}}).first->second;
     add_places(scenario.mission, trial.places);
     trial.min_thrust_n = std::max(trial.min_thrust_n, scenario.motors.min_thrust_n);
@@ -108,8 +104,15 @@ std::vector<Trial> trials_of(const Scenario& campaign) {
   return all;
 }
 
-std::string vehicle_file(const Trial& trial) {
-  return trial.world.models_dir + "/vehicles/" + trial.world.vehicle + ".xml";
+// What `check` throws is the vehicle's fault.
+template <class Check>
+void blame_vehicle(const Trial& trial, const Check& check) {
+  try {
+    check();
+  } catch (const std::invalid_argument& error) {
+    throw ScenarioError(trial.world.models_dir + "/vehicles/" + trial.world.vehicle +
+                        ".xml: " + error.what());
+  }
 }
 
 // Whether the flight core can use the cameras.
@@ -119,20 +122,13 @@ void check_stereo(const World& world, const Trial& trial) {
   dodge::Config config;
   config.position.depth = "stereo";
   config.cameras = camera_models(scenario, world.vehicle());
-  try {
-    dodge::validate(config);
-  } catch (const std::invalid_argument& error) {
-    throw ScenarioError(vehicle_file(trial) + ": " + error.what());
-  }
+  blame_vehicle(trial, [&] { dodge::validate(config); });
 }
 
 // Whether the mixer can use the rotors.
 void check_rotors(const World& world, const Trial& trial) {
-  try {
-    Mixer(world.vehicle(), trial.min_thrust_n, world.vehicle().max_thrust_n, 0);
-  } catch (const std::invalid_argument& error) {
-    throw ScenarioError(vehicle_file(trial) + ": " + error.what());
-  }
+  blame_vehicle(
+      trial, [&] { Mixer(world.vehicle(), trial.min_thrust_n, world.vehicle().max_thrust_n, 0); });
 }
 
 // Whether the event cameras see the objects.

@@ -7,6 +7,7 @@
 #include "sim/config/expand.h"
 #include "sim/config/writer.h"
 #include "sim/flight/flight.h"
+#include "sim/preflight/placed.h"
 
 namespace dodgesim {
 
@@ -71,9 +72,9 @@ void try_plugin(const Scenario& campaign) {
                         kPluginPilot + " makes it fly this one.");
   }
   if (file.empty()) {
-    const auto at = campaign.places.find("pilot");
-    throw ScenarioError((at == campaign.places.end() ? "" : at->second + ": ") + "pilot is " +
-                        kPluginPilot + ", but no library is given: add --plugin FILE.so.");
+    throw ScenarioError(placed(std::string("pilot is ") + kPluginPilot +
+                                   ", but no library is given: add --plugin FILE.so.",
+                               place_of_key("pilot", campaign)));
   }
   for (const auto& [given, scenario] : flown_by_plugin(campaign)) try_making(scenario);
 }

@@ -25,27 +25,22 @@ std::int64_t stride_through(int throws) {
 
 // "throw 3 (throw.distance_m 9)".
 std::string name_of(const ThrowCase& thrown) {
-  std::vector<AxisValue> values = thrown.cell_values;
-  values.insert(values.end(), thrown.sweep_values.begin(), thrown.sweep_values.end());
-  const std::string number = "throw " + std::to_string(thrown.index);
-  return values.empty() ? number : number + " (" + label(values) + ")";
+  const std::string number = "throw " + std::to_string(thrown.index), values = label(thrown);
+  return values.empty() ? number : number + " (" + values + ")";
 }
 
 std::string place_of(const std::string& mistake, const Scenario& campaign) {
   std::string named = place_named_in(mistake, campaign);
   if (!named.empty()) return named;
-  for (const char* key : {"throws", "throw"}) {
-    const auto found = campaign.places.find(key);
-    if (found != campaign.places.end()) return found->second;
-  }
-  return "";
+  const std::string list = place_of_key("throws", campaign);
+  return list.empty() ? place_of_key("throw", campaign) : list;
 }
 
 // Simulated time up to the arrivals, which each object needs anew.
 double solved_s(const FlightPlan& plan) {
   double sum_s = 0;
   for (const FlightPlan::Launch& launch : plan.launches) {
-    sum_s += 1e-6 * static_cast<double>(launch.toss.arrival_us());
+    sum_s += seconds(launch.toss.arrival_us());
   }
   return sum_s;
 }

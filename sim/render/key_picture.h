@@ -22,31 +22,9 @@
 #include <vector>
 
 #include "sim/camera/camera.h"
+#include "sim/render/spec.h"
 
 namespace dodgesim {
-
-struct KeySpec {
-  std::int64_t supersampling = 3;
-  std::int64_t margin_px = 32;
-  double max_misplacement_px = 2;
-  double max_zoom = 0.1;
-
-  template <class Visitor>
-  void visit(Visitor& v) {
-    v("supersampling", supersampling, 1, 4,
-      "Pixels drawn for each of the camera's, across and down; their mean is what the camera's "
-      "pixel collects.");
-    v("margin_px", margin_px, 16, 256,
-      "How far a drawn picture reaches beyond the view on every side: so far the camera turns "
-      "before the next is drawn.");
-    v("max_misplacement_px", max_misplacement_px, 0, 10,
-      "How far the outline of something near may be from its place, because the camera has moved "
-      "since the picture was drawn, before another is drawn. 0 draws every picture.");
-    v("max_zoom", max_zoom, 0, 1,
-      "Share of the distance to the nearest thing in view that the camera may move before another "
-      "picture is drawn.");
-  }
-};
 
 class KeyPicture {
  public:

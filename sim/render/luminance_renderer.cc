@@ -78,7 +78,6 @@ class LuminanceRenderer::Impl {
                      float* luminance, float* inverse_depth);
   void draw_objects(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
                     bool behind_static, float* luminance, std::int32_t* object_id);
-  const OsmesaContext& context() const { return lease_.context(); }
 
  private:
   // Images of one size, with what depends on the camera's intrinsics.
@@ -297,7 +296,5 @@ void LuminanceRenderer::draw_objects(const Snapshot& snapshot, const Eigen::Isom
                                      std::int32_t* object_id) {
   impl_->draw_objects(snapshot, X_WC, region, behind_static, luminance, object_id);
 }
-
-const std::string& LuminanceRenderer::gl_renderer() const { return impl_->context().renderer(); }
 
 }  // namespace dodgesim

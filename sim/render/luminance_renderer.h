@@ -21,38 +21,11 @@
 #include <vector>
 
 #include "sim/camera/camera.h"
-#include "sim/render/flicker.h"
+#include "sim/render/spec.h"
 #include "sim/world/snapshot.h"
 #include "sim/world/world.h"
 
 namespace dodgesim {
-
-struct RenderSpec {
-  double near_m = 0.02;
-  double far_m = 2000.0;
-  double sky_luminance = 0.5;
-  std::string texel_encoding = "linear";
-  std::string texture_filter = "bilinear";
-  FlickerSpec flicker;  // of what event cameras see; the renderer itself draws the mean light
-
-  template <class Visitor>
-  void visit(Visitor& v) {
-    v("near_m", near_m, 0.001, 0.5,
-      "Nothing of the room and of meshes nearer to the camera than this depth is drawn.");
-    v("far_m", far_m, 10.0, 100000.0, "Unbounded planes end at this distance, the horizon.");
-    v("sky_luminance", sky_luminance, 0.0, 1000.0,
-      "Luminance of the background where the room has no sky texture; 1 is a white surface under "
-      "full light.");
-    v("texture_filter", texture_filter, {"bilinear", "trilinear"},
-      "Reading of textures that are seen smaller than they are: bilinear within the nearest level "
-      "of the mip-map, or trilinear between two, which takes about half as long again per "
-      "picture.");
-    v("texel_encoding", texel_encoding, {"linear", "srgb"},
-      "What a texel's value v of 0 to 255 means: the reflectance v/255 (the rooms of this "
-      "project), or a code value of a photograph.");
-    flicker.visit(v);
-  }
-};
 
 class LuminanceRenderer {
  public:
@@ -86,9 +59,6 @@ class LuminanceRenderer {
   // is several times faster.
   void draw_objects(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
                     bool behind_static, float* luminance, std::int32_t* object_id);
-
-  // OpenGL's names for itself, for the manifest of a run.
-  const std::string& gl_renderer() const;
 
  private:
   class Impl;

@@ -52,7 +52,6 @@ OsmesaContext::OsmesaContext(GlProfile profile, int width, int height)
     throw;
   }
   renderer_ = gl_string(GL_RENDERER);
-  version_ = gl_string(GL_VERSION);
 }
 
 OsmesaContext::~OsmesaContext() { OSMesaDestroyContext(static_cast<OSMesaContext>(context_)); }

@@ -27,15 +27,14 @@ class OsmesaContext {
   // Cheap when the context is current already. Throws SimulationError.
   void make_current();
 
-  // For the manifest of a run, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)" and "3.3 (Core Profile)".
+  // For the manifest of a run, e.g. "llvmpipe (LLVM 15.0.6, 256 bits)".
   const std::string& renderer() const { return renderer_; }
-  const std::string& version() const { return version_; }
 
  private:
   void* context_;
   int width_, height_;
   std::vector<std::uint8_t> framebuffer_;  // RGBA
-  std::string renderer_, version_;
+  std::string renderer_;
 };
 
 // renderer() of a context that another process makes: Mesa starts threads that outlive a context,

@@ -17,11 +17,9 @@ constexpr double kDistanceToleranceM = 1e-7;  // between upper and lower bound o
 constexpr double kTouchingM = 1e-9;
 constexpr int kMaxGjkIterations = 100;
 
-// Corners of the Minkowski difference a - b, with the point of a that each came from.
+// Corners of the Minkowski difference a - b.
 struct Simplex {
   std::array<Eigen::Vector3d, 4> w;
-  std::array<Eigen::Vector3d, 4> a;
-  std::array<double, 4> weight{};
   int size = 0;
 };
 
@@ -78,8 +76,6 @@ Eigen::Vector3d reduce(Simplex& s) {
     face.size = n;
     for (std::size_t k = 0; k < static_cast<std::size_t>(n); ++k) {
       face.w[k] = s.w[static_cast<std::size_t>(index[k])];
-      face.a[k] = s.a[static_cast<std::size_t>(index[k])];
-      face.weight[k] = weight[k];
     }
   }
   s = face;
@@ -223,7 +219,7 @@ double radius_m(const std::vector<Convex>& parts) {
   return radius_m;
 }
 
-ConvexGap convex_gap(const Convex& a, const Convex& b, const Eigen::Isometry3d& X_AB) {
+double convex_gap_m(const Convex& a, const Convex& b, const Eigen::Isometry3d& X_AB) {
   const Eigen::Matrix3d R_BA = X_AB.linear().transpose();
   // v is the point of the core difference a - b that is nearest to the origin so far.
   Simplex simplex;
@@ -231,14 +227,11 @@ ConvexGap convex_gap(const Convex& a, const Convex& b, const Eigen::Isometry3d& 
   if (v.norm() < kTouchingM) v = Eigen::Vector3d::UnitX();
   double core_distance = 0;
   for (int i = 0; i < kMaxGjkIterations; ++i) {
-    const Eigen::Vector3d p = a.support(-v);
-    const Eigen::Vector3d w = p - X_AB * b.support(R_BA * v);
+    const Eigen::Vector3d w = a.support(-v) - X_AB * b.support(R_BA * v);
     core_distance = v.norm();
     // v.w/|v| bounds the distance from below, |v| from above (from the first simplex on).
     if (simplex.size > 0 && core_distance - v.dot(w) / core_distance < kDistanceToleranceM) break;
-    const auto at = static_cast<std::size_t>(simplex.size++);
-    simplex.w[at] = w;
-    simplex.a[at] = p;
+    simplex.w[static_cast<std::size_t>(simplex.size++)] = w;
     v = reduce(simplex);
     core_distance = v.norm();
     if (simplex.size == 4 || core_distance < kTouchingM) {
@@ -246,29 +239,21 @@ ConvexGap convex_gap(const Convex& a, const Convex& b, const Eigen::Isometry3d& 
       break;
     }
   }
-  ConvexGap out;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(simplex.size); ++k) {
-    out.p_A += simplex.weight[k] * simplex.a[k];
-  }
-  if (core_distance > 0) out.p_A -= a.radius_m() / core_distance * v;
-  out.distance_m = std::max(0.0, core_distance - a.radius_m() - b.radius_m());
-  return out;
+  return std::max(0.0, core_distance - a.radius_m() - b.radius_m());
 }
 
-ConvexGap convex_gap(const std::vector<Convex>& a, const std::vector<Convex>& b,
-                     const Eigen::Isometry3d& X_AB, double most_m) {
-  ConvexGap least;
-  least.distance_m = most_m;
+double convex_gap_m(const std::vector<Convex>& a, const std::vector<Convex>& b,
+                    const Eigen::Isometry3d& X_AB, double most_m) {
+  double least_m = most_m;
   for (const Convex& part : a) {
     for (const Convex& other : b) {
       const double at_least =
           (part.centre() - X_AB * other.centre()).norm() - part.extent_m() - other.extent_m();
-      if (at_least >= least.distance_m) continue;
-      const ConvexGap gap = convex_gap(part, other, X_AB);
-      if (gap.distance_m < least.distance_m) least = gap;
+      if (at_least >= least_m) continue;
+      least_m = std::min(least_m, convex_gap_m(part, other, X_AB));
     }
   }
-  return least;
+  return least_m;
 }
 
 }  // namespace dodgesim

@@ -58,19 +58,13 @@ double reach_m(const std::vector<Convex>& parts, const Eigen::Vector3d& directio
 // 0 without parts.
 double radius_m(const std::vector<Convex>& parts);
 
-struct ConvexGap {
-  double distance_m = 0;                          // between the surfaces, 0 if they touch
-  Eigen::Vector3d p_A = Eigen::Vector3d::Zero();  // the nearest point on a, in a's frame
-};
+// Distance [m] between the surfaces, 0 if they touch. X_AB: pose of b's frame in a's frame. Exact
+// to about 1e-9 m for bodies with corners, 1e-6 m for cylinders and ellipsoids.
+double convex_gap_m(const Convex& a, const Convex& b, const Eigen::Isometry3d& X_AB);
 
-// X_AB: pose of b's frame in a's frame. Exact to about 1e-9 m for bodies with corners, 1e-6 m for
-// cylinders and ellipsoids.
-ConvexGap convex_gap(const Convex& a, const Convex& b, const Eigen::Isometry3d& X_AB);
-
-// The least of the gaps between the parts of two bodies. Without a point, and `most_m`, if they are
-// at least that far apart.
-ConvexGap convex_gap(const std::vector<Convex>& a, const std::vector<Convex>& b,
-                     const Eigen::Isometry3d& X_AB,
-                     double most_m = std::numeric_limits<double>::infinity());
+// The least between the parts of two bodies; `most_m` if they are at least that far apart.
+double convex_gap_m(const std::vector<Convex>& a, const std::vector<Convex>& b,
+                    const Eigen::Isometry3d& X_AB,
+                    double most_m = std::numeric_limits<double>::infinity());
 
 }  // namespace dodgesim

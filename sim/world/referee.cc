@@ -62,20 +62,6 @@ void Referee::reset() {
   verdict_.objects.resize(objects_.size());
 }
 
-Referee::Gap Referee::gap(const BodyState& vehicle, const BodyState& object,
-                          const Body& body) const {
-  const Eigen::Isometry3d X_WB = vehicle.pose();
-  const ConvexGap gap = convex_gap(hull_.parts, body.parts, X_WB.inverse() * object.pose());
-  return {gap.distance_m, X_WB * gap.p_A};
-}
-
-double Referee::clearance(const World& world, int object) const {
-  const auto i = static_cast<std::size_t>(object);
-  const Snapshot& now = world.snapshot();
-  if (!now.launched.at(i)) return std::numeric_limits<double>::infinity();
-  return gap(now.vehicle, now.objects[i], objects_[i]).distance_m;
-}
-
 void Referee::observe(const World& world, bool landing) {
   const Snapshot& now = world.snapshot();
   for (std::size_t i = 0; i < objects_.size(); ++i) {
@@ -90,12 +76,12 @@ void Referee::observe_object(std::size_t i, const Snapshot& now) {
   const double at_least =
       (now.objects[i].p_W - now.vehicle.p_W).norm() - hull_.radius_m - objects_[i].radius_m;
   if (at_least >= approach.clearance_m) return;
-  const Gap found = gap(now.vehicle, now.objects[i], objects_[i]);
-  if (found.distance_m >= approach.clearance_m) return;
-  approach.clearance_m = found.distance_m;
+  const Eigen::Isometry3d X_BO = now.vehicle.pose().inverse() * now.objects[i].pose();
+  const double gap_m = convex_gap_m(hull_.parts, objects_[i].parts, X_BO);
+  if (gap_m >= approach.clearance_m) return;
+  approach.clearance_m = gap_m;
   approach.closest_us = now.t_us;
-  approach.closest_p_W = found.p_W;
-  if (found.distance_m <= 0) {
+  if (gap_m <= 0) {
     approach.hit = true;
     approach.hit_us = now.t_us;
   }
@@ -117,7 +103,6 @@ void Referee::observe_room(const World& world, bool landing) {
     verdict_.landed_us = now.t_us;
   } else {
     verdict_.crashed = true;
-    verdict_.crashed_us = now.t_us;
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "sim/base/time.h"
@@ -14,12 +15,11 @@ namespace dodgesim {
 // About one object, or about the nearest of all.
 struct Approach {
   bool hit = false;
-  TimeUs hit_us = -1;  // first contact, at the end of the tick that brought it
+  std::optional<TimeUs> hit_us;  // first contact, at the end of the tick that brought it
   // Smallest distance so far between the surfaces of object and vehicle hull; 0 after a contact,
   // infinite before the launch.
   double clearance_m = std::numeric_limits<double>::infinity();
-  TimeUs closest_us = -1;                                 // when (the first contact if hit)
-  Eigen::Vector3d closest_p_W = Eigen::Vector3d::Zero();  // where on the vehicle's hull
+  std::optional<TimeUs> closest_us;  // when (the first contact if hit)
 };
 
 // A vehicle that means to land has landed, and not crashed, if it touches the room from above at no
@@ -32,7 +32,6 @@ struct Verdict {
   Approach nearest;               // of all objects: the first hit, else the smallest clearance
   int nearest_object = -1;        // -1 before the first launch
   bool crashed = false;           // the vehicle touched the room
-  TimeUs crashed_us = -1;
   bool landed = false;  // it touched the floor, or what stands on it, gently and on purpose
   TimeUs landed_us = -1;
 };
@@ -54,10 +53,6 @@ class Referee {
 
   const Verdict& verdict() const { return verdict_; }
 
-  // Distance now between the surfaces of object i and the hull [m], 0 on contact; infinite while
-  // the object is not launched.
-  double clearance(const World& world, int object) const;
-
   // The vehicle's hull, in B.
   const std::vector<Convex>& hull() const { return hull_.parts; }
   // Object i, in its frame.
@@ -70,13 +65,8 @@ class Referee {
     std::vector<Convex> parts;
     double radius_m = 0;  // of the sphere about the body's origin that encloses the parts
   };
-  struct Gap {
-    double distance_m = 0;
-    Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // on the hull
-  };
 
   static Body read_body(const World& world, int body);
-  Gap gap(const BodyState& vehicle, const BodyState& object, const Body& body) const;
   void observe_object(std::size_t i, const Snapshot& now);
   void observe_room(const World& world, bool landing);
 

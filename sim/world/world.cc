@@ -1,6 +1,5 @@
 #include "sim/world/world.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -1,48 +1,28 @@
 // Campaigns in parts, from the command line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
-#include "tests/cli/program.h"
+#include "tests/cli/command_test.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using dodgesim::testing::CommandTest;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using ::testing::HasSubstr;
 
-class CampaignCommandTest : public ::testing::Test {
+class CampaignCommandTest : public CommandTest {
  protected:
-  CampaignCommandTest() {
-    fs::create_directories(root_);
-    std::ofstream(root_ / "s.yaml") << "seed: 3\nrepeats: 6\npilot: oracle\nafter_s: 0.1\n";
-  }
-  ~CampaignCommandTest() override { fs::remove_all(root_); }
+  CampaignCommandTest() { write("s.yaml", "seed: 3\nrepeats: 6\npilot: oracle\nafter_s: 0.1\n"); }
 
   Outcome run(const std::string& out, const std::string& options = "") const {
     return dodgesim("run " + (root_ / "s.yaml").string() + " -j 2 --out " + path(out) + " " +
                     options);
   }
-  std::string path(const std::string& name) const { return (root_ / name).string(); }
-  std::string contents(const std::string& name) const {
-    std::ifstream file(root_ / name);
-    EXPECT_TRUE(file) << name;
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-  void expect_same(const std::string& a, const std::string& b) const {
-    for (const char* file : {"/throws.csv", "/detections.csv", "/table.md", "/table.csv"}) {
-      EXPECT_EQ(contents(a + file), contents(b + file)) << file;
-    }
-  }
-
-  fs::path root_ = fs::temp_directory_path() / ("dodgesim_campaign_" + std::to_string(::getpid()));
 };
 
 TEST_F(CampaignCommandTest, PartsMergeToTheWhole) {

@@ -24,6 +24,13 @@ class CommandTest : public ::testing::Test {
     EXPECT_TRUE(std::filesystem::exists(root_ / name)) << name;
     return testing::contents(root_ / name);
   }
+  // What two campaigns found.
+  void expect_same(const std::string& a, const std::string& b) const {
+    for (const char* file : {"/throws.csv", "/detections.csv", "/table.md", "/table.csv"}) {
+      EXPECT_FALSE(contents(a + file).empty()) << file;
+      EXPECT_EQ(contents(a + file), contents(b + file)) << file;
+    }
+  }
 
   const TemporaryDirectory parent_;
   const std::filesystem::path root_;

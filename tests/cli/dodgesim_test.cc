@@ -1,7 +1,6 @@
 // The program as its users meet it: exit codes and what it prints.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -9,13 +8,12 @@
 #include <sstream>
 #include <utility>
 
-#include "tests/cli/program.h"
-#include "tests/sim/files/temporary_directory.h"
+#include "tests/cli/command_test.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-using dodgesim::testing::contents;
+using dodgesim::testing::CommandTest;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using ::testing::HasSubstr;
@@ -23,18 +21,11 @@ using ::testing::StartsWith;
 
 const fs::path kSource = DODGESIM_SOURCE_DIR;
 
-class DodgesimTest : public ::testing::Test {
+class DodgesimTest : public CommandTest {
  protected:
-  DodgesimTest() {
-    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    root_ = fs::temp_directory_path() / ("dodgesim_" + name + "_" + std::to_string(::getpid()));
-    fs::create_directories(root_);
-  }
-  ~DodgesimTest() override { fs::remove_all(root_); }
-
   std::string file(const std::string& text) const {
-    std::ofstream(root_ / "scenario.yaml") << text;
-    return (root_ / "scenario.yaml").string();
+    write("scenario.yaml", text);
+    return path("scenario.yaml");
   }
 
   void expect_refused(const std::string& yaml, const std::string& message) const {
@@ -48,8 +39,6 @@ class DodgesimTest : public ::testing::Test {
     }
     EXPECT_FALSE(fs::exists(root_ / "out"));
   }
-
-  fs::path root_;
 };
 
 TEST_F(DodgesimTest, RefusesBadScenariosWithOneSentenceAndExitCode2) {

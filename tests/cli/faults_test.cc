@@ -12,40 +12,27 @@
 #include <fstream>
 #include <thread>
 
-#include "tests/cli/program.h"
-#include "tests/sim/files/temporary_directory.h"
+#include "tests/cli/command_test.h"
+#include "tests/models.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-using dodgesim::testing::contents;
+using dodgesim::testing::CommandTest;
+using dodgesim::testing::copy_models;
 using dodgesim::testing::dodgesim;
+using dodgesim::testing::make_diverging;
 using dodgesim::testing::Outcome;
 using ::testing::HasSubstr;
 
 // Short flights without a throw or eyes, some 20 ms each.
-class FaultsTest : public ::testing::Test {
+class FaultsTest : public CommandTest {
  protected:
-  FaultsTest() {
-    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    root_ = fs::temp_directory_path() / ("dodgesim_" + name + "_" + std::to_string(::getpid()));
-    fs::create_directories(root_);
-    std::ofstream(path("s.yaml")) << "seed: 5\nrepeats: 60\npilot: none\nduration_s: 0.1\n";
-  }
-  ~FaultsTest() override { fs::remove_all(root_); }
+  FaultsTest() { write("s.yaml", "seed: 5\nrepeats: 60\npilot: none\nduration_s: 0.1\n"); }
 
-  std::string path(const std::string& name) const { return (root_ / name).string(); }
   std::string run_arguments(const std::string& out, const std::string& options = "") const {
     return "run " + path("s.yaml") + " --out " + path(out) + " " + options;
   }
-  void expect_same(const fs::path& a, const fs::path& b) const {
-    for (const char* file : {"throws.csv", "detections.csv", "table.md", "table.csv"}) {
-      EXPECT_FALSE(contents(a / file).empty()) << file;
-      EXPECT_EQ(contents(a / file), contents(b / file)) << file;
-    }
-  }
-
-  fs::path root_;
 };
 
 // Starts the program; the caller waits for it.
@@ -83,7 +70,7 @@ TEST_F(FaultsTest, InterruptAndTerminationStopCleanlyAndResumably) {
     EXPECT_THAT(contents(path("output.txt")), HasSubstr("of 60 throws; the same command with"));
     EXPECT_FALSE(fs::exists(root_ / out / "throws.csv"));
     EXPECT_EQ(dodgesim(run_arguments(out, "--resume")).exit_code, 0);
-    expect_same(root_ / "whole", root_ / out);
+    expect_same("whole", out);
   }
 }
 
@@ -160,7 +147,7 @@ TEST_F(FaultsTest, AFullDiskIsReportedAndTheRunResumesOnceThereIsSpace) {
   EXPECT_THAT(contents(path("left")), ::testing::Not(HasSubstr("throws.csv")));
   EXPECT_THAT(contents(path("left")), ::testing::Not(HasSubstr("manifest.json")));
   EXPECT_EQ(contents(path("resumed_code")), "0\n") << contents(path("resumed.txt"));
-  expect_same(root_ / "whole", root_ / "resumed");
+  expect_same("whole", "resumed");
 }
 
 TEST_F(FaultsTest, AReadOnlyDirectoryIsReported) {
@@ -183,14 +170,8 @@ TEST_F(FaultsTest, OutputThatNobodyCanStoreIsNoSuccess) {
   EXPECT_THAT(outcome.output, HasSubstr("/dev/full could not be created: Not a directory."));
 }
 
-// A vehicle whose rotor drag is so large that its first tick is too long.
 TEST_F(FaultsTest, ADivergedSimulationCountsAsNoSuccessAndReplays) {
-  fs::copy(fs::path(DODGESIM_SOURCE_DIR) / "models", root_ / "models", fs::copy_options::recursive);
-  const fs::path vehicle = root_ / "models/vehicles/qav_rxl.xml";
-  std::string model = contents(vehicle);
-  const std::string drag = "0.544 0.386 0";
-  model.replace(model.find(drag), drag.size(), "1e99 1e99 0");
-  std::ofstream(vehicle) << model;
+  make_diverging(copy_models(root_));
   const std::string models = "--models " + path("models");
   const Outcome run = dodgesim(run_arguments("out", "--throws 2 " + models));
   EXPECT_EQ(run.exit_code, 3) << run.output;

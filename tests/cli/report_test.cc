@@ -1,18 +1,18 @@
 // The report of a campaign, opened in a browser as its readers open it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "tests/cli/program.h"
-#include "tests/sim/files/temporary_directory.h"
+#include "tests/cli/command_test.h"
+#include "tests/models.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-using dodgesim::testing::contents;
+using dodgesim::testing::CommandTest;
+using dodgesim::testing::copy_models;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using ::testing::HasSubstr;
@@ -30,17 +30,13 @@ throw: {size_m: !choice [0.2, 0.3], distance_m: 3, speed_mps: !uniform [4, 9], l
 after_s: 0.2
 )";
 
-class ReportCommandTest : public ::testing::Test {
+class ReportCommandTest : public CommandTest {
  protected:
   ReportCommandTest() {
-    fs::create_directories(root_);
-    std::ofstream(root_ / "s.yaml") << kScenario;
+    write("s.yaml", kScenario);
     const Outcome outcome = dodgesim("run " + path("s.yaml") + " -j 1 --out " + path("out"));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   }
-  ~ReportCommandTest() override { fs::remove_all(root_); }
-
-  std::string path(const std::string& name) const { return (root_ / name).string(); }
 
   // The page as it stands after its program has run, with what the browser said about it.
   Outcome browse(const std::string& page) const {
@@ -50,8 +46,6 @@ class ReportCommandTest : public ::testing::Test {
         "--window-size=1200,900 --dump-dom 'file://" +
         page + "'");
   }
-
-  fs::path root_ = fs::temp_directory_path() / ("dodgesim_report_" + std::to_string(::getpid()));
 };
 
 TEST_F(ReportCommandTest, APageOpensWithoutErrorsAndShowsChartsAndAThrow) {
@@ -126,8 +120,7 @@ TEST_F(ReportCommandTest, APilotWithoutCamerasHasNoEventsToReplay) {
 }
 
 TEST_F(ReportCommandTest, AReplayWithOtherModelsIsRefused) {
-  const fs::path models = root_ / "models";
-  fs::copy(DODGESIM_SOURCE_DIR "/models", models, fs::copy_options::recursive);
+  const fs::path models = copy_models(root_);
   const std::string replay = "replay " + path("out") + " --throw 1 --models " + models.string();
   EXPECT_EQ(dodgesim(replay).exit_code, 0) << "they are the same";
   std::string ball = contents(models / "objects/ball.xml");

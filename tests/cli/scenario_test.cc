@@ -11,10 +11,12 @@
 #include <vector>
 
 #include "tests/cli/command_test.h"
+#include "tests/models.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using dodgesim::testing::copy_models;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using ::testing::AllOf;
@@ -190,7 +192,7 @@ TEST_F(ScenarioCommandTest, EveryObjectHasARow) {
 }
 
 TEST_F(ScenarioCommandTest, AMeshThatCrashesMujocoCostsASentenceAndExitCodeTwo) {
-  fs::copy(DODGESIM_SOURCE_DIR "/models", root_ / "models", fs::copy_options::recursive);
+  copy_models(root_);
   write("models/mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 4000000\n");
   write("models/objects/evil.xml",
         "<mujoco><custom><numeric name='reference_size_m' data='0.1'/>"
@@ -209,7 +211,7 @@ TEST_F(ScenarioCommandTest, AMeshThatCrashesMujocoCostsASentenceAndExitCodeTwo) 
 }
 
 TEST_F(ScenarioCommandTest, RoomsThatNoCameraCanSeeAndRotorsThatAreTooWeakAreUsageErrors) {
-  fs::copy(DODGESIM_SOURCE_DIR "/models", root_ / "models", fs::copy_options::recursive);
+  copy_models(root_);
   write("models/rooms/hilly.xml",
         "<mujoco><asset><hfield name='h' nrow='2' ncol='2' size='5 5 1 1'/></asset><worldbody>"
         "<geom type='hfield' hfield='h'/></worldbody></mujoco>\n");
@@ -235,7 +237,7 @@ TEST_F(ScenarioCommandTest, RoomsThatNoCameraCanSeeAndRotorsThatAreTooWeakAreUsa
 }
 
 TEST_F(ScenarioCommandTest, ObjectsThatNobodySeesAndRotorsThatCannotHoldAreUsageErrors) {
-  fs::copy(DODGESIM_SOURCE_DIR "/models", root_ / "models", fs::copy_options::recursive);
+  copy_models(root_);
   const auto validate = [&](const std::string& settings) {
     return dodgesim("validate " + path("s.yaml") + " --models " + path("models") + settings);
   };
@@ -258,7 +260,7 @@ TEST_F(ScenarioCommandTest, ObjectsThatNobodySeesAndRotorsThatCannotHoldAreUsage
 }
 
 TEST_F(ScenarioCommandTest, CamerasThatStereoCannotUseAreUsageErrors) {
-  fs::copy(DODGESIM_SOURCE_DIR "/models", root_ / "models", fs::copy_options::recursive);
+  copy_models(root_);
   const std::string upright = contents("models/vehicles/qav_rxl.xml");
   const std::string oblique =
       std::regex_replace(upright, std::regex("\"top\" pos=\"0.12 0 "), "\"top\" pos=\"0.12 0.05 ");

@@ -179,6 +179,56 @@ TEST(ExplainThrow, TheTimesOfADetectionAreThoseOfTheObjectThatWasDetectedFirst) 
   }
 }
 
+// Detected at 0.5 s; the first evasive command is on its way for 0.1 s and arrives then.
+bool is_false_alarm(TimeUs first_command_us) {
+  FlightRecord flown;
+  flown.testimony.objects.resize(1);
+  flown.testimony.objects[0].detections.push_back({500000, {}});
+  flown.command_delay_us = 100000;
+  FlightPlan plan;
+  plan.pilot = "falanga2020";
+  plan.launches.resize(1);
+  ThrowResult result;
+  result.first_detection_us = 500000;
+  result.first_command_us = first_command_us;
+  explain_throw(plan, nullptr, flown, result);
+  return result.false_alarm;
+}
+
+TEST(ExplainThrow, WhatWasSentBeforeTheDetectionIsAFalseAlarm) {
+  EXPECT_TRUE(is_false_alarm(499750));
+  EXPECT_TRUE(is_false_alarm(599750));
+  EXPECT_FALSE(is_false_alarm(600000));
+}
+
+// Detected at 0.5 s too high, from 0.55 s on rightly; an evasive command arrives every 0.05 s.
+TEST(ExplainThrow, AnAnswerIsSentAfterTheDetection) {
+  FlightRecord none;
+  none.verdict.nearest.hit = true;
+  none.verdict.nearest.hit_us = 1000000;
+  none.verdict.nearest_object = 0;
+  none.last.objects.resize(1);
+  none.last.objects[0].p_W.x() = 0.101;
+  none.last.objects[0].v_W.x() = -6;
+  none.hull = {Convex::sphere(Eigen::Vector3d::Zero(), 1e-3)};
+  none.shapes = {{Convex::sphere(Eigen::Vector3d::Zero(), 0.1)}};
+  FlightRecord flown = none;
+  flown.agility = {38, 404, 0.04, 0};
+  flown.command_delay_us = 100000;
+  flown.testimony.objects.resize(1);
+  flown.testimony.objects[0].detections.push_back({500000, {}});
+  for (TimeUs t_us = 450000; t_us < 900000; t_us += 50000) {
+    flown.testimony.commands.push_back({t_us, true, Eigen::Vector3d::UnitZ(), {0, 0, 0}});
+  }
+  FlightPlan plan;
+  plan.pilot = "falanga2020";
+  plan.launches.resize(1);
+  ThrowResult result;
+  result.flown.hit = true;
+  explain_throw(plan, &none, flown, result);
+  EXPECT_NEAR(*result.escape_left_s, 0.4, 1e-9);
+}
+
 TEST(ExplainThrow, ADodgeHasNoCause) {
   const ThrowResult result = fly_throw(head_on("oracle", "speed_mps: 4"), 0);
   ASSERT_TRUE(result.flown.unharmed());

@@ -6,12 +6,13 @@
 
 #include "sim/config/scenario.h"
 #include "sim/loop.h"
+#include "tests/models.h"
 
 namespace dodgesim {
 
 // A scenario from a few lines of YAML.
 inline Scenario scenario(const std::string& text) {
-  return parse_scenario(text, "test.yaml", std::string(DODGESIM_SOURCE_DIR) + "/models");
+  return parse_scenario(text, "test.yaml", testing::kModels);
 }
 
 // Keeps the true states of a flight, one a tick.

@@ -3,21 +3,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "sim/base/error.h"
 #include "tests/closed_loop/flights.h"
+#include "tests/models.h"
 
 namespace dodgesim {
 namespace {
 
-namespace fs = std::filesystem;
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
@@ -53,7 +50,7 @@ TEST_P(Throws, HitAVehicleThatDoesNotDodgeWhenTheyAreAimedAtIt) {
     const FlightRecord record = fly_as("none", s, plan);
     ASSERT_TRUE(record.verdict.nearest.hit) << "throw " << k;
     // The surfaces meet before the centres do, by the radii of both (the arms reach 0.35 m).
-    const TimeUs early_us = toss.arrival_us() - record.verdict.nearest.hit_us;
+    const TimeUs early_us = toss.arrival_us() - *record.verdict.nearest.hit_us;
     const double reach_m = 0.5 * toss.object.size_m + 0.35;
     EXPECT_GT(early_us, 0) << "throw " << k;
     EXPECT_LT(seconds(early_us), reach_m / (toss.speed_mps - 1.5)) << "throw " << k;
@@ -61,25 +58,13 @@ TEST_P(Throws, HitAVehicleThatDoesNotDodgeWhenTheyAreAimedAtIt) {
   }
 }
 
-// Models of the project, but with a vehicle whose rotor drag is so large that a tick is too long.
+// A vehicle whose flight cannot be computed.
 class DivergingVehicle : public ::testing::Test {
  protected:
-  DivergingVehicle() {
-    fs::remove_all(models_);
-    fs::create_directories(models_);
-    fs::copy(fs::path(DODGESIM_SOURCE_DIR) / "models", models_, fs::copy_options::recursive);
-    const fs::path path = models_ / "vehicles/qav_rxl.xml";
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    std::string model = text.str();
-    const std::string drag = "0.544 0.386 0";
-    model.replace(model.find(drag), drag.size(), "1e99 1e99 0");
-    std::ofstream(path) << model;
-  }
-  ~DivergingVehicle() override { fs::remove_all(models_); }
+  DivergingVehicle() { testing::make_diverging(models_); }
 
-  fs::path models_ =
-      fs::temp_directory_path() / ("dodgesim_diverging_" + std::to_string(::getpid()));
+  const testing::TemporaryDirectory own_;
+  const std::filesystem::path models_ = testing::copy_models(own_.path());
 };
 
 // The plan of a throw flies the vehicle to find out where it will be.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/campaign/result_files.h"
 #include "sim/config/expand.h"
 #include "sim/gate/comparison.h"
 #include "tools/commands/command.h"
@@ -31,7 +32,7 @@ void print_changes(const std::string& heading, const std::vector<ChangedThrow>& 
 
 // Whether the scenario, as written into the directory, may end by what it finds.
 bool has_stop(const std::filesystem::path& directory) {
-  std::ifstream scenario(directory / "scenario.resolved.yaml");
+  std::ifstream scenario(directory / kScenarioFile);
   for (std::string line; std::getline(scenario, line);) {
     if (line.starts_with("stop:")) return true;
   }
@@ -53,7 +54,7 @@ std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& d
     const int sweep = outcome.sweep;
     parts[sweep].push_back(std::move(outcome));
   }
-  if (parts.empty()) throw IoError((directory / "throws.csv").string() + " holds no throw.");
+  if (parts.empty()) throw IoError((directory / kThrowsFile).string() + " holds no throw.");
   return parts;
 }
 

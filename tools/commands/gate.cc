@@ -1,5 +1,6 @@
 // dodgesim gate: flies a baseline's throws and fails when they went worse.
 #include "sim/gate/gate.h"
+#include "sim/campaign/result_files.h"
 
 #include <unistd.h>
 
@@ -78,7 +79,7 @@ void expect_same_throws(const Scenario& scenario, const Baseline& baseline, cons
                         "); to make a new baseline of this scenario, add --update.");
   };
   if (drawn.size() != before.size() && same_scenario) {
-    throw IoError((where / "throws.csv").string() + " has " + std::to_string(before.size()) +
+    throw IoError((where / kThrowsFile).string() + " has " + std::to_string(before.size()) +
                   " of the " + std::to_string(drawn.size()) + " throws of its scenario; --update " +
                   "replaces it.");
   }

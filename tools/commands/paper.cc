@@ -1,6 +1,5 @@
 // dodgesim paper: the experiments of Falanga et al. 2020.
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>

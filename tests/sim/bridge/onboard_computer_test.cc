@@ -150,6 +150,7 @@ TEST(OnboardComputer, EventsWaitForTheEndOfTheirPacket) {
   Bench bench{DelaySpec{}};
   bench.run(100000);
   const TimeUs delay_us = bench.delays.transport_us;
+  ASSERT_FALSE(bench.log.events[0].empty());
   for (const Arrival& event : bench.log.events[0]) {
     const TimeUs end_us = (event.stamp_us + 999) / 1000 * 1000;
     EXPECT_GE(event.cycle_us, end_us + delay_us);

@@ -291,6 +291,8 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:2:7: grid and sweep have more than 10000 combinations of values."},
     {"StopOfASweep", "throw: {}\nsweep: {throw.speed_mps: [4, 5]}\nstop: {half_width: 0.1}\n",
      "bad.yaml:3:7: stop and sweep are both given"},
+    {"StopOfAGrid", "throw: {}\ngrid: {throw.speed_mps: [4, 5]}\nstop: {half_width: 0.1}\n",
+     "bad.yaml:3:7: stop and grid are both given"},
     {"StopOfNothing", "stop: {half_width: 0.1}\n",
      "bad.yaml:1:7: stop is given, but nobody throws."},
     {"StopTooNarrow", "throw: {}\nstop: {half_width: 0.001}\n",

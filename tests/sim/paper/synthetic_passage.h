@@ -5,11 +5,12 @@
 #include "sim/campaign/trajectory.h"
 #include "sim/config/scenario.h"
 #include "sim/paper/passage.h"
+#include "tests/models.h"
 
 namespace dodgesim {
 
 inline Scenario paper_scenario(const std::string& text) {
-  return parse_scenario(text, "test.yaml", std::string(DODGESIM_SOURCE_DIR) + "/models");
+  return parse_scenario(text, "test.yaml", testing::kModels);
 }
 
 // Two cameras at the origin of a body at rest, looking along its x axis, one 15 cm above the other.

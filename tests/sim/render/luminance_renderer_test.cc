@@ -295,11 +295,5 @@ TEST(LuminanceRenderer, RejectsAGeomThatItCannotDraw) {
                ScenarioError);
 }
 
-TEST(LuminanceRenderer, NamesItsOpenGl) {
-  Scene scene = full_scene();
-  LuminanceRenderer renderer(scene.model(), {}, scene.camera(), {});
-  EXPECT_NE(renderer.gl_renderer(), "");
-}
-
 }  // namespace
 }  // namespace dodgesim

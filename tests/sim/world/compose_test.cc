@@ -11,6 +11,7 @@
 
 #include "sim/base/error.h"
 #include "sim/world/mjcf.h"
+#include "tests/models.h"
 #include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/world/test_world.h"
 
@@ -33,9 +34,7 @@ std::string message_of(const WorldSpec& spec) {
 class OwnModels : public ::testing::Test {
  protected:
   void SetUp() override {
-    directory_ = own_.path() / "models";
-    std::filesystem::copy(test_spec().models_dir, directory_,
-                          std::filesystem::copy_options::recursive);
+    directory_ = testing::copy_models(own_.path());
     spec_ = test_spec({{"own", 0.2}});
     spec_.models_dir = directory_.string();
   }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sim/base/error.h"
+#include "tests/models.h"
 #include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/world/test_world.h"
 
@@ -22,8 +23,7 @@ using ::testing::HasSubstr;
 class ModelTrial : public ::testing::Test {
  protected:
   ModelTrial() {
-    directory_ = own_.path() / "models";
-    fs::copy(test_spec().models_dir, directory_, fs::copy_options::recursive);
+    directory_ = testing::copy_models(own_.path());
     fs::create_directories(directory_ / "meshes");
     spec_ = test_spec({{"ball", 0.2}, {"own", 0.2}});
     spec_.models_dir = directory_.string();

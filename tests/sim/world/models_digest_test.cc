@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/models.h"
 #include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/world/test_world.h"
 
@@ -19,8 +20,7 @@ namespace fs = std::filesystem;
 class ModelsDigest : public ::testing::Test {
  protected:
   void SetUp() override {
-    directory_ = own_.path() / "models";
-    fs::copy(test_spec().models_dir, directory_, fs::copy_options::recursive);
+    directory_ = testing::copy_models(own_.path());
     spec_ = test_spec({{"ball", 0.2}});
     spec_.room = "room";
     spec_.models_dir = directory_.string();

@@ -67,8 +67,7 @@ TEST_P(ObjectModel, HasItsMassWhereItsPartsAre) {
     X.translation() = p;
     const Convex point = Convex::sphere(Vector3d::Zero(), 0);
     const bool in = std::any_of(parts.begin(), parts.end(), [&](const Convex& part) {
-      return (p - part.centre()).norm() <= part.extent_m() &&
-             convex_gap(part, point, X).distance_m <= 1e-7;
+      return (p - part.centre()).norm() <= part.extent_m() && convex_gap_m(part, point, X) <= 1e-7;
     });
     if (!in) continue;
     sum += p;

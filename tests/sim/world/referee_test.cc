@@ -10,7 +10,7 @@
 
 #include "sim/base/random.h"
 #include "sim/world/throw.h"
-#include "tests/sim/files/temporary_directory.h"
+#include "tests/models.h"
 #include "tests/sim/world/test_world.h"
 
 namespace dodgesim {
@@ -36,6 +36,13 @@ double point_to_hull(const Vector3d& p_B) {
   return best;
 }
 
+// Of the only object, now.
+double clearance_m(const World& world, Referee& referee) {
+  referee.reset();
+  referee.observe(world);
+  return referee.verdict().objects.at(0).clearance_m;
+}
+
 TEST(RefereeTest, ClearanceOfABallIsTheDistanceToTheHullLessItsRadius) {
   RandomStream random(1, 0, "referee");
   World world(test_spec({{"ball", 0.2}}));
@@ -45,7 +52,7 @@ TEST(RefereeTest, ClearanceOfABallIsTheDistanceToTheHullLessItsRadius) {
     const Vector3d p_B(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.6, 0.6));
     const Vector3d p_W = world.snapshot().vehicle.pose() * p_B;
     world.launch(0, thrown(p_W, Vector3d::Zero()));
-    EXPECT_NEAR(referee.clearance(world, 0), std::max(0.0, point_to_hull(p_B) - 0.1), 1e-6);
+    EXPECT_NEAR(clearance_m(world, referee), std::max(0.0, point_to_hull(p_B) - 0.1), 1e-6);
   }
 }
 
@@ -79,11 +86,11 @@ TEST(RefereeTest, ClearanceOfABoxAgreesWithSampledSurfacePoints) {
         }
       }
     }
-    EXPECT_NEAR(referee.clearance(world, 0), sampled, 1e-3);
+    EXPECT_NEAR(clearance_m(world, referee), sampled, 1e-3);
   }
 }
 
-TEST(RefereeTest, ABallThatPassesHasItsClearanceTimeAndPlace) {
+TEST(RefereeTest, ABallThatPassesHasItsClearanceAndTime) {
   World world(test_spec({{"ball", 0.2}}));
   world.reset(kStart, 0, Vector3d::Zero());
   Referee referee(world);
@@ -100,8 +107,7 @@ TEST(RefereeTest, ABallThatPassesHasItsClearanceTimeAndPlace) {
   const Approach& approach = referee.verdict().objects[0];
   EXPECT_FALSE(approach.hit);
   EXPECT_NEAR(approach.clearance_m, 0.5 - 0.17 - 0.1, 2e-3);
-  EXPECT_NEAR(static_cast<double>(approach.closest_us), 0.25e6, 25e3);
-  EXPECT_NEAR(approach.closest_p_W.y(), -0.17, 1e-6);
+  EXPECT_NEAR(static_cast<double>(*approach.closest_us), 0.25e6, 25e3);
   EXPECT_EQ(referee.verdict().nearest_object, 0);
   EXPECT_EQ(referee.verdict().nearest.clearance_m, approach.clearance_m);
   EXPECT_FALSE(referee.verdict().crashed);
@@ -125,7 +131,6 @@ TEST(RefereeTest, ADirectHitIsSeenAtTheTickOfContact) {
   EXPECT_EQ(hit.closest_us, hit.hit_us);
   // Contact when the ball's centre is 0.17 + 0.1 m ahead, give or take a tick of 2 mm.
   EXPECT_NEAR(world.snapshot().objects[0].p_W.x(), 0.27, 2.5e-3);
-  EXPECT_NEAR(hit.closest_p_W.x(), 0.17, 3e-3);
   const double before_mps = world.snapshot().objects[0].v_W.x();
   fly(world, referee, 400);  // the ball bounces off
   EXPECT_EQ(referee.verdict().nearest.hit_us, hit.hit_us);
@@ -185,8 +190,7 @@ TEST(RefereeTest, FlyingIntoTheGroundIsACrash) {
   }
   EXPECT_TRUE(referee.verdict().crashed);
   // The lower camera touches first, 9.25 cm below the centre.
-  EXPECT_NEAR(1e-6 * static_cast<double>(referee.verdict().crashed_us),
-              std::sqrt(2 * (1 - 0.0925) / 9.81), 5e-4);
+  EXPECT_NEAR(seconds(world.snapshot().t_us), std::sqrt(2 * (1 - 0.0925) / 9.81), 5e-4);
   EXPECT_FALSE(referee.verdict().nearest.hit);
   referee.reset();
   EXPECT_FALSE(referee.verdict().crashed);
@@ -219,7 +223,6 @@ TEST(RefereeTest, AGentleTouchdownIsALandingIfItWasMeant) {
   const Verdict not_meant = first_touch({0, 0, 0.3}, {0.1, 0, -0.5}, false);
   EXPECT_TRUE(not_meant.crashed);
   EXPECT_FALSE(not_meant.landed);
-  EXPECT_EQ(not_meant.crashed_us, landed.landed_us);
 }
 
 TEST(RefereeTest, ATouchdownTooFastOrTiltedIsACrash) {
@@ -241,8 +244,7 @@ TEST(RefereeTest, OneLandsOnTopOfThingsNotAgainstThem) {
 // MuJoCo lists contacts from a margin on, and forces only from the margin less the gap.
 TEST(RefereeTest, TheMarginOfARoomsGeomIsNotTouched) {
   const testing::TemporaryDirectory own;
-  const auto models = own.path() / "models";
-  std::filesystem::copy(test_spec().models_dir, models, std::filesystem::copy_options::recursive);
+  const std::filesystem::path models = testing::copy_models(own.path());
   std::ofstream(models / "rooms" / "own.xml")
       << "<mujoco><worldbody><geom name='floor' type='plane' size='9 9 1' margin='0.5' gap='0.5'/>"
          "</worldbody></mujoco>";
@@ -256,8 +258,7 @@ TEST(RefereeTest, TheMarginOfARoomsGeomIsNotTouched) {
     world.step({0, 0, 0, 0});
     referee.observe(world);
   }
-  EXPECT_NEAR(1e-6 * static_cast<double>(referee.verdict().crashed_us),
-              std::sqrt(2 * (1 - 0.0925) / 9.81), 5e-4);
+  EXPECT_NEAR(seconds(world.snapshot().t_us), std::sqrt(2 * (1 - 0.0925) / 9.81), 5e-4);
 }
 
 TEST(RefereeTest, FlyingIntoAWallOfTheRoomIsACrash) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/world/world.h"
+#include "tests/models.h"
 
 namespace dodgesim {
 
@@ -25,7 +26,7 @@ inline BodyState thrown(const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W,
 
 inline WorldSpec test_spec(std::vector<ObjectSpec> objects = {{"ball", 0.2}}) {
   WorldSpec spec;
-  spec.models_dir = std::string(DODGESIM_SOURCE_DIR) + "/models";
+  spec.models_dir = testing::kModels;
   spec.room = "field";
   spec.objects = std::move(objects);
   return spec;
