@@ -6,14 +6,14 @@
 namespace dodgesim {
 
 std::string formatted(const char* format, ...) {
-  std::va_list values, again;
+  va_list values;
   va_start(values, format);
-  va_copy(again, values);
   const int size = std::vsnprintf(nullptr, 0, format, values);
   va_end(values);
   std::string text(static_cast<std::size_t>(size > 0 ? size : 0), '\0');
-  std::vsnprintf(text.data(), text.size() + 1, format, again);
-  va_end(again);
+  va_start(values, format);
+  std::vsnprintf(text.data(), text.size() + 1, format, values);
+  va_end(values);
   return text;
 }
 
