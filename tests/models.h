@@ -12,7 +12,7 @@ inline const std::string kModels = DODGESIM_SOURCE_DIR "/models";
 
 // As `directory`/models, which is returned.
 inline std::filesystem::path copy_models(const std::filesystem::path& directory) {
-  const std::filesystem::path models = directory / "models";
+  std::filesystem::path models = directory / "models";
   std::filesystem::copy(kModels, models, std::filesystem::copy_options::recursive);
   return models;
 }
