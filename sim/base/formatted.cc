@@ -6,7 +6,7 @@
 namespace dodgesim {
 
 std::string formatted(const char* format, ...) {
-  // clang-tidy 14 believes them uninitialised, but only when it is given several files (LLVM 41311).
+  // clang-tidy believes them uninitialised, but only when it is given several files.
   // NOLINTBEGIN(clang-analyzer-valist.Uninitialized)
   va_list values;
   va_start(values, format);
