@@ -4,9 +4,9 @@
 #include <set>
 
 #include "sim/base/error.h"
-#include "sim/base/formatted.h"
 #include "sim/campaign/build_info.h"
 #include "sim/campaign/manifest.h"
+#include "sim/campaign/text_table.h"
 #include "sim/config/closest_name.h"
 #include "sim/files/json.h"
 
@@ -104,7 +104,7 @@ std::string line(const Measurement& measurement) {
   const double value = measurement.median();
   int decimals = 4;
   for (double limit = 1; decimals > 0 && value >= limit; limit *= 10) --decimals;
-  return measurement.quantity.name + " " + formatted("%.*f", decimals, value) + " " +
+  return measurement.quantity.name + " " + fixed_text(value, decimals) + " " +
          measurement.quantity.unit;
 }
 

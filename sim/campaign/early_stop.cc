@@ -34,8 +34,7 @@ std::string EarlyStop::text() const {
   const Interval interval = this->interval().interval;
   return formatted(
       "%s after %d throws: %d of %d dodged, %.4g %% interval %.3f to %.3f (valid though the "
-      "results "
-      "decided when to stop; asked for: +- %g).",
+      "results decided when to stop; asked for: +- %g).",
       end_ ? "Ended by stop" : "Not ended by stop", next_, sum_.dodged, sum_.would_have_hit,
       100 * spec_.confidence, interval.lo, interval.hi, spec_.half_width);
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/base/formatted.h"
+#include "sim/campaign/text_table.h"
 
 namespace dodgesim {
 
@@ -19,7 +19,7 @@ std::string padded(std::string text, std::size_t width) {
 }  // namespace
 
 std::string quantity_text(double value, int decimals, const std::string& unit) {
-  return formatted("%.*f", decimals, value) + (unit.empty() ? "" : " " + unit);
+  return fixed_text(value, decimals) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string outcome_text(Outcome outcome) {

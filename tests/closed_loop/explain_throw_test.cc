@@ -82,20 +82,26 @@ TEST(ExplainThrow, AControllerThatDoesNotFollowDoesNotUseTheThrust) {
   EXPECT_EQ(result.cause, "not enough thrust");
 }
 
-// Nobody flew this: a ball of 20 cm comes along x at a vehicle that is a point, and would hit it
-// after 1 s. From 0.5 s on it is commanded upward.
+// Nobody flew this: a ball of 20 cm comes along x at a vehicle that is a point, and hits it after
+// 1 s.
+FlightRecord head_on_hit() {
+  FlightRecord record;
+  record.verdict.nearest.hit = true;
+  record.verdict.nearest.hit_us = 1000000;
+  record.verdict.nearest_object = 0;
+  record.last.objects.resize(1);
+  record.last.objects[0].p_W.x() = 0.101;
+  record.last.objects[0].v_W.x() = -6;
+  record.hull = {Convex::sphere(Eigen::Vector3d::Zero(), 1e-3)};
+  record.shapes = {{Convex::sphere(Eigen::Vector3d::Zero(), 0.1)}};
+  record.agility = {38, 404, 0.04, 0};
+  return record;
+}
+
+// Why it hits one that is commanded so.
 std::string cause_of(const std::vector<Testimony::Command>& commands) {
-  FlightRecord none;
-  none.verdict.nearest.hit = true;
-  none.verdict.nearest.hit_us = 1000000;
-  none.verdict.nearest_object = 0;
-  none.last.objects.resize(1);
-  none.last.objects[0].p_W.x() = 0.101;
-  none.last.objects[0].v_W.x() = -6;
-  none.hull = {Convex::sphere(Eigen::Vector3d::Zero(), 1e-3)};
-  none.shapes = {{Convex::sphere(Eigen::Vector3d::Zero(), 0.1)}};
+  const FlightRecord none = head_on_hit();
   FlightRecord flown = none;
-  flown.agility = {38, 404, 0.04, 0};
   flown.testimony.objects.resize(1);
   flown.testimony.commands = commands;
   flown.first_command_us = commands.front().t_us;
@@ -201,19 +207,10 @@ TEST(ExplainThrow, WhatWasSentBeforeTheDetectionIsAFalseAlarm) {
   EXPECT_FALSE(is_false_alarm(600000));
 }
 
-// Detected at 0.5 s too high, from 0.55 s on rightly; an evasive command arrives every 0.05 s.
+// Detected at 0.5 s; an evasive command arrives every 0.05 s, after 0.1 s.
 TEST(ExplainThrow, AnAnswerIsSentAfterTheDetection) {
-  FlightRecord none;
-  none.verdict.nearest.hit = true;
-  none.verdict.nearest.hit_us = 1000000;
-  none.verdict.nearest_object = 0;
-  none.last.objects.resize(1);
-  none.last.objects[0].p_W.x() = 0.101;
-  none.last.objects[0].v_W.x() = -6;
-  none.hull = {Convex::sphere(Eigen::Vector3d::Zero(), 1e-3)};
-  none.shapes = {{Convex::sphere(Eigen::Vector3d::Zero(), 0.1)}};
+  const FlightRecord none = head_on_hit();
   FlightRecord flown = none;
-  flown.agility = {38, 404, 0.04, 0};
   flown.command_delay_us = 100000;
   flown.testimony.objects.resize(1);
   flown.testimony.objects[0].detections.push_back({500000, {}});
