@@ -10,7 +10,7 @@
 #include "sim/config/pilot.h"
 #include "sim/config/resolve_throw.h"
 #include "sim/flight/explain_throw.h"
-#include "sim/world/room_ray.h"
+#include "sim/world/ray.h"
 
 namespace dodgesim {
 
@@ -48,7 +48,7 @@ BodyState undisturbed_vehicle(const Scenario& scenario, int throw_index, TimeUs 
 void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_W,
                            const Eigen::Vector3d& launch_p_W) {
   const Eigen::Vector3d ray_W = launch_p_W - vehicle_p_W;
-  const std::optional<RoomHit> hit = room_along(world, vehicle_p_W, ray_W);
+  const std::optional<RayHit> hit = room_along(world, vehicle_p_W, ray_W);
   if (!hit || hit->distance >= 1) return;
   std::ostringstream message;
   message << "The throw starts at (" << launch_p_W.x() << ", " << launch_p_W.y() << ", "

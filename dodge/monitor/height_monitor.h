@@ -27,7 +27,7 @@ struct HeightMonitorConfig {
       "room=field --set 'mission.start_m=[-2, 0, 10]'.");
     v("persist_us", persist_us, std::int64_t{0}, std::int64_t{60000000},
       "How long the discrepancy must last without a break: longer than a ball passes below the "
-      "vehicle (a simulated range sensor sees the room only), or an outlier.");
+      "vehicle, or an outlier.");
     v("max_gap_us", max_gap_us, std::int64_t{1000}, std::int64_t{60000000},
       "A pause this long between two readings that can be used is a break, too: in a dodge the "
       "tilt makes them useless.");

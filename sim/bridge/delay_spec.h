@@ -3,6 +3,10 @@
 // ESC delay and the rotors' lag belong to the motors.
 #pragma once
 
+#include <algorithm>
+
+#include "sim/base/time.h"
+
 namespace dodgesim {
 
 struct DelaySpec {
@@ -19,6 +23,20 @@ struct DelaySpec {
 
   // From the start of a cycle to its command.
   int pilot_us() const { return compute_us + perception_us; }
+
+  // From one cycle to the next, in whole ticks. No cycle starts before the last one has ended.
+  TimeUs period_us() const {
+    const TimeUs least_us = std::max(cycle_us, compute_us);
+    return (least_us + kTickUs - 1) / kTickUs * kTickUs;
+  }
+
+  // End of the newest event packet that a cycle has received, a multiple of packet_us; not above 0
+  // if there is none.
+  TimeUs newest_packet_end_us(TimeUs cycle_start_us) const {
+    const TimeUs sent_us = cycle_start_us - transport_us;
+    const TimeUs into_packet_us = (sent_us % packet_us + packet_us) % packet_us;
+    return sent_us - into_packet_us;
+  }
 
   template <class Visitor>
   void visit(Visitor& v) {

@@ -1,25 +1,16 @@
 #include "sim/bridge/onboard_computer.h"
 
-#include <algorithm>
-
 #include "sim/base/gravity.h"
 
 namespace dodgesim {
 
 static_assert(dodge::kGravityMps2 == kGravityMps2);
 
-namespace {
-
-// The first tick at or after t_us.
-TimeUs ceil_to_tick(TimeUs t_us) { return (t_us + kTickUs - 1) / kTickUs * kTickUs; }
-
-}  // namespace
-
 OnboardComputer::OnboardComputer(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot)
     : pilot_(std::move(pilot)),
-      cycle_us_(ceil_to_tick(std::max(delays.cycle_us, delays.compute_us))),
+      period_us_(delays.period_us()),
       event_delay_us_(delays.transport_us),
-      next_cycle_us_(cycle_us_),
+      next_cycle_us_(period_us_),
       imu_(delays.imu_us),
       states_(delays.state_estimate_us),
       ranges_(delays.range_us),
@@ -48,7 +39,7 @@ void OnboardComputer::send_range(const RangeReading& reading) {
 
 bool OnboardComputer::run_cycle(TimeUs now_us) {
   if (now_us < next_cycle_us_) return false;
-  next_cycle_us_ = now_us + cycle_us_;
+  next_cycle_us_ = now_us + period_us_;
   imu_.deliver(now_us, [&](const dodge::ImuSample& sample) { pilot_->add_imu(sample); });
   states_.deliver(now_us, [&](const dodge::StateEstimate& state) { pilot_->add_state(state); });
   ranges_.deliver(now_us, [&](const dodge::RangeReading& reading) { pilot_->add_range(reading); });

@@ -17,8 +17,7 @@ namespace dodgesim {
 
 class OnboardComputer {
  public:
-  // A cycle starts every delays.cycle_us, or as soon as the previous one has ended if that takes
-  // longer; the first after one period.
+  // A cycle starts every delays.period_us(), the first after one period.
   OnboardComputer(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot);
 
   void set_goal(const dodge::Goal& goal) { pilot_->set_goal(goal); }
@@ -35,11 +34,7 @@ class OnboardComputer {
   // The newest command whose computation has ended by now_us, once.
   std::optional<dodge::VelocityCommand> take_command(TimeUs now_us);
 
-  // Start of the next cycle, the end of the newest event packet that a cycle will have received,
-  // and the time from one cycle to the next.
   TimeUs next_cycle_us() const { return next_cycle_us_; }
-  TimeUs newest_packet_end_us(TimeUs cycle_us) const { return cycle_us - event_delay_us_; }
-  TimeUs period_us() const { return cycle_us_; }
 
   const dodge::Pilot& pilot() const { return *pilot_; }
   dodge::Pilot& pilot() { return *pilot_; }
@@ -48,7 +43,7 @@ class OnboardComputer {
   using Packet = std::vector<dodge::Event>;
 
   std::unique_ptr<dodge::Pilot> pilot_;
-  TimeUs cycle_us_;
+  TimeUs period_us_;
   TimeUs event_delay_us_;
   TimeUs next_cycle_us_;
   std::vector<DelayLine<Packet>> packets_;  // by camera

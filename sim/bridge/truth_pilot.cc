@@ -14,10 +14,10 @@ bool flies_away(const BodyState& object, const BodyState& vehicle) {
 }  // namespace
 
 TruthPilot::TruthPilot(Setup setup, const dodge::Avoider& avoider)
-    : setup_(std::move(setup)), avoider_(avoider), light_(setup_.delay_us) {}
+    : setup_(std::move(setup)), avoider_(avoider) {}
 
 void TruthPilot::observe(const Snapshot& truth) {
-  if (!setup_.blind) light_.push(truth.t_us, truth);
+  if (!setup_.blind) light_.push_back(truth);
 }
 
 bool TruthPilot::sees(const Snapshot& truth, std::size_t object) const {
@@ -51,7 +51,10 @@ void TruthPilot::see(const Snapshot& truth) {
 }
 
 dodge::VelocityCommand TruthPilot::update(TimeUs now_us) {
-  light_.deliver(now_us, [&](const Snapshot& truth) { see(truth); });
+  const TimeUs newest_us = setup_.delays.newest_packet_end_us(now_us) - setup_.latency_us;
+  for (; !light_.empty() && light_.front().t_us <= newest_us; light_.pop_front()) {
+    see(light_.front());
+  }
   std::erase_if(obstacles_, [&](const auto& o) {
     return seconds(now_us - o.obstacle.last_detection_us) > setup_.lifetime_s;
   });

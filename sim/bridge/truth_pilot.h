@@ -1,17 +1,17 @@
-// Pilots that need no perception. `oracle` knows the true state of every object in its range, as
-// late as an event would tell but for its looking once a millisecond: with the default delays its
-// newest truth is 2 ms old when a cycle begins, the light of a pilot's newest event 1.1 ms. It
-// forgets those that move away from it. `none` sees nothing and only flies to the goal. Both use
-// the flight core's avoidance and fly through the same delays, controller and motors as the paper's
-// pilot.
+// Pilots that need no perception. `oracle` knows the true state of every object in its range at the
+// last tick of which an event could tell when its cycle begins: with the default delays 1.25 ms
+// before, as an event takes 1.1 ms. It forgets those that move away from it. `none` sees nothing
+// and only flies to the goal. Both use the flight core's avoidance and fly through the same delays,
+// controller and motors as the paper's pilot.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
 #include "dodge/avoid/avoider.h"
 #include "dodge/pilot.h"
-#include "sim/bridge/delay_line.h"
+#include "sim/bridge/delay_spec.h"
 #include "sim/bridge/oracle_spec.h"
 #include "sim/camera/camera.h"
 #include "sim/world/snapshot.h"
@@ -22,17 +22,18 @@ class TruthPilot : public dodge::Pilot {
  public:
   struct Setup {
     OracleSpec oracle;
-    bool blind = false;           // the pilot `none`
-    TimeUs delay_us = 0;          // from an object's motion to the computer
-    double lifetime_s = 1;        // of an object after it was last seen
-    std::vector<double> sizes_m;  // diameters of the objects
+    bool blind = false;                                      // the pilot `none`
+    DelaySpec delays;                                        // of the packets
+    TimeUs latency_us = 0;                                   // from light to an event
+    double lifetime_s = 1;                                   // of an object after it was last seen
+    std::vector<double> sizes_m;                             // diameters of the objects
     Eigen::Isometry3d X_BC = Eigen::Isometry3d::Identity();  // the reference camera
     Intrinsics intrinsics;
   };
 
   TruthPilot(Setup setup, const dodge::Avoider& avoider);
 
-  // The true state, at the instant at which it holds.
+  // The true state at each tick.
   void observe(const Snapshot& truth);
 
   void add_events(int, std::span<const dodge::Event>) override {}
@@ -49,7 +50,7 @@ class TruthPilot : public dodge::Pilot {
 
   Setup setup_;
   dodge::Avoider avoider_;
-  DelayLine<Snapshot> light_;
+  std::deque<Snapshot> light_;  // on its way
   std::optional<dodge::StateEstimate> state_;
   dodge::Goal goal_;
   std::vector<dodge::TrackedObstacle> obstacles_;

@@ -64,7 +64,8 @@ struct SensorsSpec {
     v("keys", keys, "When the room is drawn anew, and how finely.");
     v("imu", imu, "Gyroscope and accelerometer.");
     v("state_estimate", state_estimate, "Pose and velocity as the vehicle's estimator gives them.");
-    v("range", range, "The range sensor that looks down. It sees the room, not thrown objects.");
+    v("range", range,
+      "The range sensor that looks down, along one ray, at the room and thrown objects.");
   }
 };
 
@@ -242,8 +243,7 @@ struct Scenario {
     v("sensors", sensors, "What the vehicle senses, and how badly.");
     v("delays", delays,
       "The latency chain, in simulated time. What arrives is dealt with at the next tick of 250 "
-      "us: "
-      "a delay that is no multiple of that acts as the next one.");
+      "us: a delay that is no multiple of that acts as the next one.");
     v("dodger", dodger,
       "Detection and avoidance. The defaults are those of falanga2020; dodge/presets.cc has what "
       "dodgesim does otherwise.");

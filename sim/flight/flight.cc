@@ -7,13 +7,12 @@
 #include "dodge/dodger.h"
 #include "sim/base/error.h"
 #include "sim/config/pilot.h"
-#include "sim/world/room_ray.h"
+#include "sim/world/ray.h"
 
 namespace dodgesim {
 
 namespace {
 
-constexpr TimeUs kTruthEveryUs = 1000;     // how often the pilot that knows the truth looks
 constexpr TimeUs kShownBeforeUs = 100000;  // of the trajectory before the first launch
 
 ImuSpec every_tick(ImuSpec spec) {
@@ -125,7 +124,8 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
   TruthPilot::Setup setup;
   setup.oracle = scenario_.oracle;
   setup.blind = plan_.pilot == kNoPilot;
-  setup.delay_us = scenario_.sensors.events.latency_us + scenario_.delays.transport_us;
+  setup.delays = scenario_.delays;
+  setup.latency_us = scenario_.sensors.events.latency_us;
   setup.lifetime_s = dodge::decay_lifetime_s(core.repulsive);
   for (const auto& launch : plan_.launches) setup.sizes_m.push_back(launch.toss.object.size_m);
   setup.X_BC = world_.vehicle().X_BC.front();
@@ -219,7 +219,7 @@ void Flight::sense() {
 
 void Flight::see() {
   const Snapshot& now = world_.snapshot();
-  if (truth_pilot_ != nullptr && now.t_us % kTruthEveryUs == 0) truth_pilot_->observe(now);
+  if (truth_pilot_ != nullptr) truth_pilot_->observe(now);
   if (!rig_) return;
   require_packet();
   rig_->advance(before_, now, [this](int camera, const Packet& packet) {
@@ -232,12 +232,12 @@ void Flight::see() {
 // The last packet that a cycle of the pilot will have must be complete by then. With a slow link
 // that is not the next cycle but a later one.
 void Flight::require_packet() {
-  const TimeUs packet_us = scenario_.delays.packet_us;
+  const DelaySpec& delays = scenario_.delays;
   TimeUs cycle_us = computer_.next_cycle_us();
   TimeUs end_us = 0;
   while (end_us <= before_.t_us) {
-    end_us = computer_.newest_packet_end_us(cycle_us) / packet_us * packet_us;
-    cycle_us += computer_.period_us();
+    end_us = delays.newest_packet_end_us(cycle_us);
+    cycle_us += delays.period_us();
   }
   if (end_us <= now_us()) rig_->require(end_us);
 }
@@ -289,7 +289,7 @@ void Flight::judge() {
 double Flight::true_range_m() const {
   const Eigen::Isometry3d X_WR = world_.snapshot().vehicle.pose() * world_.vehicle().X_BR;
   const Eigen::Vector3d down_W = X_WR.linear() * Eigen::Vector3d::UnitZ();
-  const std::optional<RoomHit> hit = room_along(world_, X_WR.translation(), down_W);
+  const std::optional<RayHit> hit = surface_along(world_, X_WR.translation(), down_W);
   return hit ? hit->distance : std::numeric_limits<double>::infinity();
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "sim/base/error.h"
 #include "sim/base/gravity.h"
@@ -53,6 +54,19 @@ Encounter head_on(const std::vector<Convex>& hull, double speed_mps) {
   return encounter;
 }
 
+// From an event's stamp to the start of the first cycle that has it, in the mean over all stamps.
+double mean_wait_s(const DelaySpec& delays) {
+  const TimeUs period_us = delays.period_us();
+  const TimeUs cycles = delays.packet_us / std::gcd<TimeUs>(delays.packet_us, period_us);
+  double sum_us2 = 0;  // over the stamps until packets and cycles stand to each other as before
+  for (TimeUs start_us = period_us; start_us <= cycles * period_us; start_us += period_us) {
+    const auto first_us = static_cast<double>(delays.newest_packet_end_us(start_us - period_us));
+    const auto last_us = static_cast<double>(delays.newest_packet_end_us(start_us));
+    sum_us2 += (last_us - first_us) * (static_cast<double>(start_us) - 0.5 * (first_us + last_us));
+  }
+  return 1e-6 * sum_us2 / static_cast<double>(cycles * period_us);
+}
+
 }  // namespace
 
 double AvoidanceBound::greatest_speed_mps(double latency_s) const {
@@ -89,9 +103,9 @@ AvoidanceBound rotors_bound(const Scenario& scenario, double range_m) {
 
 double latency_without_pilot_s(const Scenario& scenario) {
   const DelaySpec& delays = scenario.delays;
-  return seconds(scenario.sensors.events.latency_us + delays.transport_us + delays.command_us +
+  return seconds(scenario.sensors.events.latency_us + delays.command_us +
                  delays.flight_controller_us) +
-         0.5 * seconds(delays.packet_us + delays.cycle_us);
+         mean_wait_s(delays);
 }
 
 }  // namespace dodgesim

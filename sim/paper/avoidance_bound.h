@@ -36,8 +36,8 @@ AvoidanceBound point_bound(const Scenario& scenario, double range_m);
 // the ball arrives when it touches the hull. t_a is known to a millisecond.
 AvoidanceBound rotors_bound(const Scenario& scenario, double range_m);
 
-// From light to the rotors' command, without what the pilot takes: the pixel's latency, half of a
-// packet (the oracle looks as often), transport, half a cycle until the next one begins, the link
+// From light to the rotors' command, without what the pilot takes: the pixel's latency, the rest of
+// the packet, transport, the time until the next cycle begins (these three in the mean), the link
 // and the flight controller.
 double latency_without_pilot_s(const Scenario& scenario);
 

@@ -41,8 +41,8 @@ class RangeSensor {
 
   bool due(TimeUs t_us) const { return clock_.due(t_us); }
 
-  // true_range_m: distance along -z of B to the first surface of the room; infinite when there is
-  // none. Nothing when the distance is out of range.
+  // true_range_m: distance along -z of B to the first surface of the room or a thrown object;
+  // infinite when there is none. Nothing when the distance is out of range.
   std::optional<RangeReading> sample(TimeUs t_us, double true_range_m);
 
  private:

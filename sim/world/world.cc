@@ -5,7 +5,7 @@
 
 #include "sim/base/error.h"
 #include "sim/world/mujoco_eigen.h"
-#include "sim/world/room_ray.h"
+#include "sim/world/ray.h"
 
 namespace dodgesim {
 

@@ -148,6 +148,46 @@ TEST(NoDrift, HardDodgesDoNotLandTheVehicle) {
   EXPECT_FALSE(beside.monitor().drifted());
 }
 
+// Each reading beside where a vertical ray meets the ball, if it does.
+class RangeBesideBall : public FlightObserver {
+ public:
+  void on_tick(const World& world) override {
+    const Snapshot& now = world.snapshot();
+    sensor_W_ = now.vehicle.pose() * world.vehicle().X_BR.translation();
+    ball_W_ = now.objects[0].p_W;
+    beside_m_ = now.launched[0] ? (ball_W_ - sensor_W_).head<2>().norm() : 1e9;
+  }
+  void on_range(const RangeReading& reading) override {
+    if (std::abs(beside_m_ - kRadiusM) < kTiltedByM) return;
+    double first_z_m = 0;
+    if (beside_m_ < kRadiusM) {
+      ++over_ball_;
+      first_z_m = ball_W_.z() + std::sqrt(kRadiusM * kRadiusM - beside_m_ * beside_m_);
+    }
+    EXPECT_NEAR(reading.range_m, sensor_W_.z() - first_z_m, 0.11) << reading.t_us;
+  }
+
+  int over_ball() const { return over_ball_; }
+
+ private:
+  static constexpr double kRadiusM = 0.1, kTiltedByM = 0.02;
+
+  Eigen::Vector3d sensor_W_, ball_W_;
+  double beside_m_ = 0;
+  int over_ball_ = 0;
+};
+
+TEST(RangeSensor, SeesTheBallThatFliesBelow) {
+  RangeBesideBall beside;
+  const FlightRecord record =
+      fly_as("none",
+             scenario("mission: {start_m: [-2, 0, 2]}\nthrow: {size_m: 0.2, distance_m: 2.5, "
+                      "speed_mps: 4, aim_offset_m: [0, -0.9], launch_s: 0.5}\nafter_s: 0.2\n"),
+             &beside);
+  EXPECT_FALSE(record.verdict.nearest.hit);
+  EXPECT_GE(beside.over_ball(), 6);  // 0.16 m at 4 m/s, 200 readings a second
+}
+
 // The throw comes while the vehicle lands, or has landed: nobody dodges it any more.
 TEST(Drift, AThrowThatThePilotGaveUpOnIsNotDodged) {
   const auto fly_with = [](double drift_mps) {

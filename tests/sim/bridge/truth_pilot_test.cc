@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 
 #include "dodge/config.h"
@@ -10,7 +11,7 @@
 namespace dodgesim {
 namespace {
 
-constexpr TimeUs kDelayUs = 1100;
+constexpr TimeUs kDelayUs = 2000;  // of what happens at a packet's end: it goes with the next
 constexpr double kSizeM = 0.2;
 const Eigen::Vector3d kVehicle_p_W(1, -2, 3);
 const Eigen::Vector3d kVehicle_v_W(0.4, 0.1, 0);
@@ -24,7 +25,9 @@ dodge::Avoider avoider() {
 // A camera 12 cm in front of the vehicle's centre, looking forward.
 TruthPilot::Setup setup(int objects = 1) {
   TruthPilot::Setup out;
-  out.delay_us = kDelayUs;
+  out.delays.packet_us = 1000;
+  out.delays.transport_us = 1000;
+  out.latency_us = 100;
   out.lifetime_s = 0.5;
   out.sizes_m.assign(static_cast<std::size_t>(objects), kSizeM);
   out.X_BC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
@@ -106,6 +109,34 @@ TEST(TruthPilot, SeesAnObjectWithItsTrueStateAfterTheDelay) {
   EXPECT_EQ(seen.v_WO, kBall_v_W);
   EXPECT_EQ(seen.size_m, kSizeM);
   EXPECT_EQ(seen.t_us, 1000);
+}
+
+// Each tick tells of itself by an event, which goes the way of those of a camera.
+TEST(TruthPilot, KnowsWhatAnEventCouldTell) {
+  constexpr TimeUs kEndUs = 30000;
+  for (const int packet_us : {250, 900, 1000, 7000}) {
+    for (const int transport_us : {0, 650, 1000, 9000}) {
+      for (const int latency_us : {0, 100, 1300}) {
+        TruthPilot::Setup s = setup();
+        s.delays.packet_us = packet_us;
+        s.delays.transport_us = transport_us;
+        s.latency_us = latency_us;
+        const auto p = pilot(s);
+        std::map<TimeUs, TimeUs> tick_by_arrival;
+        for (TimeUs now_us = 0; now_us <= kEndUs; now_us += kTickUs) {
+          p->observe(scene(now_us, {from_camera(2, 0, 0)}));
+          TimeUs packet_end_us = 0;
+          while (packet_end_us < now_us + latency_us) packet_end_us += packet_us;
+          tick_by_arrival[packet_end_us + transport_us] = now_us;
+          p->update(now_us);
+          const auto later = tick_by_arrival.upper_bound(now_us);
+          ASSERT_EQ(p->obstacles().size(), later == tick_by_arrival.begin() ? 0u : 1u) << now_us;
+          if (later == tick_by_arrival.begin()) continue;
+          EXPECT_EQ(p->obstacles()[0].t_us, std::prev(later)->second) << now_us;
+        }
+      }
+    }
+  }
 }
 
 TEST(TruthPilot, AnObjectThatIsNotThrownYetIsNotThere) {

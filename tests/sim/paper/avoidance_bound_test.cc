@@ -63,5 +63,36 @@ TEST(AvoidanceBound, OfTheRotorsTakesTheirLagAndTheBallsWayToTheHull) {
   EXPECT_NEAR(bound.greatest_latency_s(speed_mps), 0.02, 0.002);
 }
 
+// The mean over light at each microsecond, that goes as an event's packet does.
+TEST(AvoidanceBound, TakesTheMeanLatencyOfTheChain) {
+  struct Delays {
+    int packet_us, transport_us, cycle_us, compute_us;
+  };
+  for (const Delays& d : {Delays{1000, 1000, 4000, 3500}, Delays{1000, 650, 4000, 3500},
+                          Delays{700, 0, 4000, 4100}, Delays{10000, 1200, 4000, 2000}}) {
+    Scenario scenario = paper_scenario("throw: {}\n");
+    scenario.delays.packet_us = d.packet_us;
+    scenario.delays.transport_us = d.transport_us;
+    scenario.delays.cycle_us = d.cycle_us;
+    scenario.delays.compute_us = d.compute_us;
+    const int period_us = d.compute_us > d.cycle_us ? 4250 : d.cycle_us;  // in whole ticks
+    const TimeUs lights = 40 * period_us;
+    double sum_s = 0;
+    for (TimeUs light_us = 1; light_us <= lights; ++light_us) {
+      const TimeUs stamp_us = light_us + scenario.sensors.events.latency_us;
+      TimeUs arrival_us = stamp_us + d.transport_us;
+      if (stamp_us % d.packet_us != 0) arrival_us += d.packet_us - stamp_us % d.packet_us;
+      TimeUs cycle_us = arrival_us;
+      if (arrival_us % period_us != 0) cycle_us += period_us - arrival_us % period_us;
+      sum_s += seconds(cycle_us - light_us);
+    }
+    const double command_s =
+        seconds(scenario.delays.command_us) + seconds(scenario.delays.flight_controller_us);
+    EXPECT_NEAR(latency_without_pilot_s(scenario), sum_s / static_cast<double>(lights) + command_s,
+                1e-6)
+        << d.packet_us << " " << d.cycle_us;
+  }
+}
+
 }  // namespace
 }  // namespace dodgesim

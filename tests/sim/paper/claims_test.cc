@@ -58,16 +58,16 @@ TEST(LatencyClaim, SaysAtWhichLatencyEachSpeedIsLost) {
       {swept(oracle, none),
        swept(pilot, [](std::size_t part, double speed) { return speed > 5 && part == 2; }),
        swept(pilot, [](std::size_t part, double speed) { return speed > 5 || part > 0; })});
-  // s / v - t_a - 0.1 - 0.5 - 1 - 2 - 3 - 0.25 ms, and the latencies between which half is lost.
+  // s / v - t_a - 0.1 - 1 - 2 - 3 - 0.25 ms, and the latencies between which half is lost.
   EXPECT_THAT(tables.markdown,
-              HasSubstr("| 4 m/s | 247 | 253 | 622 | 628 | > 60 | > 60 | > 60 | 3.5 to 30 |"));
+              HasSubstr("| 4 m/s | 247 | 254 | 622 | 629 | > 60 | > 60 | > 60 | 3.5 to 30 |"));
   EXPECT_THAT(tables.markdown,
-              HasSubstr("| 8 m/s | 59 | 50 | 247 | 238 | > 60 | > 60 | 30 to 60 | < 3.5 |"));
+              HasSubstr("| 8 m/s | 60 | 51 | 247 | 238 | > 60 | > 60 | 30 to 60 | < 3.5 |"));
   EXPECT_THAT(tables.csv, HasSubstr("\"falanga2020, 3 m\",8 m/s,60.0 ms,0,1,0.0000,"));
   ASSERT_EQ(tables.plots.size(), 4u);
   // The ticks are the table's bounds of the rotors; for 3 m, 622 ms is beyond the plot.
-  EXPECT_THAT(ticks_of(tables.plots[0].plot), ElementsAre(DoubleNear(50, 0.5)));
-  EXPECT_THAT(ticks_of(tables.plots[1].plot), ElementsAre(DoubleNear(238, 0.5)));
+  EXPECT_THAT(ticks_of(tables.plots[0].plot), ElementsAre(DoubleNear(50.6, 0.3)));
+  EXPECT_THAT(ticks_of(tables.plots[1].plot), ElementsAre(DoubleNear(238.1, 0.5)));
 }
 
 TEST(ThresholdClaim, TellsFalseEventsFromMissedOnes) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/world/room_ray.h"
+#include "sim/world/ray.h"
 #include "sim/world/world.h"
 #include "tests/sim/render/full_scene.h"
 
