@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "sim/base/random.h"
 #include "sim/check/film.h"
@@ -98,6 +99,41 @@ StepAnswer measure_level(const EventCameraSpec& spec, double lux, std::uint64_t 
   return answer;
 }
 
+// Why nothing can be said of a level; empty if something can.
+std::string why_not(const EventCameraSpec& spec, double lux, const std::vector<double>& late_us) {
+  if (!applies(spec, lux)) return "the step is below some thresholds";
+  if (spec.dead_pixel_fraction >= 1) return "all pixels are dead";
+  const std::size_t all =
+      std::size_t{kThresholdQuantiles} * static_cast<std::size_t>(jitter_quantiles(spec));
+  return late_us.size() < all / 2 ? "most pixels are slower than the film" : "";
+}
+
+// Adds a level's checks, and its point to the plot.
+void judge_level(const StepAnswer& answer, const EventCameraSpec& expected, Check& check,
+                 Series& measured) {
+  const std::string name = "step." + quantity_text(answer.lux, 0, "") + "_lux";
+  const auto expected_us = expected_latencies_us(expected, answer.lux);
+  if (const std::string why = why_not(expected, answer.lux, expected_us); !why.empty()) {
+    return check.off(name, why);
+  }
+  const double median_us = quantile(answer.latencies_us, 0.5);
+  const double expected_median_us = quantile(expected_us, 0.5);
+  const double spread_us = spread(expected_us);
+  const auto count = static_cast<double>(std::max<std::size_t>(1, answer.latencies_us.size()));
+  const double sigma = kStepSigmas / std::sqrt(count);
+  // Where jitter would come before the light, half of its distribution lies at one point.
+  const double chance_us = sigma * kMedianSigma * std::max(spread_us, expected.jitter_us);
+  const double late_us =
+      std::max(0.0, expected_median_us - static_cast<double>(expected.latency_us));
+  check.within(name + ".median", median_us, expected_median_us,
+               kStepRelativeLimit * late_us + kAbsoluteLimitUs + chance_us, "us", 1);
+  check.within(name + ".spread", spread(answer.latencies_us), spread_us,
+               (kSpreadLimit + sigma * kSpreadSigma) * spread_us + kAbsoluteLimitUs, "us", 1);
+  measured.x.push_back(answer.lux);
+  measured.y.push_back(median_us);
+  measured.spread.push_back(spread(answer.latencies_us));
+}
+
 }  // namespace
 
 double step_time_s(double share, double a, double b) {
@@ -140,42 +176,7 @@ Check judge(const std::vector<StepAnswer>& answers, const EventCameraSpec& expec
       {}};
   Series measured{"measured, with spread", Series::Kind::kPoints, 0, {}, {}, {}};
   Series curve{"closed form", Series::Kind::kLine, 1, {}, {}, {}};
-  for (const StepAnswer& answer : answers) {
-    const std::string name = "step." + quantity_text(answer.lux, 0, "") + "_lux";
-    if (!applies(expected, answer.lux)) {
-      check.off(name, "the step is below some thresholds");
-      continue;
-    }
-    if (expected.dead_pixel_fraction >= 1) {
-      check.off(name, "all pixels are dead");
-      continue;
-    }
-    const auto expected_us = expected_latencies_us(expected, answer.lux);
-    const std::size_t all =
-        std::size_t{kThresholdQuantiles} * static_cast<std::size_t>(jitter_quantiles(expected));
-    if (expected_us.size() < all / 2) {
-      check.off(name, "most pixels are slower than the film");
-      continue;
-    }
-    const auto latency_us = static_cast<double>(expected.latency_us);
-    const double median_us = quantile(answer.latencies_us, 0.5);
-    const double expected_median_us = quantile(expected_us, 0.5);
-    const double spread_us = spread(expected_us);
-    const double sigma =
-        kStepSigmas /
-        std::sqrt(static_cast<double>(std::max<std::size_t>(1, answer.latencies_us.size())));
-    // Where jitter would come before the light, half of its distribution lies at one point.
-    const double chance_us = sigma * kMedianSigma * std::max(spread_us, expected.jitter_us);
-    check.within(name + ".median", median_us, expected_median_us,
-                 kStepRelativeLimit * std::max(0.0, expected_median_us - latency_us) +
-                     kAbsoluteLimitUs + chance_us,
-                 "us", 1);
-    check.within(name + ".spread", spread(answer.latencies_us), spread_us,
-                 (kSpreadLimit + sigma * kSpreadSigma) * spread_us + kAbsoluteLimitUs, "us", 1);
-    measured.x.push_back(answer.lux);
-    measured.y.push_back(median_us);
-    measured.spread.push_back(spread(answer.latencies_us));
-  }
+  for (const StepAnswer& answer : answers) judge_level(answer, expected, check, measured);
   constexpr int kPoints = 50;
   for (int i = 0; i < kPoints; ++i) {
     const double lux = std::pow(10, 4.0 * i / (kPoints - 1));  // 1 to 10000

@@ -110,7 +110,7 @@ const void* buffer_offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
 }
 
-GlTexture upload_texture(const LuminanceTexture& texture, bool trilinear) {
+GlTexture upload_texture(const LuminanceTexture& texture) {
   GlTexture uploaded;
   const GLenum target = texture.cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D;
   glBindTexture(target, uploaded.name());
@@ -121,8 +121,6 @@ GlTexture upload_texture(const LuminanceTexture& texture, bool trilinear) {
   glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
   glTexParameteri(target, GL_TEXTURE_WRAP_R, wrap);
   glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(target, GL_TEXTURE_MIN_FILTER,
-                  trilinear ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST);
   // 16 bits hold grey texels of 8 bits exactly (photographs to 1/65535), and llvmpipe filters them
   // in float, unlike 8 bits. A bright tint may take texels beyond 1.
   const float brightest = *std::max_element(texture.texels.begin(), texture.texels.end());
@@ -143,14 +141,13 @@ GlTexture upload_texture(const LuminanceTexture& texture, bool trilinear) {
 }  // namespace
 
 SceneTextures::SceneTextures(const SceneGeometry& scene, bool trilinear)
-    : textures_(scene.textures.size()) {
+    : textures_(scene.textures.size()), trilinear_(trilinear) {
   const auto need = [&](int index) {
     if (index < 0) return;
     const LuminanceTexture& texture = scene.textures[static_cast<std::size_t>(index)];
     Texture& uploaded = textures_[static_cast<std::size_t>(index)];
     if (uploaded.kind != TextureKind::kNone) return;
-    uploaded = {upload_texture(texture, trilinear),
-                texture.cube ? TextureKind::kCube : TextureKind::k2d};
+    uploaded = {upload_texture(texture), texture.cube ? TextureKind::kCube : TextureKind::k2d};
   };
   for (const TriangleBatch& batch : scene.static_triangles) need(batch.texture);
   for (const MovingTriangles& moving : scene.moving_triangles) need(moving.batch.texture);
@@ -162,11 +159,13 @@ TextureKind SceneTextures::kind_of(int texture) const {
   return texture < 0 ? TextureKind::kNone : textures_[static_cast<std::size_t>(texture)].kind;
 }
 
-void SceneTextures::bind(int texture) const {
+void SceneTextures::bind(int texture, bool finest_only) const {
   if (texture < 0) return;
   const Texture& bound = textures_[static_cast<std::size_t>(texture)];
-  glBindTexture(bound.kind == TextureKind::kCube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D,
-                bound.texture.name());
+  const GLenum target = bound.kind == TextureKind::kCube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D;
+  glBindTexture(target, bound.texture.name());
+  const GLint mipmapped = trilinear_ ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST;
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, finest_only ? GL_LINEAR : mipmapped);
 }
 
 void set_camera(const GlProgram& program, const Intrinsics& intrinsics) {

@@ -33,7 +33,8 @@ class SceneTextures {
 
   // By index in the scene; -1 is none.
   TextureKind kind_of(int texture) const;
-  void bind(int texture) const;
+  // To be read through its mip-maps, or at its finest level only.
+  void bind(int texture, bool finest_only = false) const;
 
  private:
   struct Texture {
@@ -41,6 +42,7 @@ class SceneTextures {
     TextureKind kind;
   };
   std::vector<Texture> textures_;
+  bool trilinear_;
 };
 
 struct VertexBuffer {

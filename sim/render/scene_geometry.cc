@@ -1,5 +1,6 @@
 #include "sim/render/scene_geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -115,12 +116,13 @@ Vector3d extents(const mjModel& m, int geom) {
   }
 }
 
-TriangleBatch& static_batch(int texture, SceneGeometry& scene) {
+// Triangles of solids or others.
+std::vector<Vertex>& static_triangles(int texture, bool solid, SceneGeometry& scene) {
   for (TriangleBatch& batch : scene.static_triangles) {
-    if (batch.texture == texture) return batch;
+    if (batch.texture == texture && batch.solid == solid) return batch.vertices;
   }
-  scene.static_triangles.push_back({texture, {}});
-  return scene.static_triangles.back();
+  scene.static_triangles.push_back({texture, solid, {}});
+  return scene.static_triangles.back().vertices;
 }
 
 [[noreturn]] void reject(const mjModel& m, int geom) {
@@ -155,7 +157,7 @@ void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& p
       if (object >= 0) {
         scene.primitives.push_back({type, size, surface, object, pose});
       } else {
-        append_cylinder(size, surface, pose, static_batch(surface.texture, scene).vertices,
+        append_cylinder(size, surface, pose, static_triangles(surface.texture, true, scene),
                         scene.static_edges);
       }
       return;
@@ -163,7 +165,7 @@ void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& p
       if (object >= 0) {
         scene.primitives.push_back({type, size, surface, object, pose});
       } else {
-        append_box(size, surface, pose, static_batch(surface.texture, scene).vertices);
+        append_box(size, surface, pose, static_triangles(surface.texture, true, scene));
         append_box_faces(size, pose, faces.faces);
         append_box_edges(size, pose, faces.box_creases);
       }
@@ -171,7 +173,7 @@ void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& p
     case mjGEOM_PLANE:
       if (object >= 0) reject(m, geom);
       if (size.x() > 0 && size.y() > 0) {
-        append_rectangle(size, surface, pose, static_batch(surface.texture, scene).vertices);
+        append_rectangle(size, surface, pose, static_triangles(surface.texture, false, scene));
         faces.faces.push_back(rectangle(size, pose));
         faces.rectangles.push_back(faces.faces.back());
       } else {
@@ -181,10 +183,10 @@ void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& p
     case mjGEOM_MESH:
       if (object < 0) {
         append_mesh(m, m.geom_dataid[geom], surface, pose,
-                    static_batch(surface.texture, scene).vertices);
+                    static_triangles(surface.texture, false, scene));
         append_mesh_edges(m, m.geom_dataid[geom], pose, scene.static_edges);
       } else {
-        scene.moving_triangles.push_back({object, {surface.texture, {}}});
+        scene.moving_triangles.push_back({object, {surface.texture, false, {}}});
         append_mesh(m, m.geom_dataid[geom], surface, pose,
                     scene.moving_triangles.back().batch.vertices);
       }
@@ -268,6 +270,9 @@ SceneGeometry collect_scene(const mjModel& model, const std::vector<int>& object
     }
     add_geom(model, geom, object, pose, scene, faces);
   }
+  // What stands before walls is drawn before them, so that less is drawn in vain.
+  std::stable_partition(scene.static_triangles.begin(), scene.static_triangles.end(),
+                        [](const TriangleBatch& batch) { return batch.solid; });
   const std::vector<Edge> flat = find_edges(faces.faces, faces.rectangles, faces.box_creases);
   scene.static_edges.insert(scene.static_edges.end(), flat.begin(), flat.end());
   add_lights(model, *data, scene);

@@ -51,6 +51,7 @@ static_assert(sizeof(Vertex) == 11 * sizeof(float));
 // A run of triangles with one texture.
 struct TriangleBatch {
   int texture = -1;
+  bool solid = false;  // they are the surfaces of closed bodies, which nobody sees from within
   std::vector<Vertex> vertices;
 };
 

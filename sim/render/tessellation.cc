@@ -20,10 +20,35 @@ Vertex make_vertex(const Vector3d& p, const Vector3d& normal, const Surface& sur
           static_cast<float>(surface.albedo * surface.emission)};
 }
 
+// Large faces come in parts, of which some may be near and others far (triangle_choice.h).
+constexpr double kPartM = 1;
+constexpr int kMostParts = 32;  // along a side
+
+int parts_of(double side_m) {
+  return std::clamp(static_cast<int>(std::ceil(side_m / kPartM)), 1, kMostParts);
+}
+
+// The end itself where `part` is 0 or `parts`, and the same from either end: parts of neighbouring
+// faces meet.
+Vector3d part_way(const Vector3d& from, const Vector3d& to, int part, int parts) {
+  return from * (static_cast<double>(parts - part) / parts) +
+         to * (static_cast<double>(part) / parts);
+}
+
 void append_quad(const Quad& corners, const Vector3d& normal, const Surface& surface,
                  const Eigen::Isometry3d& pose, std::vector<Vertex>& out) {
-  for (const std::size_t i : {0, 1, 2, 0, 2, 3}) {
-    out.push_back(make_vertex(corners[i], normal, surface, pose));
+  const int across = parts_of((corners[1] - corners[0]).norm());
+  const int down = parts_of((corners[3] - corners[0]).norm());
+  const auto node = [&](int i, int j) {
+    const Vector3d p = part_way(part_way(corners[0], corners[1], i, across),
+                                part_way(corners[3], corners[2], i, across), j, down);
+    out.push_back(make_vertex(p, normal, surface, pose));
+  };
+  for (int j = 0; j < down; ++j) {
+    for (int i = 0; i < across; ++i) {
+      node(i, j), node(i + 1, j), node(i + 1, j + 1);
+      node(i, j), node(i + 1, j + 1), node(i, j + 1);
+    }
   }
 }
 

@@ -50,6 +50,9 @@ TrianglePainter::TrianglePainter(const SceneGeometry& scene, const SceneTextures
     : scene_(scene), textures_(textures), depth_(depth) {
   for (const TriangleBatch& batch : scene.static_triangles) {
     static_buffers_.push_back(upload_vertices(batch.vertices));
+    choosers_.emplace_back(batch, batch.texture < 0
+                                      ? nullptr
+                                      : &scene.textures[static_cast<std::size_t>(batch.texture)]);
     make_program_for(programs, batch.texture);
   }
   for (const MovingTriangles& moving : scene.moving_triangles) {
@@ -74,9 +77,9 @@ void TrianglePainter::make_program_for(ProgramCache& programs, int texture) {
   if (!program.name) program = make_triangle_program(programs, kind, scene_);
 }
 
-void TrianglePainter::draw(const Shot& shot, const VertexBuffer& buffer, int texture,
-                           const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& texture_shift,
-                           int id) {
+// What draw() needs besides vertices and texture. G: the frame of the vertices.
+void TrianglePainter::use(const Shot& shot, int texture, const Eigen::Isometry3d& X_WG,
+                          const Eigen::Vector3d& texture_shift, int id) const {
   const GlProgram& program = program_for(texture);
   glUseProgram(program.name);
   const Eigen::Matrix4d clip_from_G =
@@ -86,15 +89,30 @@ void TrianglePainter::draw(const Shot& shot, const VertexBuffer& buffer, int tex
   set_vector(program.texture_shift, texture_shift);
   glUniform1i(program.id, id);
   glUniform1f(program.lod_bias, static_cast<float>(shot.lod_bias));
+}
+
+void TrianglePainter::draw(const VertexBuffer& buffer, int texture) const {
   textures_.bind(texture);
   glBindVertexArray(buffer.array.name());
   glDrawArrays(GL_TRIANGLES, 0, buffer.count);
 }
 
+void TrianglePainter::draw(const VertexBuffer& buffer, const VertexRuns& runs, int texture,
+                           bool finest_only) const {
+  if (runs.first.empty()) return;
+  textures_.bind(texture, finest_only);
+  glBindVertexArray(buffer.array.name());
+  glMultiDrawArrays(GL_TRIANGLES, runs.first.data(), runs.count.data(),
+                    static_cast<GLsizei>(runs.first.size()));
+}
+
 void TrianglePainter::draw_static(const Shot& shot) {
   for (std::size_t i = 0; i < static_buffers_.size(); ++i) {
-    draw(shot, static_buffers_[i], scene_.static_triangles[i].texture,
-         Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), 0);
+    const int texture = scene_.static_triangles[i].texture;
+    choosers_[i].choose(shot, choice_);
+    use(shot, texture, Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), 0);
+    draw(static_buffers_[i], choice_.finest, texture, true);
+    draw(static_buffers_[i], choice_.mipmapped, texture, false);
   }
   draw_unbounded(shot);
   draw_sky(shot);
@@ -105,8 +123,9 @@ void TrianglePainter::draw_objects(const Shot& shot, const Snapshot& snapshot) {
     const MovingTriangles& moving = scene_.moving_triangles[i];
     const auto object = static_cast<std::size_t>(moving.object);
     if (!snapshot.launched[object]) continue;
-    draw(shot, moving_buffers_[i], moving.batch.texture, snapshot.objects[object].pose(),
-         Eigen::Vector3d::Zero(), moving.object + 1);
+    use(shot, moving.batch.texture, snapshot.objects[object].pose(), Eigen::Vector3d::Zero(),
+        moving.object + 1);
+    draw(moving_buffers_[i], moving.batch.texture);
   }
 }
 
@@ -119,8 +138,8 @@ void TrianglePainter::draw_unbounded(const Shot& shot) {
     Eigen::Vector3d shift =
         foot.cwiseProduct(plane.surface.texture_scale) + plane.surface.texture_offset;
     shift -= shift.array().floor().matrix();
-    draw(shot, unbounded_buffers_[i], plane.surface.texture,
-         plane.pose * Eigen::Translation3d(foot), shift, 0);
+    use(shot, plane.surface.texture, plane.pose * Eigen::Translation3d(foot), shift, 0);
+    draw(unbounded_buffers_[i], plane.surface.texture);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "sim/render/gl_scene.h"
 #include "sim/render/scene_geometry.h"
 #include "sim/render/shot.h"
+#include "sim/render/triangle_choice.h"
 #include "sim/world/snapshot.h"
 
 namespace dodgesim {
@@ -28,8 +29,11 @@ class TrianglePainter {
 
   const GlProgram& program_for(int texture) const;
   void make_program_for(ProgramCache& programs, int texture);
-  void draw(const Shot& shot, const VertexBuffer& buffer, int texture,
-            const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& texture_shift, int id);
+  void use(const Shot& shot, int texture, const Eigen::Isometry3d& X_WG,
+           const Eigen::Vector3d& texture_shift, int id) const;
+  void draw(const VertexBuffer& buffer, int texture) const;
+  void draw(const VertexBuffer& buffer, const VertexRuns& runs, int texture,
+            bool finest_only) const;
   void draw_unbounded(const Shot& shot);
   void draw_sky(const Shot& shot);
 
@@ -37,6 +41,8 @@ class TrianglePainter {
   const SceneTextures& textures_;
   DepthRange depth_;
   std::vector<VertexBuffer> static_buffers_, moving_buffers_, unbounded_buffers_;
+  std::vector<TriangleChooser> choosers_;  // of the static batches
+  TriangleChoice choice_;                  // while one is drawn
   GlVertexArray no_vertices_;
   std::array<GlProgram, kTextureKinds> programs_;
   GlProgram sky_program_;

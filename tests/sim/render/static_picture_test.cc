@@ -93,6 +93,21 @@ TEST(StaticPicture, HasTheDepthThatRaysFindInTheRoom) {
   EXPECT_LT(edges, 0.002 * hits);  // a ray that touches a corner may fall to either side
 }
 
+// Walls, floor and ceiling come in parts, between which nothing may be seen.
+TEST(StaticPicture, OfAClosedRoomShowsNoSky) {
+  World world({DODGESIM_SOURCE_DIR "/models", "room", "qav_rxl", {}});
+  const Intrinsics camera{640, 480, 2 * 190.68};
+  LuminanceRenderer renderer(world, Intrinsics(), {});
+  Image image(camera);
+  std::vector<float> inverse_depth(image.luminance.size());
+  for (int i = 0; i < 40; ++i) {
+    Isometry3d X_WC = forward_camera({-4.0 + 0.2 * i, 2.0 - 0.1 * i, 0.7 + 0.09 * i});
+    X_WC.linear() = Eigen::AngleAxisd(0.7 * i, Vector3d(0.2, 0.3, 1).normalized()) * X_WC.linear();
+    renderer.render_static(camera, X_WC, 0, image.luminance.data(), inverse_depth.data());
+    EXPECT_EQ(std::count(inverse_depth.begin(), inverse_depth.end(), 0.0f), 0) << i;
+  }
+}
+
 TEST(StaticPicture, TheSkyHasInverseDepthZero) {
   Scene scene(std::string(kWhiteLight) +
               "<worldbody><geom type='plane' size='0 0 1' pos='0 0 -1'/></worldbody>");

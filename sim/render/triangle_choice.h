@@ -1,0 +1,50 @@
+// Which triangles a view of the static scene needs, and how it has to read their texture: llvmpipe
+// takes twice as long to read one through its mip-maps as to read its finest level, which is all
+// that counts of what is near.
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "sim/render/scene_geometry.h"
+#include "sim/render/shot.h"
+
+namespace dodgesim {
+
+// Runs of vertices, as glMultiDrawArrays() takes them.
+struct VertexRuns {
+  std::vector<int> first, count;
+
+  void clear() { first.clear(), count.clear(); }
+  void add_triangle(int first_vertex);
+};
+
+struct TriangleChoice {
+  VertexRuns finest;     // the finest level is enough
+  VertexRuns mipmapped;  // all others
+};
+
+class TriangleChooser {
+ public:
+  // `texture` is null for a plain batch. The batch must outlive the chooser.
+  TriangleChooser(const TriangleBatch& batch, const LuminanceTexture* texture);
+
+  // Leaves out the far sides of solids.
+  void choose(const Shot& shot, TriangleChoice& choice) const;
+
+ private:
+  using Gradient = Eigen::Matrix<float, 2, 3>;
+  struct Plane {
+    Eigen::Vector3f normal;  // outwards
+    float offset;            // normal . p
+    Gradient texels_per_m;   // along the plane
+  };
+
+  float texels_per_px(std::size_t triangle, const Shot& shot) const;
+
+  const TriangleBatch& batch_;
+  bool flat_texture_ = false;
+  std::vector<Plane> planes_;  // of the triangles
+};
+
+}  // namespace dodgesim

@@ -1,0 +1,203 @@
+#include "sim/render/triangle_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "sim/render/tessellation.h"
+#include "tests/sim/render/render_fixture.h"
+
+namespace dodgesim {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr int kTexels = 256;
+constexpr double kRepeatPerM = 0.5;  // 128 texels a metre
+
+LuminanceTexture texture() {
+  return {0, Vector3d::Ones(), false, kTexels, kTexels, std::vector<float>(kTexels * kTexels)};
+}
+
+Surface textured() {
+  Surface surface;
+  surface.texture = 0;
+  surface.texture_scale = {kRepeatPerM, -kRepeatPerM, 0};
+  return surface;
+}
+
+// A plane of 8 x 6 m.
+TriangleBatch plane(const Isometry3d& pose) {
+  TriangleBatch batch{0, false, {}};
+  append_rectangle({4, 3, 0}, textured(), pose, batch.vertices);
+  return batch;
+}
+
+Isometry3d random_pose(std::mt19937& random, double reach_m) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> place(-reach_m, reach_m);
+  Isometry3d pose = Isometry3d::Identity();
+  pose.linear() = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+                      .normalized()
+                      .toRotationMatrix();
+  for (double& coordinate : pose.translation()) coordinate = place(random);
+  return pose;
+}
+
+Shot shot_from(const Isometry3d& X_WC, double lod_bias = 0) {
+  const Intrinsics camera;
+  return {camera, X_WC, {0, 0, camera.width, camera.height}, lod_bias};
+}
+
+// Texel that a pixel's ray meets on the plane z = 0 of `pose`; behind the camera too.
+Vector2d texel_at(const Vector2d& pixel, const Shot& shot, const Isometry3d& pose) {
+  const Intrinsics& camera = shot.intrinsics;
+  const Vector3d ray_C((pixel.x() - camera.cx()) / camera.f, (pixel.y() - camera.cy()) / camera.f,
+                       1);
+  const Isometry3d X_PC = pose.inverse() * shot.X_WC;
+  const Vector3d ray = X_PC.linear() * ray_C, from = X_PC.translation();
+  const Vector3d p = from - from.z() / ray.z() * ray;
+  return kTexels * kRepeatPerM * p.head<2>();
+}
+
+// Of the step to the next pixel, across or down.
+double texels_per_px(const Vector3d& p_W, const Shot& shot, const Isometry3d& pose) {
+  constexpr double kStepPx = 1e-3;
+  const Vector2d pixel = shot.intrinsics.project(shot.X_WC.inverse() * p_W);
+  double most = 0;
+  for (const Vector2d& step : {Vector2d(kStepPx, 0), Vector2d(0, kStepPx)}) {
+    const Vector2d change = texel_at(pixel + step, shot, pose) - texel_at(pixel - step, shot, pose);
+    most = std::max(most, change.norm() / (2 * kStepPx));
+  }
+  return most;
+}
+
+std::set<int> triangles_of(const VertexRuns& runs) {
+  std::set<int> triangles;
+  for (std::size_t k = 0; k < runs.first.size(); ++k) {
+    for (int v = runs.first[k]; v < runs.first[k] + runs.count[k]; v += 3) {
+      EXPECT_TRUE(triangles.insert(v / 3).second);
+    }
+  }
+  return triangles;
+}
+
+TEST(TriangleChoice, ReadsTheFinestLevelOnlyWhereNoOtherHasAPart) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0, 1);
+  const LuminanceTexture squares = texture();
+  int finest = 0, points = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Isometry3d pose = random_pose(random, 4);
+    const TriangleBatch batch = plane(pose);
+    const Shot shot = shot_from(random_pose(random, 4), -2 * share(random));
+    TriangleChoice choice;
+    TriangleChooser(batch, &squares).choose(shot, choice);
+    for (const int triangle : triangles_of(choice.finest)) {
+      ++finest;
+      const Vertex* const v = &batch.vertices[static_cast<std::size_t>(3 * triangle)];
+      double a = share(random), b = share(random);
+      if (a + b > 1) a = 1 - a, b = 1 - b;
+      const Vector3d p_W = ((1 - a - b) * v[0].position + static_cast<float>(a) * v[1].position +
+                            static_cast<float>(b) * v[2].position)
+                               .cast<double>();
+      if ((shot.X_WC.inverse() * p_W).z() < 0.05) continue;
+      ++points;
+      EXPECT_LT(std::exp2(shot.lod_bias) * texels_per_px(p_W, shot, pose), 1);
+    }
+  }
+  EXPECT_GT(finest, 1000);
+  EXPECT_GT(points, 300);
+}
+
+// Straight ahead a pixel covers z / f: 128 texels a metre are one a pixel at f / 128.
+TEST(TriangleChoice, OfAWallAheadDecidesItsDistance) {
+  const LuminanceTexture squares = texture();
+  const Shot shot = shot_from(Isometry3d::Identity());
+  const double one_texel_m = shot.intrinsics.f / (kTexels * kRepeatPerM);
+  Isometry3d pose = Isometry3d::Identity();
+  TriangleChoice choice;
+  pose.translation().z() = 0.94 * one_texel_m;
+  const TriangleBatch near = plane(pose);
+  TriangleChooser(near, &squares).choose(shot, choice);
+  EXPECT_EQ(choice.finest.count, std::vector<int>{static_cast<int>(near.vertices.size())});
+  EXPECT_TRUE(choice.mipmapped.count.empty());
+  pose.translation().z() = 1.01 * one_texel_m;
+  const TriangleBatch far = plane(pose);
+  TriangleChooser(far, &squares).choose(shot, choice);
+  EXPECT_TRUE(choice.finest.count.empty());
+  EXPECT_EQ(choice.mipmapped.count, std::vector<int>{static_cast<int>(far.vertices.size())});
+}
+
+TEST(TriangleChoice, LeavesOutTheFarSidesOfSolidsAlone) {
+  TriangleBatch box{-1, true, {}};
+  append_box({0.2, 0.3, 0.4}, {}, Isometry3d(Eigen::Translation3d(0, 0, 2)), box.vertices);
+  TriangleChoice choice;
+  TriangleChooser(box, nullptr).choose(shot_from(Isometry3d::Identity()), choice);
+  const std::set<int> ahead = triangles_of(choice.mipmapped);
+  ASSERT_EQ(ahead.size(), 2u);
+  for (const int triangle : ahead) {
+    EXPECT_EQ(box.vertices[static_cast<std::size_t>(3 * triangle)].normal.z(), -1);
+  }
+  TriangleChooser(box, nullptr)
+      .choose(shot_from(Isometry3d(Eigen::Translation3d(3, 3, 0))), choice);
+  EXPECT_EQ(triangles_of(choice.mipmapped).size(), 6u);
+  // What is no solid may be seen from behind.
+  box.solid = false;
+  TriangleChooser(box, nullptr).choose(shot_from(Isometry3d::Identity()), choice);
+  EXPECT_EQ(triangles_of(choice.mipmapped).size(), 12u);
+}
+
+// A plane without borders is always read through its mip-maps.
+TEST(TriangleChoice, ChangesNoPicture) {
+  const auto ground = [](const char* size) {
+    return Scene(std::string(kWhiteLight) +
+                 "<asset><texture name='t' type='2d' builtin='flat' rgb1='.5 .5 .5' mark='random' "
+                 "markrgb='1 1 1' random='.4' width='256' height='256'/><material name='m' "
+                 "texture='t' texrepeat='1 1' texuniform='true'/></asset><worldbody><geom "
+                 "type='plane' size='" +
+                 size + "' material='m'/></worldbody>");
+  };
+  Scene parts = ground("40 40 1"), whole = ground("0 0 1");
+  Isometry3d X_WC = Isometry3d::Identity();
+  X_WC.linear() << 0, -0.5, std::sqrt(0.75), -1, 0, 0, 0, -std::sqrt(0.75), -0.5;
+  for (const double height_m : {0.5, 1.5, 4.0}) {
+    X_WC.translation() = Vector3d(0.3, 0.2, height_m);
+    const Image a = parts.render(X_WC), b = whole.render(X_WC);
+    double largest = 0;
+    for (int y = 60; y < a.camera.height; ++y) {  // above, one of them ends
+      for (int x = 0; x < a.camera.width; ++x) {
+        largest = std::max(largest, std::abs(a.at(x, y) - b.at(x, y)));
+      }
+    }
+    EXPECT_LT(largest, 2e-3) << height_m;
+  }
+}
+
+TEST(Tessellation, PartsOfNeighbouringFacesMeet) {
+  std::mt19937 random(2);
+  std::vector<Vertex> vertices;
+  append_box({3.3, 2.7, 0.4}, {}, random_pose(random, 5), vertices);
+  // Each side of a triangle is one of another.
+  std::multiset<std::pair<std::vector<float>, std::vector<float>>> sides;
+  const auto point = [&](std::size_t i) {
+    const Eigen::Vector3f& p = vertices[i].position;
+    return std::vector<float>{p.x(), p.y(), p.z()};
+  };
+  for (std::size_t i = 0; i < vertices.size(); i += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto a = point(i + k), b = point(i + (k + 1) % 3);
+      if (b < a) std::swap(a, b);
+      sides.insert({a, b});
+    }
+  }
+  for (const auto& side : sides) EXPECT_EQ(sides.count(side), 2u);
+  EXPECT_EQ(vertices.size(), 2u * 3u * 2u * (7 * 6 + 7 + 6));
+}
+
+}  // namespace
+}  // namespace dodgesim
