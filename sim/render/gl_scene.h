@@ -31,6 +31,7 @@ class SceneTextures {
  public:
   SceneTextures(const SceneGeometry& scene, bool trilinear);
 
+  bool trilinear() const { return trilinear_; }
   // By index in the scene; -1 is none.
   TextureKind kind_of(int texture) const;
   // To be read through its mip-maps, or at its finest level only.

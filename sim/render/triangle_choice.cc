@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace dodgesim {
 
 namespace {
 
+// Texels per pixel from which on the next level has a part: the level is their logarithm to base 2.
+constexpr float kTrilinearFinest = 1, kNearestFinest = std::numbers::sqrt2_v<float>;
 // OpenGL takes the step between neighbouring pixels for the derivative, and a logarithm that is not
-// exact: with less than this no coarser level has a part.
-constexpr float kSurelyFinest = 0.95f;
+// exact.
+constexpr float kSurely = 0.95f;
 
 // Of texels along the plane of a triangle with the sides a and b, over which they change by ta and
 // tb.
@@ -34,8 +37,11 @@ void VertexRuns::add_triangle(int first_vertex) {
   }
 }
 
-TriangleChooser::TriangleChooser(const TriangleBatch& batch, const LuminanceTexture* texture)
-    : batch_(batch), flat_texture_(texture != nullptr && !texture->cube) {
+TriangleChooser::TriangleChooser(const TriangleBatch& batch, const LuminanceTexture* texture,
+                                 bool trilinear)
+    : batch_(batch),
+      flat_texture_(texture != nullptr && !texture->cube),
+      finest_below_(kSurely * (trilinear ? kTrilinearFinest : kNearestFinest)) {
   for (std::size_t i = 0; i < batch.vertices.size(); i += 3) {
     const Vertex* const v = &batch.vertices[i];
     const Eigen::Vector3f a = v[1].position - v[0].position, b = v[2].position - v[0].position;
@@ -82,7 +88,7 @@ void TriangleChooser::choose(const Shot& shot, TriangleChoice& choice) const {
   const auto sharper = static_cast<float>(std::exp2(shot.lod_bias));
   for (std::size_t i = 0; i < planes_.size(); ++i) {
     if (batch_.solid && planes_[i].normal.dot(camera) <= planes_[i].offset) continue;
-    const bool finest = flat_texture_ && sharper * texels_per_px(i, shot) < kSurelyFinest;
+    const bool finest = flat_texture_ && sharper * texels_per_px(i, shot) < finest_below_;
     (finest ? choice.finest : choice.mipmapped).add_triangle(static_cast<int>(3 * i));
   }
 }

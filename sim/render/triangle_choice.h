@@ -26,8 +26,9 @@ struct TriangleChoice {
 
 class TriangleChooser {
  public:
-  // `texture` is null for a plain batch. The batch must outlive the chooser.
-  TriangleChooser(const TriangleBatch& batch, const LuminanceTexture* texture);
+  // `texture` is null for a plain batch; `trilinear`: between levels, or from the nearest one. The
+  // batch must outlive the chooser.
+  TriangleChooser(const TriangleBatch& batch, const LuminanceTexture* texture, bool trilinear);
 
   // Leaves out the far sides of solids.
   void choose(const Shot& shot, TriangleChoice& choice) const;
@@ -43,7 +44,8 @@ class TriangleChooser {
   float texels_per_px(std::size_t triangle, const Shot& shot) const;
 
   const TriangleBatch& batch_;
-  bool flat_texture_ = false;
+  bool flat_texture_;
+  float finest_below_;         // [texels per px]
   std::vector<Plane> planes_;  // of the triangles
 };
 

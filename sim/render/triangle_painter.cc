@@ -50,9 +50,10 @@ TrianglePainter::TrianglePainter(const SceneGeometry& scene, const SceneTextures
     : scene_(scene), textures_(textures), depth_(depth) {
   for (const TriangleBatch& batch : scene.static_triangles) {
     static_buffers_.push_back(upload_vertices(batch.vertices));
-    choosers_.emplace_back(batch, batch.texture < 0
-                                      ? nullptr
-                                      : &scene.textures[static_cast<std::size_t>(batch.texture)]);
+    const bool plain = batch.texture < 0;
+    choosers_.emplace_back(
+        batch, plain ? nullptr : &scene.textures[static_cast<std::size_t>(batch.texture)],
+        textures.trilinear());
     make_program_for(programs, batch.texture);
   }
   for (const MovingTriangles& moving : scene.moving_triangles) {

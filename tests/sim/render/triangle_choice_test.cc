@@ -86,7 +86,15 @@ std::set<int> triangles_of(const VertexRuns& runs) {
   return triangles;
 }
 
-TEST(TriangleChoice, ReadsTheFinestLevelOnlyWhereNoOtherHasAPart) {
+// Texels per pixel from which on another level has a part: between the levels 0 and 1, or nearer
+// to 1.
+double most_texels_per_px(bool trilinear) { return trilinear ? 1 : std::sqrt(2); }
+
+class TextureOfTriangles : public ::testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Filters, TextureOfTriangles, ::testing::Bool(),
+                         [](const auto& info) { return info.param ? "Trilinear" : "Bilinear"; });
+
+TEST_P(TextureOfTriangles, IsReadAtTheFinestLevelOnlyWhereNoOtherHasAPart) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0, 1);
   const LuminanceTexture squares = texture();
@@ -96,18 +104,18 @@ TEST(TriangleChoice, ReadsTheFinestLevelOnlyWhereNoOtherHasAPart) {
     const TriangleBatch batch = plane(pose);
     const Shot shot = shot_from(random_pose(random, 4), -2 * share(random));
     TriangleChoice choice;
-    TriangleChooser(batch, &squares).choose(shot, choice);
+    TriangleChooser(batch, &squares, GetParam()).choose(shot, choice);
     for (const int triangle : triangles_of(choice.finest)) {
       ++finest;
       const Vertex* const v = &batch.vertices[static_cast<std::size_t>(3 * triangle)];
       double a = share(random), b = share(random);
       if (a + b > 1) a = 1 - a, b = 1 - b;
-      const Vector3d p_W = ((1 - a - b) * v[0].position + static_cast<float>(a) * v[1].position +
-                            static_cast<float>(b) * v[2].position)
-                               .cast<double>();
+      const Vector3d p_W = (1 - a - b) * v[0].position.cast<double>() +
+                           a * v[1].position.cast<double>() + b * v[2].position.cast<double>();
       if ((shot.X_WC.inverse() * p_W).z() < 0.05) continue;
       ++points;
-      EXPECT_LT(std::exp2(shot.lod_bias) * texels_per_px(p_W, shot, pose), 1);
+      const double texels = std::exp2(shot.lod_bias) * texels_per_px(p_W, shot, pose);
+      EXPECT_LT(texels, most_texels_per_px(GetParam()));
     }
   }
   EXPECT_GT(finest, 1000);
@@ -115,52 +123,37 @@ TEST(TriangleChoice, ReadsTheFinestLevelOnlyWhereNoOtherHasAPart) {
 }
 
 // Straight ahead a pixel covers z / f: 128 texels a metre are one a pixel at f / 128.
-TEST(TriangleChoice, OfAWallAheadDecidesItsDistance) {
+TEST_P(TextureOfTriangles, OfAWallAheadDecidesItsDistance) {
   const LuminanceTexture squares = texture();
   const Shot shot = shot_from(Isometry3d::Identity());
-  const double one_texel_m = shot.intrinsics.f / (kTexels * kRepeatPerM);
+  const double limit_m =
+      most_texels_per_px(GetParam()) * shot.intrinsics.f / (kTexels * kRepeatPerM);
   Isometry3d pose = Isometry3d::Identity();
   TriangleChoice choice;
-  pose.translation().z() = 0.94 * one_texel_m;
+  pose.translation().z() = 0.94 * limit_m;
   const TriangleBatch near = plane(pose);
-  TriangleChooser(near, &squares).choose(shot, choice);
+  TriangleChooser(near, &squares, GetParam()).choose(shot, choice);
   EXPECT_EQ(choice.finest.count, std::vector<int>{static_cast<int>(near.vertices.size())});
   EXPECT_TRUE(choice.mipmapped.count.empty());
-  pose.translation().z() = 1.01 * one_texel_m;
+  pose.translation().z() = 1.01 * limit_m;
   const TriangleBatch far = plane(pose);
-  TriangleChooser(far, &squares).choose(shot, choice);
+  TriangleChooser(far, &squares, GetParam()).choose(shot, choice);
   EXPECT_TRUE(choice.finest.count.empty());
   EXPECT_EQ(choice.mipmapped.count, std::vector<int>{static_cast<int>(far.vertices.size())});
 }
 
-TEST(TriangleChoice, LeavesOutTheFarSidesOfSolidsAlone) {
-  TriangleBatch box{-1, true, {}};
-  append_box({0.2, 0.3, 0.4}, {}, Isometry3d(Eigen::Translation3d(0, 0, 2)), box.vertices);
-  TriangleChoice choice;
-  TriangleChooser(box, nullptr).choose(shot_from(Isometry3d::Identity()), choice);
-  const std::set<int> ahead = triangles_of(choice.mipmapped);
-  ASSERT_EQ(ahead.size(), 2u);
-  for (const int triangle : ahead) {
-    EXPECT_EQ(box.vertices[static_cast<std::size_t>(3 * triangle)].normal.z(), -1);
-  }
-  TriangleChooser(box, nullptr)
-      .choose(shot_from(Isometry3d(Eigen::Translation3d(3, 3, 0))), choice);
-  EXPECT_EQ(triangles_of(choice.mipmapped).size(), 6u);
-  // What is no solid may be seen from behind.
-  box.solid = false;
-  TriangleChooser(box, nullptr).choose(shot_from(Isometry3d::Identity()), choice);
-  EXPECT_EQ(triangles_of(choice.mipmapped).size(), 12u);
-}
-
 // A plane without borders is always read through its mip-maps.
-TEST(TriangleChoice, ChangesNoPicture) {
-  const auto ground = [](const char* size) {
+TEST_P(TextureOfTriangles, ShowsWhatMipMapsShow) {
+  RenderSpec spec;
+  spec.texture_filter = GetParam() ? "trilinear" : "bilinear";
+  const auto ground = [&](const char* size) {
     return Scene(std::string(kWhiteLight) +
-                 "<asset><texture name='t' type='2d' builtin='flat' rgb1='.5 .5 .5' mark='random' "
-                 "markrgb='1 1 1' random='.4' width='256' height='256'/><material name='m' "
-                 "texture='t' texrepeat='1 1' texuniform='true'/></asset><worldbody><geom "
-                 "type='plane' size='" +
-                 size + "' material='m'/></worldbody>");
+                     "<asset><texture name='t' type='2d' builtin='flat' rgb1='.5 .5 .5' "
+                     "mark='random' markrgb='1 1 1' random='.4' width='256' height='256'/>"
+                     "<material name='m' texture='t' texrepeat='1 1' texuniform='true'/></asset>"
+                     "<worldbody><geom type='plane' size='" +
+                     size + "' material='m'/></worldbody>",
+                 spec);
   };
   Scene parts = ground("40 40 1"), whole = ground("0 0 1");
   Isometry3d X_WC = Isometry3d::Identity();
@@ -176,6 +169,25 @@ TEST(TriangleChoice, ChangesNoPicture) {
     }
     EXPECT_LT(largest, 2e-3) << height_m;
   }
+}
+
+TEST(TriangleChoice, LeavesOutTheFarSidesOfSolidsAlone) {
+  TriangleBatch box{-1, true, {}};
+  append_box({0.2, 0.3, 0.4}, {}, Isometry3d(Eigen::Translation3d(0, 0, 2)), box.vertices);
+  const TriangleChooser chooser(box, nullptr, false);
+  TriangleChoice choice;
+  chooser.choose(shot_from(Isometry3d::Identity()), choice);
+  const std::set<int> ahead = triangles_of(choice.mipmapped);
+  ASSERT_EQ(ahead.size(), 2u);
+  for (const int triangle : ahead) {
+    EXPECT_EQ(box.vertices[static_cast<std::size_t>(3 * triangle)].normal.z(), -1);
+  }
+  chooser.choose(shot_from(Isometry3d(Eigen::Translation3d(3, 3, 0))), choice);
+  EXPECT_EQ(triangles_of(choice.mipmapped).size(), 6u);
+  // What is no solid may be seen from behind.
+  box.solid = false;
+  chooser.choose(shot_from(Isometry3d::Identity()), choice);
+  EXPECT_EQ(triangles_of(choice.mipmapped).size(), 12u);
 }
 
 TEST(Tessellation, PartsOfNeighbouringFacesMeet) {
