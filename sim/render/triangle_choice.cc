@@ -27,16 +27,6 @@ Eigen::Matrix<float, 2, 3> gradient(const Eigen::Vector3f& a, const Eigen::Vecto
 
 }  // namespace
 
-void VertexRuns::add_triangle(int first_vertex) {
-  constexpr int kCorners = 3;
-  if (!first.empty() && first.back() + count.back() == first_vertex) {
-    count.back() += kCorners;
-  } else {
-    first.push_back(first_vertex);
-    count.push_back(kCorners);
-  }
-}
-
 TriangleChooser::TriangleChooser(const TriangleBatch& batch, const LuminanceTexture* texture,
                                  bool trilinear)
     : batch_(batch),
@@ -89,7 +79,10 @@ void TriangleChooser::choose(const Shot& shot, TriangleChoice& choice) const {
   for (std::size_t i = 0; i < planes_.size(); ++i) {
     if (batch_.solid && planes_[i].normal.dot(camera) <= planes_[i].offset) continue;
     const bool finest = flat_texture_ && sharper * texels_per_px(i, shot) < finest_below_;
-    (finest ? choice.finest : choice.mipmapped).add_triangle(static_cast<int>(3 * i));
+    std::vector<std::uint32_t>& chosen = finest ? choice.finest : choice.mipmapped;
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
+      chosen.push_back(static_cast<std::uint32_t>(k));
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstdint>
 #include <vector>
 
 #include "sim/render/scene_geometry.h"
@@ -11,17 +12,10 @@
 
 namespace dodgesim {
 
-// Runs of vertices, as glMultiDrawArrays() takes them.
-struct VertexRuns {
-  std::vector<int> first, count;
-
-  void clear() { first.clear(), count.clear(); }
-  void add_triangle(int first_vertex);
-};
-
+// Numbers of vertices, three for each triangle.
 struct TriangleChoice {
-  VertexRuns finest;     // the finest level is enough
-  VertexRuns mipmapped;  // all others
+  std::vector<std::uint32_t> finest;     // the finest level is enough
+  std::vector<std::uint32_t> mipmapped;  // all others
 };
 
 class TriangleChooser {

@@ -98,13 +98,16 @@ void TrianglePainter::draw(const VertexBuffer& buffer, int texture) const {
   glDrawArrays(GL_TRIANGLES, 0, buffer.count);
 }
 
-void TrianglePainter::draw(const VertexBuffer& buffer, const VertexRuns& runs, int texture,
-                           bool finest_only) const {
-  if (runs.first.empty()) return;
+void TrianglePainter::draw(const VertexBuffer& buffer, const std::vector<std::uint32_t>& vertices,
+                           int texture, bool finest_only) const {
+  if (vertices.empty()) return;
   textures_.bind(texture, finest_only);
   glBindVertexArray(buffer.array.name());
-  glMultiDrawArrays(GL_TRIANGLES, runs.first.data(), runs.count.data(),
-                    static_cast<GLsizei>(runs.first.size()));
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, chosen_.name());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+               static_cast<GLsizeiptr>(vertices.size() * sizeof(vertices[0])), vertices.data(),
+               GL_STREAM_DRAW);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(vertices.size()), GL_UNSIGNED_INT, nullptr);
 }
 
 void TrianglePainter::draw_static(const Shot& shot) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "sim/render/gl_scene.h"
@@ -32,7 +33,7 @@ class TrianglePainter {
   void use(const Shot& shot, int texture, const Eigen::Isometry3d& X_WG,
            const Eigen::Vector3d& texture_shift, int id) const;
   void draw(const VertexBuffer& buffer, int texture) const;
-  void draw(const VertexBuffer& buffer, const VertexRuns& runs, int texture,
+  void draw(const VertexBuffer& buffer, const std::vector<std::uint32_t>& vertices, int texture,
             bool finest_only) const;
   void draw_unbounded(const Shot& shot);
   void draw_sky(const Shot& shot);
@@ -43,6 +44,7 @@ class TrianglePainter {
   std::vector<VertexBuffer> static_buffers_, moving_buffers_, unbounded_buffers_;
   std::vector<TriangleChooser> choosers_;  // of the static batches
   TriangleChoice choice_;                  // while one is drawn
+  GlBuffer chosen_;                        // its numbers of vertices
   GlVertexArray no_vertices_;
   std::array<GlProgram, kTextureKinds> programs_;
   GlProgram sky_program_;

@@ -76,12 +76,12 @@ double texels_per_px(const Vector3d& p_W, const Shot& shot, const Isometry3d& po
   return most;
 }
 
-std::set<int> triangles_of(const VertexRuns& runs) {
-  std::set<int> triangles;
-  for (std::size_t k = 0; k < runs.first.size(); ++k) {
-    for (int v = runs.first[k]; v < runs.first[k] + runs.count[k]; v += 3) {
-      EXPECT_TRUE(triangles.insert(v / 3).second);
-    }
+std::set<std::size_t> triangles_of(const std::vector<std::uint32_t>& vertices) {
+  std::set<std::size_t> triangles;
+  for (std::size_t k = 0; k < vertices.size(); k += 3) {
+    EXPECT_TRUE(triangles.insert(vertices[k] / 3).second);
+    EXPECT_EQ(vertices[k + 1], vertices[k] + 1);
+    EXPECT_EQ(vertices[k + 2], vertices[k] + 2);
   }
   return triangles;
 }
@@ -105,9 +105,9 @@ TEST_P(TextureOfTriangles, IsReadAtTheFinestLevelOnlyWhereNoOtherHasAPart) {
     const Shot shot = shot_from(random_pose(random, 4), -2 * share(random));
     TriangleChoice choice;
     TriangleChooser(batch, &squares, GetParam()).choose(shot, choice);
-    for (const int triangle : triangles_of(choice.finest)) {
+    for (const std::size_t triangle : triangles_of(choice.finest)) {
       ++finest;
-      const Vertex* const v = &batch.vertices[static_cast<std::size_t>(3 * triangle)];
+      const Vertex* const v = &batch.vertices[3 * triangle];
       double a = share(random), b = share(random);
       if (a + b > 1) a = 1 - a, b = 1 - b;
       const Vector3d p_W = (1 - a - b) * v[0].position.cast<double>() +
@@ -133,13 +133,13 @@ TEST_P(TextureOfTriangles, OfAWallAheadDecidesItsDistance) {
   pose.translation().z() = 0.94 * limit_m;
   const TriangleBatch near = plane(pose);
   TriangleChooser(near, &squares, GetParam()).choose(shot, choice);
-  EXPECT_EQ(choice.finest.count, std::vector<int>{static_cast<int>(near.vertices.size())});
-  EXPECT_TRUE(choice.mipmapped.count.empty());
+  EXPECT_EQ(choice.finest.size(), near.vertices.size());
+  EXPECT_TRUE(choice.mipmapped.empty());
   pose.translation().z() = 1.01 * limit_m;
   const TriangleBatch far = plane(pose);
   TriangleChooser(far, &squares, GetParam()).choose(shot, choice);
-  EXPECT_TRUE(choice.finest.count.empty());
-  EXPECT_EQ(choice.mipmapped.count, std::vector<int>{static_cast<int>(far.vertices.size())});
+  EXPECT_TRUE(choice.finest.empty());
+  EXPECT_EQ(choice.mipmapped.size(), far.vertices.size());
 }
 
 // A plane without borders is always read through its mip-maps.
@@ -177,10 +177,10 @@ TEST(TriangleChoice, LeavesOutTheFarSidesOfSolidsAlone) {
   const TriangleChooser chooser(box, nullptr, false);
   TriangleChoice choice;
   chooser.choose(shot_from(Isometry3d::Identity()), choice);
-  const std::set<int> ahead = triangles_of(choice.mipmapped);
+  const std::set<std::size_t> ahead = triangles_of(choice.mipmapped);
   ASSERT_EQ(ahead.size(), 2u);
-  for (const int triangle : ahead) {
-    EXPECT_EQ(box.vertices[static_cast<std::size_t>(3 * triangle)].normal.z(), -1);
+  for (const std::size_t triangle : ahead) {
+    EXPECT_EQ(box.vertices[3 * triangle].normal.z(), -1);
   }
   chooser.choose(shot_from(Isometry3d(Eigen::Translation3d(3, 3, 0))), choice);
   EXPECT_EQ(triangles_of(choice.mipmapped).size(), 6u);
