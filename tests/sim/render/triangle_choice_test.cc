@@ -190,26 +190,5 @@ TEST(TriangleChoice, LeavesOutTheFarSidesOfSolidsAlone) {
   EXPECT_EQ(triangles_of(choice.mipmapped).size(), 12u);
 }
 
-TEST(Tessellation, PartsOfNeighbouringFacesMeet) {
-  std::mt19937 random(2);
-  std::vector<Vertex> vertices;
-  append_box({3.3, 2.7, 0.4}, {}, random_pose(random, 5), vertices);
-  // Each side of a triangle is one of another.
-  std::multiset<std::pair<std::vector<float>, std::vector<float>>> sides;
-  const auto point = [&](std::size_t i) {
-    const Eigen::Vector3f& p = vertices[i].position;
-    return std::vector<float>{p.x(), p.y(), p.z()};
-  };
-  for (std::size_t i = 0; i < vertices.size(); i += 3) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      auto a = point(i + k), b = point(i + (k + 1) % 3);
-      if (b < a) std::swap(a, b);
-      sides.insert({a, b});
-    }
-  }
-  for (const auto& side : sides) EXPECT_EQ(sides.count(side), 2u);
-  EXPECT_EQ(vertices.size(), 2u * 3u * 2u * (7 * 6 + 7 + 6));
-}
-
 }  // namespace
 }  // namespace dodgesim
