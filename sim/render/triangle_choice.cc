@@ -39,9 +39,9 @@ TriangleChooser::TriangleChooser(const TriangleBatch& batch, const LuminanceText
     plane.normal = a.cross(b).normalized();
     if (plane.normal.dot(v[0].normal + v[1].normal + v[2].normal) < 0) plane.normal *= -1;
     plane.offset = plane.normal.dot(v[0].position);
-    if (flat_texture_) {
-      const Eigen::Array2f size(texture->width, texture->height);
+    if (texture != nullptr && !texture->cube) {
       const auto texels = [&](const Vertex& to) -> Eigen::Vector2f {
+        const Eigen::Array2f size(texture->width, texture->height);
         return (to.texture - v[0].texture).head<2>().array() * size;
       };
       plane.texels_per_m = gradient(a, b, texels(v[1]), texels(v[2]));
