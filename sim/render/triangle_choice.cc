@@ -50,17 +50,17 @@ TriangleChooser::TriangleChooser(const TriangleBatch& batch, const LuminanceText
   }
 }
 
-// The most texels that a step of a pixel crosses, anywhere in the triangle. With e an axis of the
-// image, c the camera and h its height above the plane with the normal n, a point p of the depth z
-// moves by z / (f h) (h e + (n . e) (p - c)) per pixel; both factors are greatest at corners.
-float TriangleChooser::texels_per_px(std::size_t triangle, const Shot& shot) const {
+// The most texels that a step on the image at the distance 1 crosses, anywhere in the triangle.
+// With e an axis of the image, c the camera and h its height above the plane with the normal n, a
+// point p of the depth z moves by z / h (h e + (n . e) (p - c)); both factors are greatest at
+// corners.
+float TriangleChooser::texels_per_step(std::size_t triangle, const Eigen::Vector3f& camera_W,
+                                       const Eigen::Matrix3f& R_WC) const {
   const Plane& plane = planes_[triangle];
-  const Eigen::Matrix3f R_WC = shot.X_WC.linear().cast<float>();
-  const Eigen::Vector3f camera = shot.X_WC.translation().cast<float>();
-  const float height_m = plane.normal.dot(camera) - plane.offset;
+  const float height_m = plane.normal.dot(camera_W) - plane.offset;
   float depth_m = 0, most = 0;
   for (std::size_t k = 3 * triangle; k < 3 * triangle + 3; ++k) {
-    const Eigen::Vector3f to = batch_.vertices[k].position - camera;
+    const Eigen::Vector3f to = batch_.vertices[k].position - camera_W;
     depth_m = std::max(depth_m, to.dot(R_WC.col(2)));
     for (const int axis : {0, 1}) {
       const Eigen::Vector3f e = R_WC.col(axis);
@@ -68,17 +68,18 @@ float TriangleChooser::texels_per_px(std::size_t triangle, const Shot& shot) con
       most = std::max(most, (plane.texels_per_m * step).norm());
     }
   }
-  return depth_m * most / (static_cast<float>(shot.intrinsics.f) * std::abs(height_m));
+  return depth_m * most / std::abs(height_m);
 }
 
 void TriangleChooser::choose(const Shot& shot, TriangleChoice& choice) const {
   choice.finest.clear();
   choice.mipmapped.clear();
-  const Eigen::Vector3f camera = shot.X_WC.translation().cast<float>();
-  const auto sharper = static_cast<float>(std::exp2(shot.lod_bias));
+  const Eigen::Vector3f camera_W = shot.X_WC.translation().cast<float>();
+  const Eigen::Matrix3f R_WC = shot.X_WC.linear().cast<float>();
+  const auto px = static_cast<float>(std::exp2(shot.lod_bias) / shot.intrinsics.f);
   for (std::size_t i = 0; i < planes_.size(); ++i) {
-    if (batch_.solid && planes_[i].normal.dot(camera) <= planes_[i].offset) continue;
-    const bool finest = flat_texture_ && sharper * texels_per_px(i, shot) < finest_below_;
+    if (batch_.solid && planes_[i].normal.dot(camera_W) <= planes_[i].offset) continue;
+    const bool finest = flat_texture_ && px * texels_per_step(i, camera_W, R_WC) < finest_below_;
     std::vector<std::uint32_t>& chosen = finest ? choice.finest : choice.mipmapped;
     for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
       chosen.push_back(static_cast<std::uint32_t>(k));

@@ -1,6 +1,6 @@
-// Which triangles a view of the static scene needs, and how it has to read their texture: llvmpipe
-// takes twice as long to read one through its mip-maps as to read its finest level, which is all
-// that counts of what is near.
+// Which triangles a view of the static scene needs, and how it has to read their texture: through
+// mip-maps llvmpipe takes far longer (results/bench/tried.md) than at the finest level, which is
+// all that counts of what is near.
 #pragma once
 
 #include <Eigen/Dense>
@@ -35,7 +35,8 @@ class TriangleChooser {
     Gradient texels_per_m;   // along the plane
   };
 
-  float texels_per_px(std::size_t triangle, const Shot& shot) const;
+  float texels_per_step(std::size_t triangle, const Eigen::Vector3f& camera_W,
+                        const Eigen::Matrix3f& R_WC) const;
 
   const TriangleBatch& batch_;
   bool flat_texture_;

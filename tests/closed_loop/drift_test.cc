@@ -177,13 +177,23 @@ class RangeBesideBall : public FlightObserver {
   int over_ball_ = 0;
 };
 
+Scenario ball_below() {
+  return scenario(
+      "mission: {start_m: [-2, 0, 2]}\nthrow: {size_m: 0.2, distance_m: 2.5, speed_mps: 4, "
+      "aim_offset_m: [0, -0.9], launch_s: 0.5}\nafter_s: 0.5\n");
+}
+
+TEST(NoDrift, ABallThatFliesBelowDoesNotLandTheVehicle) {
+  const Scenario s = ball_below();
+  MonitorBeside beside(s);
+  fly_as("none", s, &beside);
+  EXPECT_GT(beside.largest_discrepancy_m(), 2 * s.dodger.height_monitor.threshold_m);
+  EXPECT_FALSE(beside.monitor().drifted());
+}
+
 TEST(RangeSensor, SeesTheBallThatFliesBelow) {
   RangeBesideBall beside;
-  const FlightRecord record =
-      fly_as("none",
-             scenario("mission: {start_m: [-2, 0, 2]}\nthrow: {size_m: 0.2, distance_m: 2.5, "
-                      "speed_mps: 4, aim_offset_m: [0, -0.9], launch_s: 0.5}\nafter_s: 0.2\n"),
-             &beside);
+  const FlightRecord record = fly_as("none", ball_below(), &beside);
   EXPECT_FALSE(record.verdict.nearest.hit);
   EXPECT_GE(beside.over_ball(), 6);  // 0.16 m at 4 m/s, 200 readings a second
 }

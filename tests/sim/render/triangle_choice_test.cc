@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 #include <set>
 
 #include "sim/render/tessellation.h"
+#include "tests/random_pose.h"
 #include "tests/sim/render/render_fixture.h"
 
 namespace dodgesim {
@@ -35,17 +35,6 @@ TriangleBatch plane(const Isometry3d& pose) {
   TriangleBatch batch{0, false, {}};
   append_rectangle({4, 3, 0}, textured(), pose, batch.vertices);
   return batch;
-}
-
-Isometry3d random_pose(std::mt19937& random, double reach_m) {
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> place(-reach_m, reach_m);
-  Isometry3d pose = Isometry3d::Identity();
-  pose.linear() = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
-                      .normalized()
-                      .toRotationMatrix();
-  for (double& coordinate : pose.translation()) coordinate = place(random);
-  return pose;
 }
 
 Shot shot_from(const Isometry3d& X_WC, double lod_bias = 0) {
@@ -95,20 +84,19 @@ INSTANTIATE_TEST_SUITE_P(Filters, TextureOfTriangles, ::testing::Bool(),
                          [](const auto& info) { return info.param ? "Trilinear" : "Bilinear"; });
 
 TEST_P(TextureOfTriangles, IsReadAtTheFinestLevelOnlyWhereNoOtherHasAPart) {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> share(0, 1);
+  RandomStream random(1, 0, "triangles");
   const LuminanceTexture squares = texture();
   int finest = 0, points = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const Isometry3d pose = random_pose(random, 4);
     const TriangleBatch batch = plane(pose);
-    const Shot shot = shot_from(random_pose(random, 4), -2 * share(random));
+    const Shot shot = shot_from(random_pose(random, 4), -2 * random.uniform());
     TriangleChoice choice;
     TriangleChooser(batch, &squares, GetParam()).choose(shot, choice);
     for (const std::size_t triangle : triangles_of(choice.finest)) {
       ++finest;
       const Vertex* const v = &batch.vertices[3 * triangle];
-      double a = share(random), b = share(random);
+      double a = random.uniform(), b = random.uniform();
       if (a + b > 1) a = 1 - a, b = 1 - b;
       const Vector3d p_W = (1 - a - b) * v[0].position.cast<double>() +
                            a * v[1].position.cast<double>() + b * v[2].position.cast<double>();

@@ -9,20 +9,13 @@
 #include <vector>
 
 #include "sim/base/random.h"
+#include "tests/random_pose.h"
 
 namespace dodgesim {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-Isometry3d random_pose(RandomStream& random, double reach_m) {
-  const Eigen::Quaterniond q(random.normal(), random.normal(), random.normal(), random.normal());
-  Isometry3d X = Isometry3d::Identity();
-  X.linear() = q.normalized().toRotationMatrix();
-  for (int k = 0; k < 3; ++k) X.translation()[k] = random.uniform(-reach_m, reach_m);
-  return X;
-}
 
 // Closed forms for the distance from a point to a solid, in the frame of the solid.
 double to_box(const Vector3d& p, const Vector3d& half) {
