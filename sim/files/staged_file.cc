@@ -81,11 +81,9 @@ void StagedFile::sync() {
 
 void StagedFile::commit() {
   sync();
-  // Renamed while the lock is held: once it is dropped the partial file may be another writer's.
-  const int reason = ::rename(partial_.c_str(), path_.c_str()) == 0 ? 0 : errno;
-  if (reason != 0) ::unlink(partial_.c_str());
+  // While the lock is held: once it is dropped, the partial file may be another writer's.
+  if (::rename(partial_.c_str(), path_.c_str()) != 0) fail("could not be written", errno);
   ::close(std::exchange(fd_, -1));
-  if (reason != 0) fail("could not be written", reason);
 }
 
 void StagedFile::fail(const std::string& what, int error_number) const {
