@@ -1,9 +1,12 @@
 #include "sim/events/photoreceptor.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 #include "sim/base/vector_level.h"
 #include "sim/events/spec.h"
@@ -14,11 +17,10 @@ namespace {
 
 constexpr double kReferenceLux = 1000;
 
-// Longer intervals in units of tau are taken as this; the polynomial below stays finite.
-constexpr float kLongest = 1e4f;
-
-// Two low-passes are taken as equal when their cut-offs differ by less than this share.
-constexpr double kEqualShare = 0.01;
+// Two low-passes are taken as equal when their cut-offs differ by less than this share: the
+// difference of nearly equal numbers would be worse than the mean of both ends.
+template <class Number>
+constexpr Number kEqualShare = std::is_same_v<Number, float> ? Number(0.01) : Number(0.001);
 
 // How a low-pass answers over an interval of x tau: exp(-x), and its mean over the interval.
 template <class Number>
@@ -26,23 +28,32 @@ struct Decay {
   Number k, m;
 };
 
-// exp(x) by its series up to x^8: exp(-x) to within 5e-4 for any x >= 0.
+// Both to within 3e-7. x = n ln 2 + r with |r| <= ln(2)/2, and exp(-r) = 1 - r q by its series.
 [[gnu::always_inline]] inline Decay<float> decay(float x) {
-  x = x < kLongest ? x : kLongest;
-  float q = 1.0f / 40320;
-  q = q * x + 1.0f / 5040;
-  q = q * x + 1.0f / 720;
-  q = q * x + 1.0f / 120;
-  q = q * x + 1.0f / 24;
-  q = q * x + 1.0f / 6;
-  q = q * x + 0.5f;
-  q = q * x + 1.0f;
-  const float k = 1.0f / (1.0f + x * q);
-  return {k, q * k};
+  constexpr float kMost = 80;                     // after so long nothing is left
+  constexpr float kRound = 12582912.0f;           // 1.5 * 2^23: adding it rounds to an integer
+  constexpr float kLn2High = 0.693145751953125f;  // 16 bits: n * kLn2High is exact
+  constexpr float kLn2Low = 1.42860677e-06f;
+  constexpr std::uint32_t kOne = 0x3f800000u;
+  const float within = x < kMost ? x : kMost;
+  const float shifted = within * 1.44269504f + kRound;
+  const float n = shifted - kRound;
+  const float r = (within - n * kLn2High) - n * kLn2Low;
+  float q = 1.0f / 5040;
+  q = q * r - 1.0f / 720;
+  q = q * r + 1.0f / 120;
+  q = q * r - 1.0f / 24;
+  q = q * r + 1.0f / 6;
+  q = q * r - 0.5f;
+  q = q * r + 1.0f;
+  // The lowest bits of `shifted` are those of n.
+  const float halved = std::bit_cast<float>(kOne - (std::bit_cast<std::uint32_t>(shifted) << 23));
+  const float k = halved * (1.0f - r * q);
+  return {k, n == 0 ? q : (1.0f - k) / x};
 }
 
 // To within 1e-9, and the same on every machine, which libm's exp is not.
-Decay<double> decay(double x) {
+[[gnu::always_inline]] inline Decay<double> decay(double x) {
   constexpr double kSmall = 0.01;  // below, a series
   if (x < kSmall) {
     const double m = 1 - x * (1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120))));
@@ -52,26 +63,29 @@ Decay<double> decay(double x) {
   return {k, (1 - k) / x};
 }
 
-// What a unit of y's transient at the start leaves in z: the follower's answer to exp(-t/tau).
+// What z keeps of each at the end of an interval.
 template <class Number>
-[[gnu::always_inline]] inline Number passed_on(Number x1, Number k1, Number x2, Number k2) {
-  const Number difference = x2 - x1;
-  const Number apart = difference < 0 ? -difference : difference;
-  const bool equal = apart < static_cast<Number>(kEqualShare) * x2;
-  return equal ? x2 * k2 : (k1 - k2) * x2 / (equal ? Number{1} : difference);
-}
+struct Kept {
+  Number z;     // of its own distance from u at the start
+  Number y;     // of y's: the follower's answer to exp(-t/tau)
+  Number rise;  // of u's rise over the interval, which is missing
+};
 
-// What a unit of u's rise over the interval takes from z because y lags behind u:
-// (1 - k2 - passed_on)/x1, written so that small x1 and x2 cancel nothing.
+// With x1, x2 the interval in units of both time constants:
+//   y = x2 (k1 - k2)/(x2 - x1) and rise = m2 + x2 (m1 - m2)/(x2 - x1),
+// where k and m fall with x by themselves and by (m - k)/x. To within 2e-5 in single precision.
 template <class Number>
-[[gnu::always_inline]] inline Number lagged(Number x1, Number m1, Number x2, Number m2, Number k2) {
-  constexpr auto kSmall = static_cast<Number>(0.05);  // below, a series
+[[gnu::always_inline]] inline Kept<Number> kept(Number x1, Decay<Number> first, Number x2,
+                                                Decay<Number> second) {
   const Number difference = x2 - x1;
   const Number apart = difference < 0 ? -difference : difference;
-  const bool equal = apart < static_cast<Number>(kEqualShare) * x2;
-  const Number series = x2 * (Number{1} / 2 - x2 * (Number{1} / 3 - x2 * (Number{1} / 8)));
-  const Number same = x2 < kSmall ? series : m2 - k2;
-  return equal ? same : x2 * (m1 - m2) / (equal ? Number{1} : difference);
+  const bool equal = apart < kEqualShare<Number> * x2;
+  const Number sum = x1 + x2;
+  const Number part = x2 / (equal ? sum : difference);
+  const Number y = part * (equal ? sum * (first.k + second.k) / 2 : first.k - second.k);
+  const Number lag = part * (equal ? (first.m - first.k) + (second.m - second.k)  //
+                                   : first.m - second.m);
+  return {second.k, y, second.m + lag};
 }
 
 struct Constants {
@@ -109,10 +123,8 @@ template <int kOrder, bool kOwnTime>
       if constexpr (kOrder > 1) {
         const float z0 = row.z[i];
         const float x2 = c.follower_rad_s * dt_s;
-        const Decay<float> second = decay(x2);
-        const float g = passed_on(x1, first.k, x2, second.k);
-        row.z1[i] = u1 + second.k * (z0 - u0) + g * (y0 - u0) -
-                    (second.m + lagged(x1, first.m, x2, second.m, second.k)) * (u1 - u0);
+        const Kept<float> left = kept(x1, first, x2, decay(x2));
+        row.z1[i] = u1 + left.z * (z0 - u0) + left.y * (y0 - u0) - left.rise * (u1 - u0);
         least = z0 < least ? z0 : least;
         most = z0 > most ? z0 : most;
       }
@@ -157,10 +169,9 @@ Charge Photoreceptor::at(const Charge& before, double luminance, double u1, doub
     out.z = out.y;
     if (order_ > 1) {
       const double x2 = follower_rad_s_ * t_s;
-      const Decay<double> second = decay(x2);
-      const double g = passed_on(x1, first.k, x2, second.k);
-      out.z = out.u + second.k * (before.z - before.u) + g * (before.y - before.u) -
-              (second.m + lagged(x1, first.m, x2, second.m, second.k)) * change;
+      const Kept<double> left = kept(x1, first, x2, decay(x2));
+      out.z = out.u + left.z * (before.z - before.u) + left.y * (before.y - before.u) -
+              left.rise * change;
     }
   } else {
     out.z = out.y;
