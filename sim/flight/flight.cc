@@ -305,7 +305,7 @@ void Flight::note_detections() {
     row.depth_m = detection.depth_m;
     row.depth_sigma_m = detection.depth_sigma_m;
     LocatedDetection located{row};
-    if (const Snapshot* truth = history_.at(detection.t_us)) {
+    if (const std::optional<Snapshot> truth = history_.at(detection.t_us)) {
       located = with_truth(*truth, detection, row);
     }
     if (located.of_object && !has_detected_) {

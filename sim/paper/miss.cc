@@ -78,9 +78,9 @@ void MissObserver::on_tick(const World& world) {
   history_.add(world.snapshot());
 }
 
-const Snapshot* MissObserver::state_at(TimeUs t_us) const {
-  const Snapshot* state = history_.at(t_us);
-  return state != nullptr && state->launched.front() ? state : nullptr;
+std::optional<Snapshot> MissObserver::state_at(TimeUs t_us) const {
+  std::optional<Snapshot> state = history_.at(t_us);
+  return state && state->launched.front() ? state : std::nullopt;
 }
 
 Sight MissObserver::sight(const Snapshot& state, std::size_t camera) const {
@@ -92,8 +92,8 @@ Sight MissObserver::sight(const Snapshot& state, std::size_t camera) const {
 void MissObserver::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
   truth_.on_cycle(now_us, pilot);
   const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);
-  const Snapshot* state = state_at(now_us - scenario_.delays.transport_us);
-  if (dodger == nullptr || state == nullptr) return;
+  const std::optional<Snapshot> state = state_at(now_us - scenario_.delays.transport_us);
+  if (dodger == nullptr || !state) return;
   CycleSight cycle;
   const Sight both = sight_of(rig_, state->vehicle.pose(), state->objects.front().p_W, radius_m_);
   cycle.t_us = state->t_us;
@@ -133,8 +133,8 @@ std::optional<CycleSight::Location> MissObserver::locate(const Snapshot& state,
   std::optional<CycleSight::Location> best;
   double best_error_m = 0;
   for (const dodge::Detection& detection : located) {
-    const Snapshot* then = state_at(detection.t_us);
-    if (then == nullptr) continue;
+    const std::optional<Snapshot> then = state_at(detection.t_us);
+    if (!then) continue;
     const Sight seen = sight(*then, 0);
     if (!dodgesim::on_outline(seen, detection.centre_W)) continue;
     const double error_m = (detection.centre_W - then->objects.front().p_W).norm();

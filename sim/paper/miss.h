@@ -55,7 +55,7 @@ class MissObserver : public FlightObserver {
   const std::vector<CycleSight>& cycles() const { return cycles_; }
 
  private:
-  const Snapshot* state_at(TimeUs t_us) const;
+  std::optional<Snapshot> state_at(TimeUs t_us) const;
   Sight sight(const Snapshot& state, std::size_t camera) const;
   std::optional<CycleSight::Location> locate(const Snapshot& state, const dodge::Dodger& pilot);
 

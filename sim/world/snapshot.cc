@@ -1,5 +1,7 @@
 #include "sim/world/snapshot.h"
 
+#include <iterator>
+
 namespace dodgesim {
 
 namespace {
@@ -35,11 +37,12 @@ void SnapshotHistory::add(const Snapshot& now) {
   while (snapshots_.front().t_us < now.t_us - kKeptUs) snapshots_.pop_front();
 }
 
-const Snapshot* SnapshotHistory::at(TimeUs t_us) const {
-  if (snapshots_.empty() || t_us < snapshots_.front().t_us) return nullptr;
+std::optional<Snapshot> SnapshotHistory::at(TimeUs t_us) const {
+  if (snapshots_.empty() || t_us < snapshots_.front().t_us) return std::nullopt;
   const auto found = std::lower_bound(snapshots_.begin(), snapshots_.end(), t_us,
                                       [](const Snapshot& s, TimeUs t) { return s.t_us < t; });
-  return found == snapshots_.end() ? nullptr : &*found;
+  if (found == snapshots_.end()) return std::nullopt;
+  return found->t_us == t_us ? *found : interpolate(*std::prev(found), *found, t_us);
 }
 
 }  // namespace dodgesim

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "sim/base/time.h"
@@ -47,8 +48,8 @@ class SnapshotHistory {
   // At increasing instants.
   void add(const Snapshot& now);
 
-  // The first at or after t_us; null if t_us is before the first kept or after the last.
-  const Snapshot* at(TimeUs t_us) const;
+  // The state at t_us, which may lie between two; none before the first kept or after the last.
+  std::optional<Snapshot> at(TimeUs t_us) const;
 
  private:
   std::deque<Snapshot> snapshots_;
