@@ -1,17 +1,15 @@
-// A throw as people look at it: a video of the scene with both event streams beside it, and
-// pictures of the pilot's stages.
+// A throw as people look at it: a video of the scene with both event streams beside it.
 #pragma once
 
 #include <memory>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "dodge/dodger.h"
 #include "sim/files/mp4_file.h"
 #include "sim/files/staged_file.h"
 #include "sim/flight/flight.h"
+#include "sim/observers/onlooker.h"
 #include "sim/render/scene_pictures.h"
 
 namespace dodgesim {
@@ -59,36 +57,13 @@ class Film : public FlightObserver {
   StagedFile place_;
   TimeUs picture_every_us_;  // of flight
   std::unique_ptr<ScenePictures> scene_;
-  std::optional<PictureView> view_;  // set by the first picture
+  Onlooker onlooker_;
   std::vector<EventPicture> eyes_;
-  std::vector<PictureDot> trail_;
+  std::vector<PictureDot> trail_;  // the newest
   bool evading_ = false;
   int detections_ = 0;
   cv::Mat3b picture_;
   Mp4File video_;
 };
-
-// Writes one PNG a cycle of the paper's pilot while an object is in flight: for each camera the
-// panels B to F of the paper's Fig. 4 with the clusters' rectangles.
-class StageFilm : public FlightObserver {
- public:
-  // Makes the directory. Throws IoError if it cannot.
-  explicit StageFilm(std::string directory);
-
-  void on_start(dodge::Pilot& pilot) override;
-  void on_tick(const World& world) override;
-  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
-
-  int pictures() const { return pictures_; }
-
- private:
-  std::string directory_;
-  bool object_in_flight_ = false;
-  int pictures_ = 0;
-};
-
-// The stages of one camera side by side [BGR]: events, count, normalised mean time stamp,
-// threshold, obstacles.
-cv::Mat3b stage_panels(const dodge::Dodger& pilot, int camera);
 
 }  // namespace dodgesim

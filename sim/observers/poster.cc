@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -11,13 +10,13 @@
 #include "sim/base/error.h"
 #include "sim/files/output_file.h"
 #include "sim/files/png.h"
-#include "sim/observers/film.h"
+#include "sim/observers/stage_panels.h"
 
 namespace dodgesim {
 
 namespace {
 
-constexpr int kPosterSceneWidth = 1280, kPosterSceneHeight = 600;
+constexpr int kPosterSceneWidth = 1280, kPosterSceneHeight = 600, kPanels = 4;
 constexpr TimeUs kDotEveryUs = 10000;
 // As long as nothing is detected, the pilot is looked at again when an object is so much nearer.
 constexpr double kNearer = 0.9;
@@ -55,6 +54,7 @@ void Poster::on_tick(const World& world) {
     distance_m = std::min(distance_m, (now.objects[i].p_W - now.vehicle.p_W).norm());
   }
   if (std::isinf(distance_m)) return;
+  const PictureView& view = onlooker_.follow(now.vehicle);
   const bool dot = now.t_us % kDotEveryUs == 0;
   if (dot) trail_.push_back({now.vehicle.p_W, 0.015, kVehicleColour});
   for (std::size_t i = 0; i < now.objects.size(); ++i) {
@@ -62,21 +62,14 @@ void Poster::on_tick(const World& world) {
   }
   if (distance_m >= nearest_m_) return;
   nearest_m_ = distance_m;
-  if (dot) draw_scene(world);
+  if (dot) draw_scene(world, view);
 }
 
-void Poster::draw_scene(const World& world) {
+void Poster::draw_scene(const World& world, const PictureView& view) {
   if (!scenes_)
     scenes_ = std::make_unique<ScenePictures>(world, kPosterSceneWidth, kPosterSceneHeight);
-  const Snapshot& now = world.snapshot();
-  const Eigen::Vector3d forward_W = now.vehicle.q_W * Eigen::Vector3d::UnitX();
-  PictureView view;
-  view.look_at_W = trail_.front().p_W + 1.1 * Eigen::Vector3d(forward_W.x(), forward_W.y(), 0);
-  view.distance_m = 3.6;
-  view.azimuth_deg = std::atan2(forward_W.y(), forward_W.x()) * 180 / std::numbers::pi + 60;
-  view.elevation_deg = -15;
   scene_.create(kPosterSceneHeight, kPosterSceneWidth);
-  scenes_->draw(now, view, trail_, scene_.data);
+  scenes_->draw(world.snapshot(), view, trail_, scene_.data);
   cv::cvtColor(scene_, scene_, cv::COLOR_RGB2BGR);
 }
 
@@ -86,8 +79,11 @@ void Poster::on_cycle(TimeUs /*now_us*/, const dodge::Pilot& pilot) {
   looked_last_ = detected_;
   if (!detected_ && nearest_m_ > kNearer * looked_at_m_) return;
   looked_at_m_ = nearest_m_;
-  stages_ = stage_panels(*dodger, 0);
-  luminance_ = log_picture(*world_, intrinsics_);
+  constexpr int kWidth = kPosterSceneWidth / kPanels;
+  const std::vector<cv::Mat3b> stages = stage_panels(*dodger, 0, kWidth);
+  if (stages.empty()) return;
+  const cv::Mat3b seen = titled_panel(log_picture(*world_, intrinsics_), kWidth, "luminance");
+  cv::hconcat(std::vector<cv::Mat3b>{seen, stages[0], stages[2], stages[4]}, strip_);
 }
 
 void Poster::save(const std::string& path) const {
@@ -95,14 +91,7 @@ void Poster::save(const std::string& path) const {
     throw ScenarioError("There is no picture to make: nothing was thrown.");
   }
   cv::Mat picture = scene_;
-  if (!stages_.empty()) {
-    const int width = intrinsics_.width;
-    cv::Mat3b strip;
-    const auto panel = [&](int i) { return stages_(cv::Rect(i * width, 0, width, stages_.rows)); };
-    cv::hconcat(std::vector<cv::Mat>{luminance_, panel(0), panel(2), panel(4)}, strip);
-    cv::resize(strip, strip, {scene_.cols, strip.rows * scene_.cols / strip.cols});
-    cv::vconcat(scene_, strip, picture);
-  }
+  if (!strip_.empty()) cv::vconcat(scene_, strip_, picture);
   write_file(path, png_of(picture));
 }
 

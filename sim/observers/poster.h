@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/flight/flight.h"
+#include "sim/observers/onlooker.h"
 #include "sim/render/scene_pictures.h"
 
 namespace dodgesim {
@@ -27,10 +28,11 @@ class Poster : public FlightObserver {
   void save(const std::string& path) const;
 
  private:
-  void draw_scene(const World& world);
+  void draw_scene(const World& world, const PictureView& view);
 
   Intrinsics intrinsics_;
   std::unique_ptr<ScenePictures> scenes_;
+  Onlooker onlooker_{3.6};
   std::vector<PictureDot> trail_;
   const World* world_ = nullptr;  // of the running flight
   double nearest_m_ = 1e9;        // of the object so far
@@ -38,7 +40,7 @@ class Poster : public FlightObserver {
   bool detected_ = false;         // a true object
   bool looked_last_ = false;      // at the pilot, of what it has detected
   cv::Mat3b scene_;               // at the closest approach
-  cv::Mat3b luminance_, stages_;  // at the first detection; without one, near the closest approach
+  cv::Mat3b strip_;  // what was seen at the first detection; without one, near the closest approach
 };
 
 }  // namespace dodgesim

@@ -21,6 +21,7 @@
 #include "sim/observers/film.h"
 #include "sim/observers/mcap_recorder.h"
 #include "sim/observers/poster.h"
+#include "sim/observers/stage_panels.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
 #include "tools/commands/command.h"

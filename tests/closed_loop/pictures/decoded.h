@@ -12,7 +12,10 @@
 
 namespace dodgesim::testing {
 
-// Blue, green, red. A file of one picture has one; one that ffmpeg cannot read has none.
+// Colours: blue, green, red.
+inline const cv::Vec3b kGrey(110, 110, 110), kWhite(255, 255, 255), kBlack(0, 0, 0);
+
+// A file of one picture has one; one that ffmpeg cannot read has none.
 inline std::vector<cv::Mat3b> decoded(const std::string& file) {
   std::istringstream ppm(shell("ffmpeg -v error -i " + shell_quoted(file) +
                                " -vsync passthrough -f image2pipe -c:v ppm -")

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const cv::Vec3b kGrey(110, 110, 110), kWhite(255, 255, 255), kBlack(0, 0, 0);
+using testing::kBlack, testing::kGrey, testing::kWhite;
 
 // A folder of this test's own, removed afterwards.
 class FilmTest : public ::testing::Test {
@@ -119,96 +119,6 @@ TEST_F(FilmTest, TwoDoNotTakeOneName) {
   const Film film(path("e.mp4"), Intrinsics{}, 10);
   EXPECT_THROW(Film(path("e.mp4"), Intrinsics{}, 10), IoError);
   EXPECT_TRUE(fs::exists(path("e.mp4.partial")));
-}
-
-TEST_F(FilmTest, ADirectoryThatCannotBeMadeIsAnIoError) {
-  std::ofstream(path("file")) << "not a directory";
-  EXPECT_THROW(StageFilm(path("file/stages")), IoError);
-}
-
-// A pilot that has seen one bar move in front of each camera.
-std::unique_ptr<dodge::Dodger> dodger_with_events() {
-  dodge::Config config;
-  for (const double z : {0.075, -0.075}) {
-    dodge::CameraModel camera;
-    camera.X_BC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-    camera.X_BC.translation() = Eigen::Vector3d(0.12, 0, z);
-    config.cameras.push_back(camera);
-  }
-  auto pilot = std::make_unique<dodge::Dodger>(config);
-  pilot->set_capture(true);
-  for (int i = 0; i <= 20; ++i) {
-    pilot->add_imu({1000 * i, Eigen::Vector3d::Zero(), {0, 0, 9.81}});
-    dodge::StateEstimate state;
-    state.t_us = 1000 * i;
-    pilot->add_state(state);
-  }
-  std::vector<dodge::Event> events;
-  for (int column = 0; column < 10; ++column) {
-    for (int row = 100; row < 130; ++row) {
-      events.push_back({10500 + 900 * column, static_cast<std::uint16_t>(60 + column),
-                        static_cast<std::uint16_t>(row),
-                        static_cast<std::int8_t>(column < 5 ? 1 : -1)});
-    }
-  }
-  for (int camera = 0; camera < 2; ++camera) pilot->add_events(camera, events);
-  pilot->update(20000);
-  return pilot;
-}
-
-TEST(StagePanels, ShowFiveStagesSideBySide) {
-  const auto pilot = dodger_with_events();
-  for (int camera = 0; camera < 2; ++camera) {
-    const cv::Mat3b panels = stage_panels(*pilot, camera);
-    ASSERT_EQ(panels.size(), cv::Size(5 * 320, 240));
-    const dodge::StageImages& stages = pilot->stage_images(camera);
-    // Events: white brighter, black darker, grey nothing. Away from the caption.
-    EXPECT_EQ(panels(115, 62), kWhite);
-    EXPECT_EQ(panels(115, 68), kBlack);
-    EXPECT_EQ(panels(200, 200), kGrey);
-    // The other panels are black where there is no event, and marked where there is one.
-    int marked = 0;
-    for (int row = 90; row < 140; ++row) {
-      for (int column = 40; column < 90; ++column) {
-        const bool any = stages.count(row, column) > 0;
-        EXPECT_EQ(panels(row, 320 + column), any ? kWhite : kBlack);
-        EXPECT_EQ(panels(row, 960 + column) != kBlack, any || stages.threshold_mask(row, column));
-        if (!any) {
-          EXPECT_EQ(panels(row, 640 + column), kBlack);
-        }
-        marked += any;
-      }
-    }
-    EXPECT_GT(marked, 200);
-  }
-}
-
-TEST(StagePanels, AreEmptyWithoutCapture) {
-  dodge::Config config;
-  config.cameras.resize(2);
-  config.cameras[1].X_BC.translation() = Eigen::Vector3d(0, 0, -0.15);
-  for (dodge::CameraModel& camera : config.cameras) {
-    camera.X_BC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  }
-  EXPECT_TRUE(stage_panels(dodge::Dodger(config), 0).empty());
-}
-
-TEST_F(FilmTest, WritesOnePictureOfTheStagesACycleWhileAnObjectFlies) {
-  const Scenario s = scenario(
-      "mission: {start_m: [-2, 0, 2]}\n"
-      "throw: {distance_m: 3, speed_mps: 5, launch_s: 0.1}\nafter_s: 0.1\n");
-  FlightPlan plan = plan_throw(s, 0);
-  plan.end_us = 120000;  // 20 ms after the launch
-  StageFilm film(path("stages"));
-  fly(s, plan, &film);
-  EXPECT_EQ(film.pictures(), 5);  // cycles at 104 to 120 ms
-  int files = 0;
-  for (const auto& file : fs::directory_iterator(path("stages"))) {
-    ++files;
-    EXPECT_EQ(testing::decoded(file.path().string()).at(0).size(), cv::Size(5 * 320, 2 * 240));
-  }
-  EXPECT_EQ(files, 5);
-  EXPECT_TRUE(fs::exists(path("stages/stages_000104000_us.png")));
 }
 
 }  // namespace
