@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace dodgesim {
 
 // Length of the well-formed sequence at the start of `text`, which is not empty, or 0.
 std::size_t utf8_length(std::string_view text);
+
+// What is no UTF-8 of the text becomes U+FFFD.
+std::string valid_utf8(std::string_view text);
 
 }  // namespace dodgesim

@@ -5,10 +5,13 @@
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/utf8.h"
 
 namespace dodgesim {
 
 namespace {
+
+constexpr double kFastestMps = 1e6;  // numbers beyond could overflow
 
 template <class Call>
 auto guarded(Call call) -> decltype(call()) {
@@ -32,7 +35,7 @@ auto guarded(Call call) -> decltype(call()) {
 }  // namespace
 
 std::string sentence_of(const std::exception& error) {
-  std::string text = error.what();
+  std::string text = valid_utf8(error.what());
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
   while (!text.empty() && text.back() == ' ') text.pop_back();
@@ -63,6 +66,9 @@ void GuardedPilot::set_goal(const dodge::Goal& goal) {
 dodge::VelocityCommand GuardedPilot::update(dodge::TimeUs now_us) {
   dodge::VelocityCommand command = guarded([&] { return pilot_->update(now_us); });
   if (!command.v_W.allFinite()) refuse("commanded a velocity that is no number", now_us);
+  if (command.v_W.cwiseAbs().maxCoeff() > kFastestMps) {
+    refuse("commanded a velocity beyond a million m/s", now_us);
+  }
   if (command.t_us > now_us) refuse("gave a command an instant of the future", now_us);
   for (const dodge::Detection& detection : detections()) {
     if (!detection.centre_W.allFinite()) refuse("detected something that is nowhere", now_us);

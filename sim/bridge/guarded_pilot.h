@@ -9,11 +9,11 @@
 
 namespace dodgesim {
 
-// The exception's text as one line that ends in a full stop.
+// The exception's text as one line of UTF-8 that ends in a full stop.
 std::string sentence_of(const std::exception& error);
 
-// Passes everything on. What the pilot throws, and commands and detections that are no numbers or
-// come from the future, become a SimulationError, which costs the flight; std::bad_alloc leaves as
+// Passes everything on. What the pilot throws, and commands and detections that are no numbers, are
+// out of all proportion or come from the future, become a SimulationError, which costs the flight; std::bad_alloc leaves as
 // it is.
 class GuardedPilot : public dodge::Pilot {
  public:

@@ -24,7 +24,6 @@ constexpr std::chrono::seconds kSyncEvery(1);
 constexpr char kMagic[8] = {'d', 'o', 'd', 'g', 'e', 'j', '0', '6'};
 
 // No throw has results of this size; a larger number is damage.
-constexpr std::uint32_t kLargestRecord = 1u << 30;
 
 // In front of the identity and of every record.
 struct RecordHeader {
@@ -41,7 +40,7 @@ std::uint32_t mark_of(std::uint32_t size) {
 }
 
 std::string framed(const std::string& bytes) {
-  if (bytes.size() > kLargestRecord) throw SimulationError("A throw's results exceed a gigabyte.");
+  if (bytes.size() > kLargestRecord) throw IoError("A throw's results exceed a gigabyte.");
   RecordHeader header;
   header.size = static_cast<std::uint32_t>(bytes.size());
   header.mark = mark_of(header.size);

@@ -19,6 +19,8 @@
 
 namespace dodgesim {
 
+inline constexpr std::uint32_t kLargestRecord = 1u << 30;  // [bytes] of a throw
+
 // Where a throw's record lies.
 struct JournalRecord {
   std::uint64_t offset = 0;  // of its bytes

@@ -25,6 +25,7 @@
 #include "sim/base/error.h"
 #include "sim/base/memory_limit.h"
 #include "sim/base/wall_clock.h"
+#include "sim/campaign/journal.h"
 #include "sim/campaign/wire.h"
 
 namespace dodgesim {
@@ -82,21 +83,23 @@ ThrowResult failed_throw(const WorkerTasks& tasks, const Task& task, const std::
   return result;
 }
 
-std::string memory_reason(const WorkerLimits& limits) {
-  if (limits.memory_mb <= 0) return "There was not enough memory.";
-  return "The throw needed more memory than the " + std::to_string(limits.memory_mb) +
-         " MB of the limit.";
+std::string memory_reason() {
+  const std::optional<std::int64_t> limit_mb = memory_limit_mb();
+  return "There was not enough memory" +
+         (limit_mb ? ": the limit is " + std::to_string(*limit_mb) + " MB." : ".");
 }
 
 // One throw, as header and body of the answer.
 std::string fly_one(const WorkerTasks& tasks, const Task& task, MessageHeader& header) {
   try {
-    return to_bytes(tasks.fly(task));
+    std::string result = to_bytes(tasks.fly(task));
+    if (result.size() <= kLargestRecord) return result;
+    return to_bytes(failed_throw(tasks, task, "The throw's results exceed a gigabyte."));
   } catch (const ScenarioError& error) {
     header.kind = Kind::kScenarioError;
     return error.what();
   } catch (const std::bad_alloc&) {
-    return to_bytes(failed_throw(tasks, task, memory_reason(tasks.limits)));
+    return to_bytes(failed_throw(tasks, task, memory_reason()));
   } catch (const std::exception& error) {
     return to_bytes(failed_throw(tasks, task, error.what()));
   }

@@ -53,8 +53,11 @@ void check_preset(const Preset& preset, const YamlNode& file, const YamlNode& ro
     const bool of_group = key.starts_with(group + ".") && key != preset.key;
     if (of_group && !context.where.contains(key)) return;
   }
-  context.problems.add(context.where.at(preset.key),
-                       std::string(preset.key) + " is " + now + " instead of " + before +
+  const auto place = context.where.find(now.empty() ? group : std::string(preset.key));
+  const std::string change =
+      now.empty() ? " is left out instead of " : " is " + now + " instead of ";
+  context.problems.add(place == context.where.end() ? Position{} : place->second,
+                       std::string(preset.key) + change + before +
                            " by its name only: the file sets all keys of " + group +
                            " itself. Put --set " + group + "=~ in front to take them away.");
 }

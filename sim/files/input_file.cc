@@ -1,7 +1,8 @@
 #include "sim/files/input_file.h"
 
 #include <fstream>
-#include <iterator>
+#include <sstream>
+#include <utility>
 
 #include "sim/base/error.h"
 
@@ -17,10 +18,13 @@ std::string read_file(const std::filesystem::path& path) {
     throw IoError(path.string() + " is not a regular file.");
   }
   std::ifstream file(path, std::ios::binary);
-  std::string text;
-  if (file) text.assign(std::istreambuf_iterator<char>(file), {});
-  if (!file || file.bad()) throw IoError(path.string() + " could not be read.");
-  return text;
+  std::ostringstream text;
+  // An empty file has nothing to put in, which is a failure of the text's.
+  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
+  if (!file.is_open() || file.bad() || text.fail()) {
+    throw IoError(path.string() + " could not be read.");
+  }
+  return std::move(text).str();
 }
 
 }  // namespace dodgesim

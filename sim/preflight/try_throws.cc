@@ -1,5 +1,6 @@
 #include "sim/preflight/try_throws.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <numbers>
 #include <numeric>
@@ -36,13 +37,20 @@ std::string place_of(const std::string& mistake, const Scenario& campaign) {
   return list.empty() ? place_of_key("throw", campaign) : list;
 }
 
-// Simulated time up to the arrivals, which each object needs anew.
-double solved_s(const FlightPlan& plan) {
+// Solves the throw and launches its objects, some of which may start inside something. Returns the
+// simulated time: up to each object's arrival, and up to the last launch.
+double try_throw(const ThrowCase& thrown) {
+  FlightPlan plan = plan_throw(thrown.scenario, thrown.stream);
   double sum_s = 0;
+  TimeUs last_launch_us = 0;
   for (const FlightPlan::Launch& launch : plan.launches) {
     sum_s += seconds(launch.toss.arrival_us());
+    last_launch_us = std::max(last_launch_us, launch.toss.launch_us);
   }
-  return sum_s;
+  plan.pilot = kNoPilot;
+  plan.end_us = last_launch_us + kTickUs;
+  fly(thrown.scenario, plan);
+  return sum_s + seconds(plan.end_us);
 }
 
 }  // namespace
@@ -55,7 +63,7 @@ int try_throws(const Scenario& campaign) {
   for (double sum_s = 0; solved < throws && sum_s < kMostSolvedS; ++solved) {
     const ThrowCase thrown = case_of(campaign, static_cast<int>(solved * stride % throws));
     try {
-      sum_s += solved_s(plan_throw(thrown.scenario, thrown.stream));
+      sum_s += try_throw(thrown);
     } catch (const std::runtime_error& error) {
       throw ScenarioError(
           placed("In " + name_of(thrown) + ": " + error.what(), place_of(error.what(), campaign)));

@@ -5,10 +5,10 @@
 
 namespace dodgesim {
 
-// Solves throws of the campaign without flying them, as many as arrive within
+// Solves throws of the campaign and launches them at a vehicle without a pilot, as many as take
 // kMostSolvedS of simulated time in sum, and one at least; every cell before any has a second.
-// Throws ScenarioError for one that is impossible: it starts behind a wall, or the air stops it.
-// Returns how many were solved. After try_models() (try_models.h).
+// Throws ScenarioError for one that is impossible: it starts behind a wall or inside something, or
+// the air stops it. Returns how many were tried. After try_models() (try_models.h).
 inline constexpr double kMostSolvedS = 120;  // 2 s of computing
 int try_throws(const Scenario& campaign);
 

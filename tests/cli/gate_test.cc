@@ -156,6 +156,23 @@ TEST_F(GateCommandTest, FliesNothingForAVerdictThatCannotBeWritten) {
   EXPECT_FALSE(fs::exists(path("out")));
 }
 
+TEST_F(GateCommandTest, ReplacesNothingButAnEarlierVerdict) {
+  ASSERT_EQ(gate("--update").exit_code, 0);
+  fs::remove_all(path("out"));
+  for (const std::string name : {"s.yaml", "b/throws.csv", "b"}) {
+    const bool file = fs::is_regular_file(path(name));
+    const std::string before = file ? contents(path(name)) : "";
+    const Outcome outcome = gate("--junit " + path(name));
+    EXPECT_EQ(outcome.exit_code, 4);
+    EXPECT_THAT(outcome.output, HasSubstr("--junit " + path(name) + " is no report"));
+    EXPECT_EQ(file ? contents(path(name)) : "", before);
+  }
+  EXPECT_FALSE(fs::exists(path("out")));
+  EXPECT_EQ(gate("--junit " + path("verdict.xml")).exit_code, 0);
+  fs::remove_all(path("out"));
+  EXPECT_EQ(gate("--junit " + path("verdict.xml")).exit_code, 0);
+}
+
 TEST_F(GateCommandTest, DoesNotWaitForPipes) {
   ASSERT_EQ(::mkfifo(path("b").c_str(), 0600), 0);
   EXPECT_THAT(gate("--update").output, HasSubstr(path("b") + " is not a directory."));

@@ -100,6 +100,19 @@ TEST_F(ScenarioCommandTest, ThrowsThatAreImpossibleAreFoundBeforeTheyAreFlown) {
                                  HasSubstr("the air drag of the object is too strong")));
 }
 
+TEST_F(ScenarioCommandTest, ThrowsThatStartInsideSomethingAreFound) {
+  const std::string keys = "{distance_m: 2, size_m: 0.3, launch_s: 0.1, launch_height_m: ";
+  write("floor.yaml", "pilot: none\nthrow: " + keys + "0.1}\n");
+  const Outcome floor = dodgesim("validate " + path("floor.yaml"));
+  EXPECT_EQ(floor.exit_code, 2);
+  EXPECT_THAT(floor.output, AllOf(::testing::StartsWith(path("floor.yaml") + ":2:"),
+                                  HasSubstr("m inside the room's \"floor\"")));
+  write("two.yaml", "pilot: none\nthrows:\n  - " + keys + "1.5}\n  - " + keys + "1.5}\n");
+  EXPECT_THAT(dodgesim("validate " + path("two.yaml")).output, HasSubstr("m inside object 0"));
+  write("apart.yaml", "pilot: none\nthrows:\n  - " + keys + "1.5, count: 2, interval_s: 0.2}\n");
+  EXPECT_EQ(dodgesim("validate " + path("apart.yaml")).exit_code, 0);
+}
+
 TEST_F(ScenarioCommandTest, ImpossibleThrowsAreFoundInEveryCell) {
   write("cells.yaml",
         "pilot: none\nrepeats: 200\n"

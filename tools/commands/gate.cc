@@ -19,6 +19,7 @@
 #include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
+#include "sim/files/input_file.h"
 #include "sim/files/output_file.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
@@ -205,6 +206,13 @@ std::optional<Baseline> find_baseline(const GateArguments& arguments) {
   }
 }
 
+// Whatever is there will be replaced.
+void expect_report_or_nothing(const fs::path& junit) {
+  if (!fs::exists(junit)) return;
+  if (fs::is_regular_file(junit) && read_file(junit).starts_with("<?xml")) return;
+  throw IoError("--junit " + junit.string() + " is no report that may be replaced.");
+}
+
 fs::path junit_path(const GateArguments& arguments) {
   return arguments.junit.empty() ? arguments.options.out / "junit.xml" : arguments.junit;
 }
@@ -216,6 +224,7 @@ int gate(const GateArguments& arguments) {
   expect_gateable(scenario, arguments);
   if (!arguments.junit.empty()) {
     expect_writable("--junit", arguments.junit, fs::absolute(arguments.junit).parent_path());
+    expect_report_or_nothing(arguments.junit);
   }
   // A gate that ends without a verdict must not leave an earlier one behind.
   std::error_code not_there;

@@ -33,6 +33,24 @@ TEST(MemoryLimit, AnAllocationBeyondItThrows) {
   EXPECT_EQ(allocate_gb(3), "too much");
 }
 
+TEST(MemoryLimit, AStricterOneStays) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "Nothing is limited.";
+#endif
+  const auto after = [](std::int64_t first_mb, std::int64_t then_mb) {
+    return ask_child(
+               [=] {
+                 limit_memory(first_mb);
+                 limit_memory(then_mb);
+                 return std::to_string(memory_limit_mb().value());
+               },
+               20000)
+        .said;
+  };
+  EXPECT_EQ(after(2048, 4096), "2048");
+  EXPECT_EQ(after(4096, 2048), "2048");
+}
+
 TEST(MemoryLimit, TheMachineHasSomeMemory) { EXPECT_GT(physical_memory_mb(), 256); }
 
 }  // namespace

@@ -111,6 +111,8 @@ TEST(GuardedPilot, WhatItThrowsIsOneSentence) {
   const auto pilot = told_to("throw");
   EXPECT_THAT([&] { pilot->update(0); },
               ThrowsMessage<SimulationError>("The pilot failed: I have lost my way, and my map."));
+  EXPECT_THAT([&] { told_to("throw Latin 1")->update(0); },
+              ThrowsMessage<SimulationError>("The pilot failed: Verst\xef\xbf\xbdrker aus."));
   EXPECT_THAT([&] { told_to("throw a number")->update(0); },
               ThrowsMessage<SimulationError>("The pilot threw what is no std::exception."));
 }
@@ -119,6 +121,8 @@ TEST(GuardedPilot, CommandsOnlyWhatCanBe) {
   EXPECT_THAT([&] { told_to("command nothing")->update(310000); },
               ThrowsMessage<SimulationError>(
                   "The pilot commanded a velocity that is no number at 0.31 s."));
+  EXPECT_THAT([&] { told_to("race")->update(0); },
+              ThrowsMessage<SimulationError>(HasSubstr("beyond a million m/s")));
   EXPECT_THAT([&] { told_to("foresee")->update(0); },
               ThrowsMessage<SimulationError>(HasSubstr("an instant of the future")));
 }

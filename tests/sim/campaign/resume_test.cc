@@ -215,7 +215,7 @@ TEST_F(ResumeTest, AThrowThatNeedsTooMuchMemoryFails) {
     return fly(index);
   });
   EXPECT_EQ(summary.errors, 1);
-  EXPECT_THAT(summary.results[5].flown.error, HasSubstr("more memory than the 2048 MB"));
+  EXPECT_THAT(summary.results[5].flown.error, HasSubstr("not enough memory: the limit is 2048 MB"));
 }
 
 TEST_F(ResumeTest, ADamagedResultIsFlownAgain) {

@@ -180,6 +180,13 @@ TEST_F(ScenarioTree, APilotInNameOnlyIsRefused) {
             "--set sensors.events.preset=noisy: sensors.events.preset is noisy instead of sees1 by "
             "its name only: the file sets all keys of sensors.events itself. Put --set "
             "sensors.events=~ in front to take them away.");
+  write("noisy.yaml", to_yaml(load("mine.yaml", {set("pilot", "dodgesim"),
+                                                 set("sensors.events.preset", "noisy")})));
+  EXPECT_THAT(
+      error_of("noisy.yaml", {set("sensors.events.preset", "~")}),
+      ::testing::HasSubstr("sensors.events.preset is left out instead of noisy by its name"));
+  EXPECT_THAT(error_of("noisy.yaml", {set("pilot", "~")}),
+              ::testing::HasSubstr("pilot is left out instead of dodgesim by its name only"));
   EXPECT_EQ(load("resolved.yaml", {set("dodger", "~"), set("pilot", "dodgesim")})
                 .dodger.position.max_range_m,
             5);

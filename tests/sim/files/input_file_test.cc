@@ -33,5 +33,10 @@ TEST(InputFile, IsAFile) {
   EXPECT_EQ(complaint_about(none), none.string() + " is missing.");
 }
 
+TEST(InputFile, ThatCannotBeReadIsNamed) {
+  EXPECT_EQ(complaint<IoError>([] { read_file("/proc/self/mem"); }),
+            "/proc/self/mem could not be read.");
+}
+
 }  // namespace
 }  // namespace dodgesim

@@ -20,11 +20,13 @@ class Leftward : public dodge::Pilot {
   void set_goal(const dodge::Goal&) override {}
   dodge::VelocityCommand update(dodge::TimeUs now_us) override {
     if (order_ == "throw") throw std::runtime_error("I have lost my way,\nand my map");
+    if (order_ == "throw Latin 1") throw std::runtime_error("Verst\xe4rker aus");
     if (order_ == "throw a number") throw 7;
     if (order_ == "die") std::abort();
     if (order_ == "print") std::printf("Here I am.\n"), std::fflush(stdout);
     dodge::VelocityCommand command{now_us, Eigen::Vector3d(0, 2, 0), true, false};
     if (order_ == "command nothing") command.v_W.x() = std::numeric_limits<double>::quiet_NaN();
+    if (order_ == "race") command.v_W.z() = -1e200;
     if (order_ == "foresee") ++command.t_us;
     return command;
   }
