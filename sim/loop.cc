@@ -6,10 +6,10 @@
 #include <string>
 
 #include "sim/base/error.h"
-#include "sim/campaign/campaign.h"
 #include "sim/config/pilot.h"
 #include "sim/config/resolve_throw.h"
 #include "sim/flight/explain_throw.h"
+#include "sim/outcome/blank_result.h"
 #include "sim/world/ray.h"
 
 namespace dodgesim {
@@ -187,7 +187,11 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
     };
     result.none = also(kNoPilot, &none);
     if (scenario.fly_oracle) result.oracle = also(kOraclePilot, nullptr);
-    for (ObjectRow& row : result.object_rows) row.none_hit = approach(none, row.object).hit;
+    for (ObjectRow& row : result.object_rows) {
+      row.none_hit = approach(none, row.object).hit;
+      row.after_room = approach(none, row.object).after_room;
+      result.after_room |= row.after_room;
+    }
   }
   for (ObjectRow& row : result.object_rows) copy_object(record, row);
   for (DetectionRow& row : record.rows) row.throw_index = index;

@@ -32,8 +32,7 @@ struct TimeImageConfig {
       "turning at 2 to 3 rad/s; 0.05 leaves a few edges.");
     v("threshold_b", threshold_b, 0.0, 1.0,
       "Threshold b of a still camera. A lone noise event reaches 0.12 after averaging over 3 px. "
-      "In "
-      "flight 0.05 lets twelve false obstacles a second pass, 0.1 one in ten seconds, and 0.15 "
+      "In flight 0.05 lets twelve false obstacles a second pass, 0.1 one in ten seconds, and 0.15 "
       "halves the detections.");
     v("blur_px", blur_px, 1, 15,
       "Size of the binomial averaging of rho before the cut, an odd number; 1 is off. Averaging "

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/result.h"
+#include "sim/outcome/result.h"
 
 namespace dodgesim {
 

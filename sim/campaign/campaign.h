@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/result.h"
 #include "sim/campaign/shard.h"
 #include "sim/campaign/workers.h"
 #include "sim/config/expand.h"
+#include "sim/outcome/result.h"
 
 namespace dodgesim {
 
@@ -57,9 +57,6 @@ struct CampaignSummary {
 
   bool complete() const { return missing == 0; }
 };
-
-// The result of a throw before any flight: its numbers as drawn.
-ThrowResult blank_result(const ThrowCase& thrown);
 
 // Flies one throw. ScenarioError means that no throw of this scenario can be flown; any other
 // exception costs this throw.

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "sim/campaign/result.h"
 #include "sim/campaign/throw_statistics.h"
 #include "sim/config/scenario.h"
+#include "sim/outcome/result.h"
 #include "sim/statistics/sequential.h"
 
 namespace dodgesim {

@@ -15,7 +15,7 @@
 
 #include "sim/base/wall_clock.h"
 #include "sim/campaign/identity.h"
-#include "sim/campaign/result.h"
+#include "sim/outcome/result.h"
 
 namespace dodgesim {
 

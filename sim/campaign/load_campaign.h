@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sim/campaign/early_stop.h"
-#include "sim/campaign/result.h"
 #include "sim/campaign/throw_statistics.h"
 #include "sim/config/expand.h"
+#include "sim/outcome/result.h"
 
 namespace dodgesim {
 

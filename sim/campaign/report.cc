@@ -8,12 +8,12 @@
 
 #include "sim/base/shell.h"
 #include "sim/campaign/axis.h"
-#include "sim/campaign/collision_cause.h"
 #include "sim/campaign/report_files.h"
 #include "sim/campaign/statistics_table.h"
 #include "sim/files/base64.h"
 #include "sim/files/json.h"
 #include "sim/files/markup.h"
+#include "sim/outcome/collision_cause.h"
 
 namespace dodgesim {
 

@@ -10,6 +10,7 @@
 #include "sim/campaign/tables.h"
 #include "sim/files/output_file.h"
 #include "sim/files/staged_file.h"
+#include "sim/outcome/blank_result.h"
 
 namespace dodgesim {
 
@@ -17,9 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kResultFiles[] = {kManifestFile,    kThrowsFile,  kObjectsFile,
-                                        "detections.csv", "timing.csv", "table.md",
-                                        "table.csv",      "truth.csv",  kReportFile};
+constexpr const char* kResultFiles[] = {kManifestFile,   kThrowsFile, kObjectsFile,
+                                        kDetectionsFile, kTimingFile, kTableFile,
+                                        kTableCsvFile,   kTruthFile,  kReportFile};
 
 // The files with rows of throws.
 class RowFiles {
@@ -27,14 +28,14 @@ class RowFiles {
   RowFiles(const fs::path& out, const Scenario& scenario, bool truth)
       : throws_(out / kThrowsFile),
         objects_(out / kObjectsFile),
-        detections_(out / "detections.csv"),
-        timing_(out / "timing.csv") {
+        detections_(out / kDetectionsFile),
+        timing_(out / kTimingFile) {
     throws_.write(csv_header(blank_result(case_of(scenario, 0))));
     objects_.write(csv_header<ObjectRow>());
     detections_.write(csv_header<DetectionRow>());
     timing_.write("throw,simulated_s,wall_s,real_time_factor\n");
     if (!truth) return;
-    truth_.emplace(out / "truth.csv");
+    truth_.emplace(out / kTruthFile);
     truth_->write(csv_header<EventTruthRow>());
   }
 
@@ -110,8 +111,8 @@ void write_result_files(const fs::path& out, const Scenario& scenario, const Jou
   const Tables tables = make_tables(campaign);
   summary.table = tables.markdown;
   rows.commit();
-  write_file(out / "table.md", tables.markdown);
-  write_file(out / "table.csv", tables.csv);
+  write_file(out / kTableFile, tables.markdown);
+  write_file(out / kTableCsvFile, tables.csv);
   write_file(out / kReportFile, report_html(campaign, out.string()));
   summary.results = std::move(campaign.results);
 }

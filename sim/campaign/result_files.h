@@ -25,5 +25,10 @@ inline constexpr const char* kScenarioFile = "scenario.resolved.yaml";
 inline constexpr const char* kManifestFile = "manifest.json";
 inline constexpr const char* kThrowsFile = "throws.csv";
 inline constexpr const char* kObjectsFile = "objects.csv";
+inline constexpr const char* kDetectionsFile = "detections.csv";
+inline constexpr const char* kTruthFile = "truth.csv";
+inline constexpr const char* kTimingFile = "timing.csv";
+inline constexpr const char* kTableFile = "table.md";
+inline constexpr const char* kTableCsvFile = "table.csv";
 
 }  // namespace dodgesim

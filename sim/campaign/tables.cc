@@ -4,12 +4,12 @@
 #include <iterator>
 
 #include "sim/campaign/axis.h"
-#include "sim/campaign/collision_cause.h"
 #include "sim/campaign/statistics_table.h"
 #include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
 #include "sim/config/pilot.h"
 #include "sim/files/markup.h"
+#include "sim/outcome/collision_cause.h"
 
 namespace dodgesim {
 
@@ -216,8 +216,10 @@ std::string landings_of(const Part& part) {
 // What a rate over the throws that would have hit does not show.
 std::string asides(const Part& part) {
   int would_miss = 0, miss_evaded = 0, walked_into = 0, crashed = 0, crashed_undisturbed = 0;
+  int after_room = 0;
   Rate quiet;
   for (const ThrowResult* result : part.results) {
+    after_room += result->after_room ? 1 : 0;
     if (!result->flown.ok()) continue;
     if (!result->thrown()) {
       quiet.add(result->evaded);
@@ -247,6 +249,12 @@ std::string asides(const Part& part) {
         "In " + count_text(crashed_undisturbed, "throw") +
         " of these the vehicle crashed with nobody dodging: it does not fly well enough to be " +
         "hit.\n\n";
+  }
+  if (after_room > 0) {
+    text +=
+        "In " + count_text(after_room, "throw") +
+        " an object had touched the room when it came nearest (pilot none): it flew as nobody " +
+        "threw it.\n\n";
   }
   return text + landings_of(part) + errors_of(part);
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/result.h"
+#include "sim/outcome/result.h"
 #include "sim/statistics/quantiles.h"
 
 namespace dodgesim {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "sim/campaign/identity.h"
-#include "sim/campaign/result.h"
+#include "sim/outcome/result.h"
 
 namespace dodgesim {
 

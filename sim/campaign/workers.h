@@ -7,7 +7,7 @@
 #include <functional>
 #include <optional>
 
-#include "sim/campaign/result.h"
+#include "sim/outcome/result.h"
 
 namespace dodgesim {
 

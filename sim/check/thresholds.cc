@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sim/check/film.h"
@@ -16,8 +17,19 @@ constexpr double kMostLog = 70;    // change of log luminance that a float can h
 constexpr double kThresholds = 6;  // mean thresholds that the ramp passes
 constexpr double kSlowRampS = 20;  // of the ramp
 constexpr TimeUs kSlowRampPictureEveryUs = 100000;
+constexpr double kDarkLuminance = 0.01;  // above linear_below, where the ramp is darkest
+constexpr double kSlowestHz = 0.25;      // the lag has settled well before the first event
 constexpr double kStandardErrors = 3;
 constexpr double kRelativeSlack = 2e-3;  // the bandwidth's lag changes a little along the ramp
+
+double lowest_cutoff_hz(const EventCameraSpec& spec) {
+  double lowest_hz = std::numeric_limits<double>::infinity();
+  if (spec.photoreceptor_hz > 0) {
+    const double lux = spec.illuminance_lux * (spec.linear_below + kDarkLuminance);
+    lowest_hz = spec.photoreceptor_dark_hz + spec.photoreceptor_hz * lux / 1000;
+  }
+  return spec.follower_hz > 0 ? std::min(lowest_hz, spec.follower_hz) : lowest_hz;
+}
 
 // The threshold of each pixel from the mean time between its first and its last event.
 std::vector<double> ramp_thresholds(const EventCameraSpec& spec, std::uint64_t seed, bool up) {
@@ -26,7 +38,7 @@ std::vector<double> ramp_thresholds(const EventCameraSpec& spec, std::uint64_t s
   const double change = std::min(kMostLog, kThresholds * threshold + 2 * spread);
   const double rate = change / kSlowRampS;
   const Response response(spec.log_epsilon, spec.linear_below);
-  const double dark = response.at(spec.linear_below + 0.01);
+  const double dark = response.at(spec.linear_below + kDarkLuminance);
   const Scene ramp = even_scene([&](TimeUs t_us) {
     const double risen = rate * seconds(t_us);
     return response.inverse(dark + (up ? risen : change - risen));
@@ -67,6 +79,10 @@ void judge_polarity(const std::string& name, const std::vector<double>& measured
                     double threshold, const EventCameraSpec& spec, Check& check) {
   if (spec.dead_pixel_fraction >= 1) {
     check.off("threshold." + name, "all pixels are dead");
+    return;
+  }
+  if (lowest_cutoff_hz(spec) < kSlowestHz) {
+    check.off("threshold." + name, "the bandwidth is too low for a ramp of 20 s");
     return;
   }
   const Moments expected = clipped_normal(threshold, spec.mismatch_sigma, spec.threshold_min);

@@ -42,10 +42,6 @@ Distribution Distribution::choice(std::vector<double> values) {
   return {Kind::kChoice, std::move(values), 0, 0};
 }
 
-double Distribution::smallest() const {
-  return kind == Kind::kNormal ? lo : *std::min_element(values.begin(), values.end());
-}
-
 double Distribution::largest() const {
   return kind == Kind::kNormal ? hi : *std::max_element(values.begin(), values.end());
 }

@@ -24,7 +24,6 @@ struct Distribution {
   std::vector<double> values = {0.0};  // constant {x}, uniform {lo, hi}, normal {mean, sd}, choice
   double lo = 0, hi = 0;               // of a normal: the values are cut here (no mass outside)
 
-  double smallest() const;  // of the support
   double largest() const;
   double quantile(double p) const;  // p in [0, 1)
   double draw(RandomStream& stream) const { return quantile(stream.uniform()); }

@@ -31,9 +31,6 @@ SamplingSpec sampling_of(const EventRigSetup& setup) {
   return sampling;
 }
 
-// The camera names that the noise streams carry.
-std::string camera_name(int camera) { return camera == 0 ? "top" : "bottom"; }
-
 }  // namespace
 
 // One camera.
@@ -43,7 +40,8 @@ struct EventRig::Eye {
         X_BC(world.vehicle().X_BC.at(static_cast<std::size_t>(camera))),
         sampler(sampling_of(setup), setup.intrinsics, X_BC, object_radii(world)),
         pixels(setup.events, setup.intrinsics.width, setup.intrinsics.height, setup.seed,
-               setup.throw_index, camera_name(camera), setup.keep_causes),
+               setup.throw_index, kCameraNames.at(static_cast<std::size_t>(camera)),
+               setup.keep_causes),
         packets(setup.packet_us),
         key(setup.intrinsics, setup.keys),
         luminance(static_cast<std::size_t>(setup.intrinsics.width) *

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sim/camera/camera.h"
-#include "sim/campaign/result.h"
-#include "sim/campaign/trajectory.h"
 #include "sim/control/velocity_controller.h"
+#include "sim/outcome/result.h"
+#include "sim/outcome/trajectory.h"
 #include "sim/world/world.h"
 
 namespace dodgesim {

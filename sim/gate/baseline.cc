@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCopied[] = {kThrowsFile, kObjectsFile, kScenarioFile, "table.md"};
+constexpr const char* kCopied[] = {kThrowsFile, kObjectsFile, kScenarioFile, kTableFile};
 
 Json read_manifest(const fs::path& directory) {
   const fs::path path = directory / kManifestFile;

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "dodge/dodger.h"
-#include "sim/campaign/result.h"
 #include "sim/flight/flight.h"
+#include "sim/outcome/result.h"
 
 namespace dodgesim {
 

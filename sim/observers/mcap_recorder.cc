@@ -23,16 +23,15 @@ constexpr TimeUs kPathEveryUs = 40000;
 constexpr std::size_t kPathPoints = 200;  // the last four seconds
 
 constexpr double kArrowMPerMps = 0.25;  // length of a velocity's arrow
-constexpr std::array<const char*, 2> kCameras = {"top", "bottom"};
 
 const Colour kRoom(0.6, 0.6, 0.6, 0.35), kObject(1.0, 0.45, 0.1, 1), kVehiclePath(0.2, 0.6, 1, 1);
 const Colour kCalm(0.3, 0.8, 0.4, 0.9), kEvading(0.95, 0.2, 0.2, 0.9);
 const Colour kDetection(0.9, 0.1, 0.8, 0.9), kUncertainty(0.9, 0.1, 0.8, 0.25);
 
-std::string camera_frame(std::size_t i) { return std::string("camera_") + kCameras.at(i); }
+std::string camera_frame(std::size_t i) { return std::string("camera_") + kCameraNames.at(i); }
 std::string object_frame(std::size_t i) { return "object_" + std::to_string(i); }
 std::string camera_topic(std::size_t i, const std::string& what) {
-  return std::string("/camera/") + kCameras.at(i) + "/" + what;
+  return std::string("/camera/") + kCameraNames.at(i) + "/" + what;
 }
 
 // Turns x towards `direction`.

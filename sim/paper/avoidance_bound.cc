@@ -7,8 +7,8 @@
 #include "sim/base/error.h"
 #include "sim/base/gravity.h"
 #include "sim/base/time.h"
-#include "sim/campaign/agility.h"
 #include "sim/flight/flight.h"
+#include "sim/outcome/agility.h"
 #include "sim/world/referee.h"
 
 namespace dodgesim {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "sim/campaign/text_table.h"
-#include "sim/campaign/trajectory.h"
 #include "sim/config/pilot.h"
+#include "sim/outcome/trajectory.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/losses.h"
 #include "sim/paper/pair.h"

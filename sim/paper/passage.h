@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "sim/camera/camera.h"
-#include "sim/campaign/result.h"
-#include "sim/campaign/trajectory.h"
 #include "sim/config/scenario.h"
+#include "sim/outcome/result.h"
+#include "sim/outcome/trajectory.h"
 
 namespace dodgesim {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "sim/campaign/result.h"
+#include "sim/outcome/result.h"
 #include "sim/paper/passage.h"
 
 namespace dodgesim {

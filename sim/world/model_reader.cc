@@ -85,8 +85,8 @@ void ModelReader::override_vehicle(mjModel& model, mjData& data,
     }
   }
   if (overrides.stereo_baseline_m > 0) {
-    Map3 top(model.cam_pos + 3 * find(mjOBJ_CAMERA, "top"));
-    Map3 bottom(model.cam_pos + 3 * find(mjOBJ_CAMERA, "bottom"));
+    Map3 top(model.cam_pos + 3 * find(mjOBJ_CAMERA, kCameraNames[0]));
+    Map3 bottom(model.cam_pos + 3 * find(mjOBJ_CAMERA, kCameraNames[1]));
     const Eigen::Vector3d middle = 0.5 * (top + bottom);
     const Eigen::Vector3d up = (top - bottom).normalized();
     top = middle + 0.5 * overrides.stereo_baseline_m * up;
@@ -95,7 +95,7 @@ void ModelReader::override_vehicle(mjModel& model, mjData& data,
   if (const auto turn = overrides.lower_camera_turn()) {
     // MuJoCo's camera has y up and looks along -z.
     const Eigen::Vector3d axis = Eigen::Vector3d(1, -1, -1).cwiseProduct(turn->axis());
-    mjtNum* quat = model.cam_quat + 4 * find(mjOBJ_CAMERA, "bottom");
+    mjtNum* quat = model.cam_quat + 4 * find(mjOBJ_CAMERA, kCameraNames[1]);
     const Eigen::Quaterniond q = quaternion(quat) * Eigen::AngleAxisd(turn->angle(), axis);
     quat[0] = q.w();
     quat[1] = q.x();
@@ -166,7 +166,7 @@ VehicleParameters ModelReader::vehicle(double mass_scale) const {
                         std::to_string(kLeastLift) +
                         " to fly (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
   }
-  for (const char* name : {"top", "bottom"}) {
+  for (const char* name : kCameraNames) {
     const int camera = find(mjOBJ_CAMERA, name);
     Eigen::Isometry3d X = pose(model_.cam_pos + 3 * camera, model_.cam_quat + 4 * camera);
     // MuJoCo's camera looks along -z with y up; C has z forward and y down.

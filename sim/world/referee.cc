@@ -9,6 +9,9 @@ namespace dodgesim {
 
 namespace {
 
+// Bodies without a joint to the world are the room's.
+bool of_room(const mjModel& model, int body) { return model.body_weldid[body] == 0; }
+
 // How the vehicle touches the room.
 enum class Touch { kNone, kFromAbove, kOtherwise };
 
@@ -24,7 +27,7 @@ Touch touch_of(const World& world) {
     const int body2 = model.geom_bodyid[contact.geom2];
     if (body1 != world.vehicle_body() && body2 != world.vehicle_body()) continue;
     const bool second = body2 == world.vehicle_body();
-    if (model.body_weldid[second ? body1 : body2] != 0) continue;  // not part of the room
+    if (!of_room(model, second ? body1 : body2)) continue;
     // The normal leads from the first geom to the second.
     const double up = second ? contact.frame[2] : -contact.frame[2];
     if (up < kUpward) return Touch::kOtherwise;
@@ -46,6 +49,7 @@ Referee::Body Referee::read_body(const World& world, int body) {
   const mjModel& model = world.model();
   const std::string label = mj_id2name(&model, mjOBJ_BODY, body);
   Body out;
+  out.id = body;
   const int first = model.body_geomadr[body];
   for (int g = first; g < first + model.body_geomnum[body]; ++g) {
     if (!world.can_collide(g)) continue;
@@ -60,14 +64,32 @@ Referee::Body Referee::read_body(const World& world, int body) {
 void Referee::reset() {
   verdict_ = Verdict{};
   verdict_.objects.resize(objects_.size());
+  touched_room_.assign(objects_.size(), false);
 }
 
 void Referee::observe(const World& world, bool landing) {
   const Snapshot& now = world.snapshot();
+  observe_contacts(world);
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     if (now.launched[i]) observe_object(i, now);
   }
   if (!verdict_.crashed && !verdict_.landed) observe_room(world, landing);
+}
+
+void Referee::observe_contacts(const World& world) {
+  const mjModel& model = world.model();
+  const mjData& data = world.data();
+  for (int k = 0; k < data.ncon; ++k) {
+    const mjContact& contact = data.contact[k];
+    if (contact.dist > 0) continue;
+    const int body1 = model.geom_bodyid[contact.geom1], body2 = model.geom_bodyid[contact.geom2];
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      const int id = objects_[i].id;
+      if ((body1 == id && of_room(model, body2)) || (body2 == id && of_room(model, body1))) {
+        touched_room_[i] = true;
+      }
+    }
+  }
 }
 
 void Referee::observe_object(std::size_t i, const Snapshot& now) {
@@ -81,6 +103,7 @@ void Referee::observe_object(std::size_t i, const Snapshot& now) {
   if (gap_m >= approach.clearance_m) return;
   approach.clearance_m = gap_m;
   approach.closest_us = now.t_us;
+  approach.after_room = touched_room_[i];
   if (gap_m <= 0) {
     approach.hit = true;
     approach.hit_us = now.t_us;

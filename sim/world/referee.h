@@ -20,6 +20,7 @@ struct Approach {
   // infinite before the launch.
   double clearance_m = std::numeric_limits<double>::infinity();
   std::optional<TimeUs> closest_us;  // when (the first contact if hit)
+  bool after_room = false;           // by then it had touched the room: it flew as nobody threw it
 };
 
 // A vehicle that means to land has landed, and not crashed, if it touches the room from above at no
@@ -64,14 +65,17 @@ class Referee {
   struct Body {
     std::vector<Convex> parts;
     double radius_m = 0;  // of the sphere about the body's origin that encloses the parts
+    int id = 0;           // in the model
   };
 
   static Body read_body(const World& world, int body);
+  void observe_contacts(const World& world);
   void observe_object(std::size_t i, const Snapshot& now);
   void observe_room(const World& world, bool landing);
 
   Body hull_;
   std::vector<Body> objects_;
+  std::vector<bool> touched_room_;  // by object, since the launch
   Verdict verdict_;
 };
 

@@ -7,6 +7,9 @@
 
 namespace dodgesim {
 
+// The two event cameras, by number, as the models name them.
+inline constexpr std::array<const char*, 2> kCameraNames = {"top", "bottom"};
+
 struct VehicleParameters {
   double mass_kg = 0;
   Eigen::Vector3d inertia_kgm2 = Eigen::Vector3d::Zero();  // diagonal, in B
@@ -18,7 +21,7 @@ struct VehicleParameters {
   // Rotor drag, mass-normalised: a_B = -drag_1ps * v_B + (0, 0, drag_kh_1pm (v_x^2 + v_y^2)).
   Eigen::Vector3d drag_1ps = Eigen::Vector3d::Zero();
   double drag_kh_1pm = 0;
-  std::vector<Eigen::Isometry3d> X_BC;                     // cameras: 0 top, 1 bottom
+  std::vector<Eigen::Isometry3d> X_BC;                     // cameras, as kCameraNames
   Eigen::Isometry3d X_BR = Eigen::Isometry3d::Identity();  // range sensor, looking along z
 };
 

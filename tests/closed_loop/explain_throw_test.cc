@@ -1,8 +1,8 @@
 // What whole flights say about why they ended as they did.
 #include <gtest/gtest.h>
 
-#include "sim/campaign/trajectory.h"
 #include "sim/flight/explain_throw.h"
+#include "sim/outcome/trajectory.h"
 #include "tests/closed_loop/flights.h"
 
 namespace dodgesim {

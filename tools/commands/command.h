@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/result.h"
 #include "sim/config/scenario.h"
+#include "sim/outcome/result.h"
 
 namespace dodgesim {
 

@@ -21,6 +21,7 @@
 #include "sim/config/scenario_changes.h"
 #include "sim/files/input_file.h"
 #include "sim/files/output_file.h"
+#include "sim/outcome/blank_result.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
 #include "tools/commands/campaign_options.h"

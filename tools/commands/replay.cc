@@ -42,7 +42,7 @@ struct ReplayArguments {
   std::string picture;  // empty: none
   std::string mcap;     // empty: none
   std::string events;   // empty: none
-  std::string camera = "top";
+  std::string camera = kCameraNames[0];
 };
 
 // Hands everything on to several observers.
@@ -142,7 +142,7 @@ std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
   const CameraSpec& camera = scenario.sensors.camera;
   return std::make_unique<EventRecorder>(
       arguments.events, Recording{camera.width, camera.height, 0, kLongestFlightUs, true},
-      arguments.camera == "top" ? 0 : 1);
+      arguments.camera == kCameraNames[0] ? 0 : 1);
 }
 
 // Everything that looks on, as the arguments ask for.
@@ -231,7 +231,7 @@ void expect_cameras(const Scenario& scenario, const ReplayArguments& arguments) 
 int replay(const ReplayArguments& arguments) {
   const std::string& directory = arguments.directory;
   const Scenario campaign = with_plugin(
-      load_scenario(directory + "/scenario.resolved.yaml", arguments.models_dir), arguments.plugin);
+      load_scenario(directory + "/" + kScenarioFile, arguments.models_dir), arguments.plugin);
   if (arguments.throw_index >= throw_count(campaign)) {
     throw ScenarioError(directory + " has no throw " + std::to_string(arguments.throw_index) + ".");
   }
@@ -305,7 +305,7 @@ void add_replay_command(CLI::App& program, int& exit_code) {
                    "object i; 253 leak; 254 shot noise; 255 a hot pixel")
       ->type_name("FILE.h5|.npy|.txt");
   command->add_option("--camera", arguments->camera, "Whose events: top or bottom")
-      ->check(CLI::IsMember({"top", "bottom"}))
+      ->check(CLI::IsMember(std::vector<std::string>(kCameraNames.begin(), kCameraNames.end())))
       ->capture_default_str();
   add_models_option(*command, arguments->models_dir);
   add_plugin_option(*command, arguments->plugin);

@@ -1,4 +1,4 @@
-// Reads what sim/campaign/trajectory.cc writes.
+// Reads what sim/outcome/trajectory.cc writes.
 'use strict';
 
 class ByteReader {

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "sim/campaign/campaign.h"
+#include "sim/outcome/blank_result.h"
 #include "tests/sim/campaign/fake_throws.h"
 
 namespace dodgesim {

@@ -12,6 +12,7 @@
 #include "sim/base/error.h"
 #include "sim/files/json.h"
 #include "sim/files/output_file.h"
+#include "sim/outcome/blank_result.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 
 namespace dodgesim {

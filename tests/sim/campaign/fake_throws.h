@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sim/campaign/result.h"
+#include "sim/outcome/result.h"
 
 namespace dodgesim {
 

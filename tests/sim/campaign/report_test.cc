@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/campaign/trajectory.h"
 #include "sim/files/json.h"
+#include "sim/outcome/trajectory.h"
 #include "tests/sim/campaign/fake_throws.h"
 
 namespace dodgesim {

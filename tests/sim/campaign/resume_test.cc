@@ -9,6 +9,7 @@
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 #include "sim/campaign/journal.h"
+#include "sim/outcome/blank_result.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 
 namespace dodgesim {

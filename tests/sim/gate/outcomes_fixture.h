@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "sim/campaign/csv.h"
-#include "sim/campaign/result.h"
 #include "sim/gate/outcomes.h"
+#include "sim/outcome/result.h"
 
 namespace dodgesim::testing {
 

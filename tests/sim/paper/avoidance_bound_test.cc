@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "sim/campaign/agility.h"
 #include "sim/flight/flight.h"
+#include "sim/outcome/agility.h"
 #include "sim/world/referee.h"
 #include "tests/sim/paper/synthetic_passage.h"
 

@@ -1,9 +1,9 @@
 // Flights past the cameras that nobody has flown, for the tests of what is counted of them.
 #pragma once
 
-#include "sim/campaign/result.h"
-#include "sim/campaign/trajectory.h"
 #include "sim/config/scenario.h"
+#include "sim/outcome/result.h"
+#include "sim/outcome/trajectory.h"
 #include "sim/paper/passage.h"
 #include "tests/models.h"
 

@@ -161,6 +161,23 @@ TEST(RefereeTest, JudgesEachObjectAndTheNearestOfAll) {
   EXPECT_EQ(verdict.nearest_object, 1);
 }
 
+// Against the floor in front of the vehicle, at which it hops.
+TEST(RefereeTest, KnowsWhatHadTouchedTheRoomWhenItCameNearest) {
+  for (const bool low : {true, false}) {
+    World world(test_spec({{"ball", 0.2}}));
+    Referee referee(world);
+    world.reset({0, 0, 0.6}, 0, Vector3d::Zero());
+    world.launch(0, thrown({2, 0.7, 0.6}, {-8, 0, low ? -3.5 : 1}));
+    fly(world, referee, 1200);  // past the vehicle
+    const Approach& ball = referee.verdict().objects[0];
+    EXPECT_FALSE(ball.hit);
+    EXPECT_GT(ball.clearance_m, 0.2);
+    EXPECT_LT(ball.clearance_m, 0.7);
+    EXPECT_EQ(ball.after_room, low);
+    EXPECT_EQ(referee.verdict().nearest.after_room, low);
+  }
+}
+
 TEST(RefereeTest, MirroredThrowsHaveTheSameClearance) {
   double clearance_m[2] = {0, 0};
   for (int side = 0; side < 2; ++side) {

@@ -1,4 +1,4 @@
-#include "sim/campaign/collision_cause.h"
+#include "sim/outcome/collision_cause.h"
 
 namespace dodgesim {
 

@@ -1,4 +1,4 @@
-#include "sim/campaign/trajectory.h"
+#include "sim/outcome/trajectory.h"
 
 #include <algorithm>
 #include <array>

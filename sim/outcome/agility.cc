@@ -1,4 +1,4 @@
-#include "sim/campaign/agility.h"
+#include "sim/outcome/agility.h"
 
 #include <algorithm>
 #include <cmath>

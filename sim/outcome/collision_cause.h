@@ -35,7 +35,7 @@
 #include <string>
 
 #include "sim/base/time.h"
-#include "sim/campaign/agility.h"
+#include "sim/outcome/agility.h"
 
 namespace dodgesim {
 
