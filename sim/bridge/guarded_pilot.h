@@ -13,8 +13,8 @@ namespace dodgesim {
 std::string sentence_of(const std::exception& error);
 
 // Passes everything on. What the pilot throws, and commands and detections that are no numbers, are
-// out of all proportion or come from the future, become a SimulationError, which costs the flight; std::bad_alloc leaves as
-// it is.
+// out of all proportion or come from the future, become a SimulationError, which costs the flight;
+// std::bad_alloc leaves as it is.
 class GuardedPilot : public dodge::Pilot {
  public:
   explicit GuardedPilot(std::unique_ptr<dodge::Pilot> pilot) : pilot_(std::move(pilot)) {}
