@@ -189,8 +189,8 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
     if (scenario.fly_oracle) result.oracle = also(kOraclePilot, nullptr);
     for (ObjectRow& row : result.object_rows) {
       row.none_hit = approach(none, row.object).hit;
-      row.after_room = approach(none, row.object).after_room;
-      result.after_room |= row.after_room;
+      row.none_after_room = approach(none, row.object).after_room;
+      result.none_after_room |= row.none_after_room;
     }
   }
   for (ObjectRow& row : result.object_rows) copy_object(record, row);

@@ -11,7 +11,8 @@ namespace dodgesim {
 
 namespace {
 
-constexpr double kFastestMps = 1e6;  // numbers beyond could overflow
+// Numbers beyond could overflow.
+constexpr double kFastestMps = 1e6, kFarthestM = 1e6;
 
 template <class Call>
 auto guarded(Call call) -> decltype(call()) {
@@ -71,7 +72,9 @@ dodge::VelocityCommand GuardedPilot::update(dodge::TimeUs now_us) {
   }
   if (command.t_us > now_us) refuse("gave a command an instant of the future", now_us);
   for (const dodge::Detection& detection : detections()) {
-    if (!detection.centre_W.allFinite()) refuse("detected something that is nowhere", now_us);
+    if (!(detection.centre_W.cwiseAbs().maxCoeff() <= kFarthestM)) {
+      refuse("detected something that is nowhere, or more than a million m away", now_us);
+    }
     if (detection.t_us > now_us) refuse("gave a detection an instant of the future", now_us);
   }
   return command;

@@ -21,9 +21,7 @@ namespace {
 constexpr std::chrono::seconds kSyncEvery(1);
 
 // Changes with every change of what is written.
-constexpr char kMagic[8] = {'d', 'o', 'd', 'g', 'e', 'j', '0', '6'};
-
-// No throw has results of this size; a larger number is damage.
+constexpr char kMagic[8] = {'d', 'o', 'd', 'g', 'e', 'j', '0', '7'};
 
 // In front of the identity and of every record.
 struct RecordHeader {
@@ -80,7 +78,8 @@ class RecordReader {
 
   void expect_magic() {
     char magic[sizeof kMagic] = {};
-    if (size_ >= sizeof magic) read(magic, sizeof magic);
+    if (size_ < sizeof magic) fail("is cut off at its beginning; --force flies everything again");
+    read(magic, sizeof magic);
     if (std::memcmp(magic, kMagic, sizeof magic) != 0) {
       fail("holds no results of this version of dodgesim");
     }
@@ -146,8 +145,8 @@ JournalIndex read_journal(const std::filesystem::path& path) {
   bool intact = false;
   if (!reader.next(bytes, intact) || !intact) {
     reader.fail(
-        "has lost its beginning: what it holds cannot be read. To fly everything again, add "
-        "--force to the run");
+        "is damaged or cut off at its beginning: what it holds cannot be read. To fly everything "
+        "again, add --force to the run");
   }
   index.identity = identity_from_bytes(bytes);
   index.end = reader.at();

@@ -19,7 +19,8 @@
 
 namespace dodgesim {
 
-inline constexpr std::uint32_t kLargestRecord = 1u << 30;  // [bytes] of a throw
+// No throw has results of more bytes; a larger number is damage.
+inline constexpr std::uint32_t kLargestRecord = 1u << 30;
 
 // Where a throw's record lies.
 struct JournalRecord {

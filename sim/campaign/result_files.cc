@@ -80,10 +80,14 @@ void remove_result_files(const fs::path& out) {
   }
 }
 
+bool holds_campaign(const fs::path& directory) {
+  std::error_code ignored;
+  return fs::exists(directory / kJournalFile, ignored);
+}
+
 bool belongs_to_campaign(const fs::path& file) {
   const fs::path whole = StagedFile::target(file);
-  std::error_code ignored;
-  if (!fs::exists(whole.parent_path() / kJournalFile, ignored)) return false;
+  if (!holds_campaign(whole.parent_path())) return false;
   const fs::path name = whole.filename();
   return name == kJournalFile || name == kScenarioFile ||
          std::find(std::begin(kResultFiles), std::end(kResultFiles), name) !=

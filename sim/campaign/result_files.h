@@ -17,6 +17,7 @@ void remove_result_files(const std::filesystem::path& out);
 void write_result_files(const std::filesystem::path& out, const Scenario& scenario,
                         const JournalIndex& index, bool truth, CampaignSummary& summary);
 
+bool holds_campaign(const std::filesystem::path& directory);
 // Whether a file of that name belongs to a campaign in the same directory.
 bool belongs_to_campaign(const std::filesystem::path& file);
 

@@ -219,7 +219,7 @@ std::string asides(const Part& part) {
   int after_room = 0;
   Rate quiet;
   for (const ThrowResult* result : part.results) {
-    after_room += result->after_room ? 1 : 0;
+    after_room += result->none_after_room ? 1 : 0;
     if (!result->flown.ok()) continue;
     if (!result->thrown()) {
       quiet.add(result->evaded);
@@ -293,6 +293,11 @@ Tables make_tables(const LoadedCampaign& campaign) {
         "pilot none: would have hit / throws.";
   }
   tables.markdown += "\n\n";
+  const int planned = throw_count(campaign.scenario);
+  if (static_cast<int>(results.size()) < planned && !campaign.ended_early()) {
+    tables.markdown += "Not all of the scenario's " + std::to_string(planned) +
+                       ": a shard, or a campaign that was stopped.\n\n";
+  }
   if (campaign.stop) tables.markdown += campaign.stop->text() + "\n\n";
   const TableAxes axes = {Axis("size_m", results), Axis("distance_m", results),
                           Axis("speed_mps", results), grid_axes(results)};

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/check/film.h"
+#include "sim/events/photoreceptor.h"
 #include "sim/events/response.h"
 
 namespace dodgesim {
@@ -18,9 +19,27 @@ constexpr double kThresholds = 6;  // mean thresholds that the ramp passes
 constexpr double kSlowRampS = 20;  // of the ramp
 constexpr TimeUs kSlowRampPictureEveryUs = 100000;
 constexpr double kDarkLuminance = 0.01;  // above linear_below, where the ramp is darkest
-constexpr double kSlowestHz = 0.25;      // the lag has settled well before the first event
+constexpr double kSlowestHz = 1;         // the lag has settled well before the first event
 constexpr double kStandardErrors = 3;
-constexpr double kRelativeSlack = 2e-3;  // the bandwidth's lag changes a little along the ramp
+constexpr double kRelativeSlack = 2e-3;
+
+double ramp_change(const EventCameraSpec& spec, double threshold) {
+  return std::min(kMostLog, kThresholds * threshold + 8 * spec.mismatch_sigma);
+}
+
+// By how much a threshold may seem another because the photoreceptor lags less and less behind the
+// brightening ramp, from the first event to the last.
+double lag_change(const EventCameraSpec& spec, double threshold) {
+  if (spec.photoreceptor_hz <= 0) return 0;
+  const double change = ramp_change(spec, threshold);
+  const Response response(spec.log_epsilon, spec.linear_below);
+  const Photoreceptor photoreceptor(spec);
+  const double dark = spec.linear_below + kDarkLuminance;
+  const double bright = response.inverse(response.at(dark) + change);
+  const double lag_s =
+      1 / photoreceptor.cutoff_rad_s(dark) - 1 / photoreceptor.cutoff_rad_s(bright);
+  return change / kSlowRampS * lag_s / (kThresholds - 2);
+}
 
 double lowest_cutoff_hz(const EventCameraSpec& spec) {
   double lowest_hz = std::numeric_limits<double>::infinity();
@@ -34,8 +53,7 @@ double lowest_cutoff_hz(const EventCameraSpec& spec) {
 // The threshold of each pixel from the mean time between its first and its last event.
 std::vector<double> ramp_thresholds(const EventCameraSpec& spec, std::uint64_t seed, bool up) {
   const double threshold = up ? spec.contrast_threshold_on : spec.contrast_threshold_off;
-  const double spread = 4 * spec.mismatch_sigma;
-  const double change = std::min(kMostLog, kThresholds * threshold + 2 * spread);
+  const double change = ramp_change(spec, threshold);
   const double rate = change / kSlowRampS;
   const Response response(spec.log_epsilon, spec.linear_below);
   const double dark = response.at(spec.linear_below + kDarkLuminance);
@@ -88,7 +106,7 @@ void judge_polarity(const std::string& name, const std::vector<double>& measured
   const Moments expected = clipped_normal(threshold, spec.mismatch_sigma, spec.threshold_min);
   const Moments found = moments(measured);
   const auto n = static_cast<double>(std::max<std::size_t>(1, measured.size()));
-  const double slack = kRelativeSlack * threshold;
+  const double slack = kRelativeSlack * threshold + lag_change(spec, threshold);
   check.within("threshold." + name + ".mean", found.mean, expected.mean,
                kStandardErrors * expected.sd / std::sqrt(n) + slack, "", 4);
   check.within("threshold." + name + ".sd", found.sd, expected.sd,
@@ -136,7 +154,8 @@ Check judge(const MeasuredThresholds& measured, const EventCameraSpec& expected)
               "Log luminance rises slowly and evenly, then falls. A pixel's threshold is the "
               "ramp's slope times the mean time between its events. Mean and standard deviation "
               "over the pixels against the set ones (of a normal cut at threshold_min), within "
-              "three standard errors and 0.2 %. Noise and jitter are off.",
+              "three standard errors and 0.2 %, and what a slow photoreceptor's lag changes by. "
+              "Noise and jitter are off.",
               {},
               {}};
   judge_polarity("on", measured.on, measured.pixels, expected.contrast_threshold_on, expected,

@@ -35,17 +35,19 @@ Eigen::Matrix3d looking_forward() {
 // that is not allowed.
 void check_text(const std::string& key, const std::string& text, std::string_view allowed,
                 const std::string& complaint, ReadContext& context) {
+  const bool from_file = key == "name" && !context.where.contains(key);
+  const std::string what = from_file ? "The file's name, for want of the key name," : key;
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   std::size_t length = 0;
   for (std::size_t i = 0; i < text.size(); i += length) {
     length = utf8_length(std::string_view(text).substr(i));
     if (length == 0) {
-      return context.problems.add(position_of(context, key), key + " is not UTF-8 text.");
+      return context.problems.add(position_of(context, key), what + " is not UTF-8 text.");
     }
     const bool control =
         byte(i) < 0x20 || byte(i) == 0x7f || (length == 2 && byte(i) == 0xc2 && byte(i + 1) < 0xa0);
     if (!control || allowed.find(text[i]) != std::string_view::npos) continue;
-    return context.problems.add(position_of(context, key), key + complaint);
+    return context.problems.add(position_of(context, key), what + complaint);
   }
 }
 
@@ -239,7 +241,8 @@ bool check_counts(const Scenario& scenario, ReadContext& context) {
   }
   if (combinations * scenario.repeats > kMostThrows) {
     context.problems.add(
-        at, "repeats, grid and sweep make more than " + std::to_string(kMostThrows) + " throws.");
+        at, "repeats, grid and sweep make " + std::to_string(combinations * scenario.repeats) +
+                " throws; at most " + std::to_string(kMostThrows) + " are allowed.");
     return false;
   }
   return true;

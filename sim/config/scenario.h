@@ -212,8 +212,9 @@ struct Scenario {
         "Keys to lists of values, such as {size_m: [0.1, 0.2]}; every combination is a cell of "
         "throws of its own. Keys of throw may stand without that word.");
     v.varied("sweep", sweep,
-             "Likewise; but every combination flies the same throws again, with the same noise, so "
-             "that its values can be compared throw by throw. They are never pooled.");
+             "Keys to lists of values, as in grid; but every combination flies the same throws "
+             "again, with the same noise, so that its values can be compared throw by throw. They "
+             "are never pooled.");
     v("stop", stop,
       "Sequential stopping, with an interval that stays valid; without this key all throws are "
       "flown. All throws must be of one kind: without sweep and grid (draw a key with !choice "

@@ -73,7 +73,7 @@ struct Kept {
 
 // With x1, x2 the interval in units of both time constants:
 //   y = x2 (k1 - k2)/(x2 - x1) and rise = m2 + x2 (m1 - m2)/(x2 - x1),
-// where k and m fall with x by themselves and by (m - k)/x. To within 2e-5 in single precision.
+// where k and m fall with x by themselves and by (m - k)/x. To within 3e-5 in single precision.
 template <class Number>
 [[gnu::always_inline]] inline Kept<Number> kept(Number x1, Decay<Number> first, Number x2,
                                                 Decay<Number> second) {

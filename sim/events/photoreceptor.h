@@ -3,7 +3,7 @@
 // follower alone is a low-pass of first order.
 //
 // The input u is the response at the samples and runs linearly between them. The outputs y (first
-// order) and z (second order) at the samples are then known (single precision; z to within 2e-5 of
+// order) and z (second order) at the samples are then known (single precision; z to within 3e-5 of
 // the changes in the interval). With x = dt/tau, k = exp(-x) and m = (1 - k)/x, over one interval:
 //   y1 = u1 + k (y0 - u0) - m (u1 - u0)
 // and, as y is a line plus (y0 - u0 + (u1 - u0)/x) exp(-t/tau), z1 follows likewise. tau is that of

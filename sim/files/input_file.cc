@@ -1,8 +1,7 @@
 #include "sim/files/input_file.h"
 
+#include <array>
 #include <fstream>
-#include <sstream>
-#include <utility>
 
 #include "sim/base/error.h"
 
@@ -18,13 +17,13 @@ std::string read_file(const std::filesystem::path& path) {
     throw IoError(path.string() + " is not a regular file.");
   }
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  // An empty file has nothing to put in, which is a failure of the text's.
-  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
-  if (!file.is_open() || file.bad() || text.fail()) {
-    throw IoError(path.string() + " could not be read.");
+  std::string text;
+  std::array<char, 1 << 16> block;
+  while (file.read(block.data(), block.size()) || file.gcount() > 0) {
+    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
   }
-  return std::move(text).str();
+  if (!file.is_open() || file.bad()) throw IoError(path.string() + " could not be read.");
+  return text;
 }
 
 }  // namespace dodgesim

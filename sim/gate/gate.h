@@ -33,5 +33,7 @@ GateVerdict judge(const Baseline& baseline, const CampaignTables& flown,
 // One test case a check, for continuous integration (the JUnit XML that Jenkins, GitLab and GitHub
 // read). `text` says everything else.
 std::string junit_xml(const GateVerdict& verdict, const std::string& name, const std::string& text);
+// Whether that made the text.
+bool is_junit(const std::string& text);
 
 }  // namespace dodgesim

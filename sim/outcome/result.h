@@ -79,8 +79,8 @@ struct ObjectRow : DrawnThrow {
   std::optional<double> clearance_m;
   std::optional<TimeUs> first_detection_us;
   std::optional<double> first_detection_distance_m;
-  bool none_hit = false;    // of the pilot none
-  bool after_room = false;  // likewise: it had touched the room when it came nearest
+  bool none_hit = false;         // of the pilot none
+  bool none_after_room = false;  // likewise: it had touched the room when it came nearest
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -95,7 +95,7 @@ struct ObjectRow : DrawnThrow {
     v("first_detection_us", first_detection_us);
     v("first_detection_distance_m", first_detection_distance_m);
     v("none_hit", none_hit);
-    v("after_room", after_room);
+    v("none_after_room", none_after_room);
   }
 };
 
@@ -216,7 +216,7 @@ struct ThrowResult : DrawnThrow {
   FlightResult none;    // would it have hit?
   FlightResult oracle;  // perfect perception, same avoidance and controller
   // An object had touched the room when it came nearest to the vehicle that none flew.
-  bool after_room = false;
+  bool none_after_room = false;
 
   // Of the flown pilot.
   // The object that was detected first (any, if none was) was in view of a camera, 1 px wide.
@@ -271,7 +271,7 @@ struct ThrowResult : DrawnThrow {
     v("flown", flown);
     v("none", none);
     v("oracle", oracle);
-    v("after_room", after_room);
+    v("none_after_room", none_after_room);
     v("first_in_view_us", first_in_view_us);
     v("first_detection_us", first_detection_us);
     v("first_detection_t_us", first_detection_t_us);

@@ -1,9 +1,9 @@
 #include "sim/preflight/try_throws.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <numbers>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -37,20 +37,32 @@ std::string place_of(const std::string& mistake, const Scenario& campaign) {
   return list.empty() ? place_of_key("throw", campaign) : list;
 }
 
+// The launches of one instant alone, up to their first tick: what was thrown before would hit a
+// vehicle without a pilot, and end its flight.
+FlightPlan launches_at(TimeUs launch_us, FlightPlan plan) {
+  plan.pilot = kNoPilot;
+  plan.end_us = launch_us + kTickUs;
+  for (FlightPlan::Launch& launch : plan.launches) {
+    if (launch.toss.launch_us != launch_us) launch.toss.launch_us = plan.end_us + kTickUs;
+  }
+  return plan;
+}
+
 // Solves the throw and launches its objects, some of which may start inside something. Returns the
-// simulated time: up to each object's arrival, and up to the last launch.
+// simulated time: up to each arrival and each launch.
 double try_throw(const ThrowCase& thrown) {
-  FlightPlan plan = plan_throw(thrown.scenario, thrown.stream);
+  const FlightPlan plan = plan_throw(thrown.scenario, thrown.stream);
   double sum_s = 0;
-  TimeUs last_launch_us = 0;
+  std::set<TimeUs> launches_us;
   for (const FlightPlan::Launch& launch : plan.launches) {
     sum_s += seconds(launch.toss.arrival_us());
-    last_launch_us = std::max(last_launch_us, launch.toss.launch_us);
+    launches_us.insert(launch.toss.launch_us);
   }
-  plan.pilot = kNoPilot;
-  plan.end_us = last_launch_us + kTickUs;
-  fly(thrown.scenario, plan);
-  return sum_s + seconds(plan.end_us);
+  for (const TimeUs launch_us : launches_us) {
+    fly(thrown.scenario, launches_at(launch_us, plan));
+    sum_s += seconds(launch_us);
+  }
+  return sum_s;
 }
 
 }  // namespace

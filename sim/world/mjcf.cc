@@ -266,6 +266,10 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& la
 std::vector<MjcfTag> read_model_file(const std::string& directory, const std::string& file) {
   const std::string path = directory + "/" + file;
   std::error_code error;
+  if (!std::filesystem::is_directory(directory, error)) {
+    throw ScenarioError("There is no folder of models " + directory +
+                        " (--models, DODGESIM_MODELS).");
+  }
   if (!std::filesystem::is_regular_file(path, error)) {
     throw ScenarioError("The model file " + path + " does not exist.");
   }

@@ -50,7 +50,7 @@ std::string complaint_about(const WorldSpec& spec, const std::vector<VehiclePlac
     for (int tick = 0; tick < kTicks; ++tick) world.step({});
   } catch (const std::bad_alloc&) {
     return "The models in " + files_of(spec) + " need more memory than " +
-           std::to_string(limits.memory_mb) + " MB.";
+           std::to_string(memory_limit_mb().value_or(limits.memory_mb)) + " MB.";
   } catch (const ScenarioError& error) {
     return error.what();
   } catch (const std::exception& error) {

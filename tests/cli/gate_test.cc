@@ -159,18 +159,21 @@ TEST_F(GateCommandTest, FliesNothingForAVerdictThatCannotBeWritten) {
 TEST_F(GateCommandTest, ReplacesNothingButAnEarlierVerdict) {
   ASSERT_EQ(gate("--update").exit_code, 0);
   fs::remove_all(path("out"));
-  for (const std::string name : {"s.yaml", "b/throws.csv", "b"}) {
+  write("other.xml", "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<mujoco/>\n");
+  write("empty.xml", "");
+  EXPECT_THAT(gate("--junit " + path("none/x.xml")).output, HasSubstr("there is no such folder"));
+  for (const std::string name : {"s.yaml", "b/throws.csv", "b", "other.xml"}) {
     const bool file = fs::is_regular_file(path(name));
     const std::string before = file ? contents(path(name)) : "";
     const Outcome outcome = gate("--junit " + path(name));
     EXPECT_EQ(outcome.exit_code, 4);
-    EXPECT_THAT(outcome.output, HasSubstr("--junit " + path(name) + " is no report"));
+    EXPECT_THAT(outcome.output, HasSubstr("--junit " + path(name) + " exists, and is no JUnit"));
     EXPECT_EQ(file ? contents(path(name)) : "", before);
   }
   EXPECT_FALSE(fs::exists(path("out")));
-  EXPECT_EQ(gate("--junit " + path("verdict.xml")).exit_code, 0);
+  EXPECT_EQ(gate("--junit " + path("empty.xml")).exit_code, 0);
   fs::remove_all(path("out"));
-  EXPECT_EQ(gate("--junit " + path("verdict.xml")).exit_code, 0);
+  EXPECT_EQ(gate("--junit " + path("empty.xml")).exit_code, 0) << "an earlier verdict";
 }
 
 TEST_F(GateCommandTest, DoesNotWaitForPipes) {

@@ -94,6 +94,12 @@ TEST_F(ReportCommandTest, NothingIsWrittenOverACampaign) {
   EXPECT_EQ(dodgesim("table " + path("out") + " --out " + path("link")).exit_code, 2);
   EXPECT_EQ(contents(root_ / "out/results.bin"), results);
   EXPECT_EQ(dodgesim("table " + path("out") + " --out " + path("out/mine.md")).exit_code, 0);
+  const Outcome slip = dodgesim("table " + path("out") + " --out " + path("s.yaml"));
+  EXPECT_EQ(slip.exit_code, 2);
+  EXPECT_THAT(slip.output, HasSubstr("s.yaml must end in .md, as --format is md."));
+  for (const std::string command : {"check-sensor --camera ideal", "paper table3"}) {
+    EXPECT_THAT(dodgesim(command + " --out " + path("out")).output, HasSubstr("holds a campaign"));
+  }
 }
 
 TEST_F(ReportCommandTest, CompareSaysWhatACampaignLacks) {

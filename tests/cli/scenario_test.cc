@@ -101,7 +101,7 @@ TEST_F(ScenarioCommandTest, ThrowsThatAreImpossibleAreFoundBeforeTheyAreFlown) {
 }
 
 TEST_F(ScenarioCommandTest, ThrowsThatStartInsideSomethingAreFound) {
-  const std::string keys = "{distance_m: 2, size_m: 0.3, launch_s: 0.1, launch_height_m: ";
+  const std::string keys = "{distance_m: 2, size_m: 0.3, launch_height_m: ";
   write("floor.yaml", "pilot: none\nthrow: " + keys + "0.1}\n");
   const Outcome floor = dodgesim("validate " + path("floor.yaml"));
   EXPECT_EQ(floor.exit_code, 2);
@@ -109,6 +109,12 @@ TEST_F(ScenarioCommandTest, ThrowsThatStartInsideSomethingAreFound) {
                                   HasSubstr("m inside the room's \"floor\"")));
   write("two.yaml", "pilot: none\nthrows:\n  - " + keys + "1.5}\n  - " + keys + "1.5}\n");
   EXPECT_THAT(dodgesim("validate " + path("two.yaml")).output, HasSubstr("m inside object 0"));
+  // Also what comes after an object that hits.
+  write("later.yaml",
+        "pilot: none\nthrows:\n  - {distance_m: 2, speed_mps: 8, launch_s: 0.1}\n  - " + keys +
+            "0.1, launch_s: 1}\n");
+  EXPECT_THAT(dodgesim("validate " + path("later.yaml")).output,
+              AllOf(HasSubstr("Object 1 would be launched at 1 s"), HasSubstr("\"floor\"")));
   write("apart.yaml", "pilot: none\nthrows:\n  - " + keys + "1.5, count: 2, interval_s: 0.2}\n");
   EXPECT_EQ(dodgesim("validate " + path("apart.yaml")).exit_code, 0);
 }

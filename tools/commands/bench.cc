@@ -62,7 +62,8 @@ void add_bench_command(CLI::App& program, const std::string& command_line, int& 
   command
       ->add_option("--json", arguments->json,
                    "Also write all runs, with machine, compiler and commit, to this file")
-      ->type_name("FILE");
+      ->check(file_ending(".json"))
+      ->type_name("FILE.json");
   command
       ->add_option(
           "--plots", arguments->options.plots_dir,

@@ -8,6 +8,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/progress.h"
+#include "sim/campaign/result_files.h"
 #include "sim/check/report.h"
 #include "sim/check/sampling_study.h"
 #include "sim/check/self_tests.h"
@@ -57,6 +58,9 @@ int study(const CheckSensorArguments& arguments) {
 
 int check_sensor(const CheckSensorArguments& arguments, const std::string& command_line) {
   const EventCameraSpec camera = named_event_camera(arguments.camera);
+  if (holds_campaign(arguments.out)) {
+    throw ScenarioError("--out " + arguments.out + " holds a campaign; choose another directory.");
+  }
   auto make_checks = sensor_checks(camera, arguments.seed);
   std::optional<OutputFile> report;
   if (!arguments.out.empty()) {

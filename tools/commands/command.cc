@@ -96,8 +96,8 @@ std::vector<Setting> parse_settings(const std::string& option,
     }
     if (text.find_first_not_of(" \t\r\n", equals + 1) == std::string::npos) {
       throw ScenarioError(shown +
-                          ": A value is needed behind =, such as throw.speed_mps=6; ~ takes "
-                          "away a key that the file has.");
+                          ": A value is needed behind =, such as throw.speed_mps=6; 'throw=~' "
+                          "takes away a key that the file has.");
     }
     settings.push_back({text.substr(0, equals), text.substr(equals + 1), shown});
   }

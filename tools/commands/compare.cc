@@ -9,7 +9,10 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/result_files.h"
+#include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
+#include "sim/config/scenario_changes.h"
+#include "sim/files/input_file.h"
 #include "sim/gate/comparison.h"
 #include "tools/commands/command.h"
 
@@ -39,6 +42,38 @@ bool has_stop(const std::filesystem::path& directory) {
   return false;
 }
 
+int failed_throws(const CsvTable& throws) {
+  int failed = 0;
+  for (std::size_t row = 0; row < throws.rows(); ++row) {
+    const auto is_failed = [](const std::string& status) {
+      return status == "error" || status == "lost";
+    };
+    failed += is_failed(throws.at(row, "flown_status")) || is_failed(throws.at(row, "none_status"));
+  }
+  return failed;
+}
+
+// What was changed from one campaign to the other, if both have their scenarios.
+void print_difference(const std::filesystem::path& first, const std::filesystem::path& second) {
+  constexpr std::size_t kMost = 10;
+  if (!std::filesystem::exists(first / kScenarioFile) ||
+      !std::filesystem::exists(second / kScenarioFile)) {
+    return;
+  }
+  const auto changes =
+      scenario_changes(read_file(first / kScenarioFile), read_file(second / kScenarioFile));
+  if (changes.empty()) return;
+  std::cout << "The scenarios differ:\n";
+  for (std::size_t i = 0; i < std::min(kMost, changes.size()); ++i) {
+    const ScenarioChange& change = changes[i];
+    std::cout << "  " << change.key << ": " << change.before << ", then " << change.after << "\n";
+  }
+  if (changes.size() > kMost) {
+    std::cout << "  and "
+              << count_text(static_cast<std::int64_t>(changes.size() - kMost), "more key") << "\n";
+  }
+}
+
 // Outcomes by the number of their sweep value: of different values they are never pooled.
 std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& directory) {
   const CampaignTables tables = read_tables(directory);
@@ -48,6 +83,11 @@ std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& d
     if (has_stop(directory)) {
       std::cerr << "Its own rate ended it (stop); p and intervals take its length for planned.\n";
     }
+  }
+  const int failed = failed_throws(tables.throws);
+  if (failed > 0) {
+    std::cerr << "In " << directory.string() << " " << count_text(failed, "throw")
+              << " could not be flown and count as not dodged.\n";
   }
   std::map<int, std::vector<ThrowOutcome>> parts;
   for (ThrowOutcome& outcome : outcomes(tables)) {
@@ -99,14 +139,15 @@ int compare_campaigns(const CompareArguments& arguments) {
   }
   if (!std::equal(first.begin(), first.end(), second.begin(), second.end(),
                   [](const auto& a, const auto& b) { return a.first == b.first; })) {
-    throw ScenarioError(arguments.first.string() + " has the sweep values " + names(first) + ", " +
-                        arguments.second.string() + " has " + names(second) +
-                        "; they cannot be compared one by one.");
+    throw ScenarioError(arguments.first.string() + " has the sweep values number " + names(first) +
+                        ", " + arguments.second.string() + " has number " + names(second) +
+                        " (one alone: no sweep); they cannot be compared one by one.");
   }
   for (const auto& [sweep, outcomes] : first) {
     expect_same_settings(outcomes, second.at(sweep), arguments.first.string(),
                          arguments.second.string());
   }
+  print_difference(arguments.first, arguments.second);
   for (const auto& [sweep, outcomes] : first) {
     if (first.size() > 1) std::cout << (sweep > 0 ? "\n" : "") << heading(sweep, outcomes) << ":\n";
     const Comparison comparison = compare(outcomes, second.at(sweep));

@@ -207,11 +207,17 @@ std::optional<Baseline> find_baseline(const GateArguments& arguments) {
   }
 }
 
-// Whatever is there will be replaced.
+// An earlier report will be replaced.
 void expect_report_or_nothing(const fs::path& junit) {
+  if (!fs::is_directory(fs::absolute(junit).parent_path())) {
+    throw IoError("--junit " + junit.string() + " cannot be written: there is no such folder.");
+  }
   if (!fs::exists(junit)) return;
-  if (fs::is_regular_file(junit) && read_file(junit).starts_with("<?xml")) return;
-  throw IoError("--junit " + junit.string() + " is no report that may be replaced.");
+  if (fs::is_regular_file(junit)) {
+    const std::string text = read_file(junit);
+    if (text.empty() || is_junit(text)) return;
+  }
+  throw IoError("--junit " + junit.string() + " exists, and is no JUnit report to be replaced.");
 }
 
 fs::path junit_path(const GateArguments& arguments) {
@@ -273,7 +279,9 @@ void add_options(CLI::App& command, GateArguments& arguments) {
                   "throws, and where they go when nobody dodges) or all; in place of the\n"
                   "baseline's (physics)")
       ->check(CLI::IsMember({"nothing", "physics", "all"}));
-  command.add_option("--junit", arguments.junit, "The verdict as JUnit XML [DIR/junit.xml]")
+  command
+      .add_option("--junit", arguments.junit,
+                  "The verdict as JUnit XML, in place of an earlier one [DIR/junit.xml]")
       ->type_name("FILE");
   add_models_option(command, arguments.models_dir);
   add_plugin_option(command, arguments.plugin);

@@ -6,6 +6,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/shell.h"
+#include "sim/campaign/result_files.h"
 #include "sim/campaign/text_table.h"
 #include "sim/paper/paper_tables.h"
 #include "sim/preflight/try_models.h"
@@ -107,6 +108,10 @@ Flown fly(const PaperArguments& arguments, const std::vector<PaperFlight>& fligh
 }
 
 int paper(const PaperArguments& arguments) {
+  if (holds_campaign(arguments.options.out)) {
+    throw ScenarioError("--out " + arguments.options.out.string() +
+                        " holds a campaign; choose another directory.");
+  }
   const std::vector<PaperExperiment> experiments = chosen_experiments(arguments);
   const std::vector<PaperFlight> flights = flights_of(experiments);
   std::vector<Scenario> scenarios;

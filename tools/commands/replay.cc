@@ -228,6 +228,17 @@ void expect_cameras(const Scenario& scenario, const ReplayArguments& arguments) 
   }
 }
 
+// Where nobody throws there are no paths to draw, and stages are of an object in flight.
+void expect_thrown(const Scenario& scenario, const ReplayArguments& arguments) {
+  if (scenario.anyone_throws()) return;
+  for (const auto& [option, value] :
+       {std::pair{"--picture", &arguments.picture}, {"--stages", &arguments.stages}}) {
+    if (value->empty()) continue;
+    throw ScenarioError(std::string(option) + " " + *value + ": in throw " +
+                        std::to_string(arguments.throw_index) + " nobody throws.");
+  }
+}
+
 int replay(const ReplayArguments& arguments) {
   const std::string& directory = arguments.directory;
   const Scenario campaign = with_plugin(
@@ -241,6 +252,7 @@ int replay(const ReplayArguments& arguments) {
   try_models({campaign});
   if (scenario.pilot == kPluginPilot) try_plugin(scenario);
   expect_cameras(scenario, arguments);
+  expect_thrown(scenario, arguments);
   const std::optional<std::string> recorded = recorded_row(directory, index, arguments.throw_index);
 
   watch_stop_signals();
@@ -274,13 +286,14 @@ void add_replay_command(CLI::App& program, int& exit_code) {
   command->add_option("--throw", arguments->throw_index, "Number of the throw, from 0")
       ->required()
       ->check(whole_number_between(0, INT_MAX));
-  command
-      ->add_option("--video", arguments->video,
-                   "Write a video (H.264): the scene and both event streams")
-      ->check(file_ending(".mp4"))
-      ->type_name("FILE.mp4");
+  CLI::Option* video = command
+                           ->add_option("--video", arguments->video,
+                                        "Write a video (H.264): the scene and both event streams")
+                           ->check(file_ending(".mp4"))
+                           ->type_name("FILE.mp4");
   command->add_option("--slow", arguments->slow, "How many times slower than real the video is")
       ->check(number_between(1, Film::kSlowest))
+      ->needs(video)
       ->capture_default_str();
   command
       ->add_option("--mcap", arguments->mcap,
@@ -297,15 +310,18 @@ void add_replay_command(CLI::App& program, int& exit_code) {
                    "Write one picture: both flight paths and what the pilot first noticed")
       ->check(file_ending(".png"))
       ->type_name("FILE.png");
-  command
-      ->add_option("--events", arguments->events,
-                   "Write a camera's events with their causes (t, x, y, p, cause), as far as they\n"
-                   "reach the computer before the flight ends, and print how well the pilot finds\n"
-                   "an object's events. Causes: 0 the static scene, moved by ego-motion; 1 + i\n"
-                   "object i; 253 leak; 254 shot noise; 255 a hot pixel")
-      ->type_name("FILE.h5|.npy|.txt");
+  CLI::Option* events =
+      command
+          ->add_option(
+              "--events", arguments->events,
+              "Write a camera's events with their causes (t, x, y, p, cause), as far as they\n"
+              "reach the computer before the flight ends, and print how well the pilot finds\n"
+              "an object's events. Causes: 0 the static scene, moved by ego-motion; 1 + i\n"
+              "object i; 253 leak; 254 shot noise; 255 a hot pixel")
+          ->type_name("FILE.h5|.npy|.txt");
   command->add_option("--camera", arguments->camera, "Whose events: top or bottom")
       ->check(CLI::IsMember(std::vector<std::string>(kCameraNames.begin(), kCameraNames.end())))
+      ->needs(events)
       ->capture_default_str();
   add_models_option(*command, arguments->models_dir);
   add_plugin_option(*command, arguments->plugin);

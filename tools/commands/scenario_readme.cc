@@ -138,8 +138,8 @@ one that `dodgesim replay --throw` takes.
 | `flown_hit`, `flown_crashed` | an object touched the vehicle; the vehicle touched the room |
 | `flown_hit_us`, `flown_closest_us` | the first contact with an object; the closest approach (after a hit the same) |
 | `flown_clearance_m` | least distance between the surfaces of vehicle and objects until the flight ended, 0 after a hit |
-| `none_*`, `oracle_*` | the same seven of these pilots |
-| `after_room` | an object had touched the room when it came nearest to the vehicle that `none` flew |
+| `none_status` to `none_clearance_m`, `oracle_*` | the same seven of these pilots |
+| `none_after_room` | an object had touched the room when it came nearest to the vehicle that `none` flew |
 | `first_in_view_us` | the object that was detected first (any, if none was) had its centre in a camera's image and was a pixel wide |
 | `first_detection_us`, `first_detection_t_us` | the first detection within 0.5 m of the centre of an object (of one larger than 30 cm: 0.35 m more than its radius), given out before the flight ended: when the pilot gave it out, and the instant it speaks of |
 | `first_detection_distance_m` | true distance from the top camera to the object at that instant |
@@ -163,7 +163,7 @@ one that `dodgesim replay --throw` takes.
 | `hit`, `hit_us`, `closest_us`, `clearance_m` | as in `throws.csv`, of this object with the scenario's pilot |
 | `first_detection_us`, `first_detection_distance_m` | likewise |
 | `none_hit` | it touched the vehicle that `none` flew |
-| `after_room` | it had touched the room when it came nearest to that vehicle |
+| `none_after_room` | it had touched the room when it came nearest to that vehicle |
 
 `detections.csv`:
 

@@ -1,5 +1,6 @@
 // dodgesim table: the statistics of a campaign, by whatever was varied, in several formats.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -28,10 +29,19 @@ std::string formatted(const StatisticsTable& table, const std::string& format) {
   return to_markdown(table);
 }
 
+// So that a slip of the keyboard overwrites no scenario.
+void expect_ending(const TableArguments& arguments) {
+  const std::string ending = arguments.format == "latex" ? ".tex" : "." + arguments.format;
+  if (std::filesystem::path(arguments.out).extension() == ending) return;
+  throw ScenarioError("--out " + arguments.out + " must end in " + ending + ", as --format is " +
+                      arguments.format + ".");
+}
+
 int table(const TableArguments& arguments) {
   if (!arguments.out.empty() && belongs_to_campaign(arguments.out)) {
     throw ScenarioError("--out " + arguments.out + " would overwrite a file of a campaign.");
   }
+  if (!arguments.out.empty()) expect_ending(arguments);
   const LoadedCampaign campaign = load_campaign(arguments.directory);
   const std::vector<Part> parts = parts_of(campaign);
   std::vector<Axis> axes = arguments.by.empty() ? grid_axes(campaign.results) : std::vector<Axis>();

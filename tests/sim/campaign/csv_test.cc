@@ -68,7 +68,8 @@ void expect_documented(const std::string& file, const std::string& header) {
     std::string name = column.substr(0, column.find_last_not_of("_0123456789") + 1);
     if (name != column) name += "_0";
     for (const std::string pilot : {"none_", "oracle_"}) {
-      if (file == "throws.csv" && name.starts_with(pilot)) name.replace(0, pilot.size(), "flown_");
+      const bool of_pilot = name.starts_with(pilot) && name != "none_after_room";
+      if (file == "throws.csv" && of_pilot) name.replace(0, pilot.size(), "flown_");
     }
     EXPECT_NE(table.find("`" + name + "`"), std::string::npos) << file << ": " << column;
   }

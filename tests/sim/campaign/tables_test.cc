@@ -109,7 +109,7 @@ TEST(Tables, SayWhichObjectsTouchedTheRoomOnTheirWay) {
   std::vector<ThrowResult> results = {throw_with(0, flown(false), flown(false), FlightResult{}),
                                       throw_with(1, flown(true), flown(true), FlightResult{})};
   EXPECT_THAT(tables(results).markdown, ::testing::Not(HasSubstr("touched the room")));
-  results[0].after_room = true;
+  results[0].none_after_room = true;
   EXPECT_THAT(tables(results).markdown,
               HasSubstr("In 1 throw an object had touched the room when it came nearest"));
 }

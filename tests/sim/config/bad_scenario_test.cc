@@ -283,7 +283,7 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:3:30: mission.goal_m is missing, but mission.type goal needs it. That is so with "
      "mission.type goal."},
     {"GridTooLarge", "throw: {}\nrepeats: 1000000\ngrid: {size_m: [" + numbers(11) + "]}\n",
-     "bad.yaml:3:7: repeats, grid and sweep make more than 10000000 throws."},
+     "bad.yaml:3:7: repeats, grid and sweep make 11000000 throws; at most 10000000 are allowed."},
     {"GridBomb",
      "throw: {}\ngrid: {size_m: [" + numbers(99) + "], speed_mps: [" + numbers(99) +
          "], distance_m: [" + numbers(99) + "]}\nsweep: {after_s: [" + numbers(99) +

@@ -25,8 +25,9 @@ TEST(ScenarioFile, AFileMustHaveANameThatACampaignCanHave) {
   EXPECT_EQ(error_of_file("b\xc3\xa4"
                           "d.yaml"),
             "no error");
-  EXPECT_THAT(error_of_file("a\nb.yaml"), HasSubstr("name has a line break"));
-  EXPECT_THAT(error_of_file("a\xff.yaml"), HasSubstr("name is not UTF-8 text."));
+  EXPECT_THAT(error_of_file("a\nb.yaml"),
+              HasSubstr("The file's name, for want of the key name, has a line break"));
+  EXPECT_THAT(error_of_file("a\xff.yaml"), HasSubstr("name, is not UTF-8 text."));
 }
 
 TEST(ScenarioFile, AMissingFileAndWhatIsNoFileAreRefused) {
