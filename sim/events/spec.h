@@ -123,7 +123,8 @@ void EventCameraSpec::visit(Visitor& v) {
     "the readout stamps.");
   v("jitter_us", jitter_us, 0, 100000,
     "Standard deviation of the latency from event to event (IEBCS: 10). No event is early: what "
-    "would fall below 0 is 0.");
+    "would fall below 0 is 0. Drawn for each event by itself, so that events of a pixel with a "
+    "refractory period shorter than the jitter may change places.");
   v("readout_max_hz", readout_max_hz, 0, 1e9,
     "Events that the readout can serve in a second (assumed). Requests wait in line; a pixel that "
     "waits makes no other event, which is counted as lost. 0: no limit.");

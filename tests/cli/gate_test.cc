@@ -16,6 +16,7 @@ using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class GateCommandTest : public dodgesim::testing::CommandTest {
  protected:
@@ -225,9 +226,19 @@ TEST_F(GateCommandTest, CompareDoesNotPairFlightsOfDifferentSeeds) {
   ASSERT_EQ(dodgesim(run + path("one")).exit_code, 0);
   ASSERT_EQ(dodgesim(run + path("other") + " --seed 2").exit_code, 0);
   EXPECT_THAT(dodgesim("compare " + path("one") + " " + path("one")).output,
-              HasSubstr("of the same throws"));
+              AllOf(HasSubstr("of the same throws"), Not(HasSubstr("differ:"))));
   EXPECT_THAT(dodgesim("compare " + path("one") + " " + path("other")).output,
-              HasSubstr("of different throws"));
+              AllOf(::testing::StartsWith("The scenarios differ:\n  seed: 1, then 2\n"),
+                    HasSubstr("of different throws")));
+}
+
+TEST_F(GateCommandTest, CompareSaysWhatCouldNotBeFlown) {
+  write("floor.yaml",
+        "pilot: none\nfly_oracle: false\nrepeats: 2\n"
+        "throw: {distance_m: 2, size_m: 0.3, launch_height_m: 0.1, launch_s: 0.1}\n");
+  dodgesim("run " + path("floor.yaml") + " --out " + path("floor"));
+  EXPECT_THAT(dodgesim("compare " + path("floor") + " " + path("floor")).output,
+              HasSubstr("In " + path("floor") + " 2 throws could not be flown and count as not"));
 }
 
 }  // namespace
