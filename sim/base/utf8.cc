@@ -21,7 +21,6 @@ std::size_t utf8_length(std::string_view text) {
 }
 
 std::string valid_utf8(std::string_view text) {
-  constexpr std::string_view kReplacement = "\xef\xbf\xbd";  // U+FFFD
   std::string out;
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);

@@ -10,6 +10,8 @@ namespace dodgesim {
 // Length of the well-formed sequence at the start of `text`, which is not empty, or 0.
 std::size_t utf8_length(std::string_view text);
 
+inline constexpr std::string_view kReplacement = "\xef\xbf\xbd";  // U+FFFD
+
 // What is no UTF-8 of the text becomes U+FFFD.
 std::string valid_utf8(std::string_view text);
 

@@ -85,6 +85,11 @@ bool holds_campaign(const fs::path& directory) {
   return fs::exists(directory / kJournalFile, ignored);
 }
 
+void expect_no_campaign(const fs::path& out) {
+  if (!holds_campaign(out)) return;
+  throw ScenarioError("--out " + out.string() + " holds a campaign; choose another directory.");
+}
+
 bool belongs_to_campaign(const fs::path& file) {
   const fs::path whole = StagedFile::target(file);
   if (!holds_campaign(whole.parent_path())) return false;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "sim/check/film.h"
@@ -41,13 +40,11 @@ double lag_change(const EventCameraSpec& spec, double threshold) {
   return change / kSlowRampS * lag_s / (kThresholds - 2);
 }
 
-double lowest_cutoff_hz(const EventCameraSpec& spec) {
-  double lowest_hz = std::numeric_limits<double>::infinity();
-  if (spec.photoreceptor_hz > 0) {
-    const double lux = spec.illuminance_lux * (spec.linear_below + kDarkLuminance);
-    lowest_hz = spec.photoreceptor_dark_hz + spec.photoreceptor_hz * lux / 1000;
-  }
-  return spec.follower_hz > 0 ? std::min(lowest_hz, spec.follower_hz) : lowest_hz;
+bool too_slow(const EventCameraSpec& spec) {
+  const Photoreceptor photoreceptor(spec);
+  const double dark_rad_s = photoreceptor.cutoff_rad_s(spec.linear_below + kDarkLuminance);
+  return (photoreceptor.order() > 0 && dark_rad_s < 2 * std::numbers::pi * kSlowestHz) ||
+         (spec.follower_hz > 0 && spec.follower_hz < kSlowestHz);
 }
 
 // The threshold of each pixel from the mean time between its first and its last event.
@@ -99,7 +96,7 @@ void judge_polarity(const std::string& name, const std::vector<double>& measured
     check.off("threshold." + name, "all pixels are dead");
     return;
   }
-  if (lowest_cutoff_hz(spec) < kSlowestHz) {
+  if (too_slow(spec)) {
     check.off("threshold." + name, "the bandwidth is too low for a ramp of 20 s");
     return;
   }

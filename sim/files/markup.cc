@@ -8,8 +8,6 @@ namespace dodgesim {
 
 namespace {
 
-constexpr const char* kReplacement = "\xef\xbf\xbd";  // U+FFFD
-
 // XML knows neither U+FFFE nor U+FFFF.
 bool is_no_character(std::string_view sequence) {
   return sequence == "\xef\xbf\xbe" || sequence == "\xef\xbf\xbf";
@@ -27,18 +25,16 @@ std::string escaped(char c) {
 }  // namespace
 
 std::string markup_escaped(std::string_view text) {
+  const std::string valid = valid_utf8(text);
   std::string out;
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    const std::string_view sequence = text.substr(0, length);
-    if (length == 1) {
-      out += escaped(text.front());
-    } else if (length == 0 || is_no_character(sequence)) {
-      out += kReplacement;
+  for (std::string_view left = valid; !left.empty();) {
+    const std::string_view sequence = left.substr(0, utf8_length(left));
+    if (sequence.size() == 1) {
+      out += escaped(sequence.front());
     } else {
-      out += sequence;
+      out += is_no_character(sequence) ? kReplacement : sequence;
     }
-    text.remove_prefix(length == 0 ? 1 : length);
+    left.remove_prefix(sequence.size());
   }
   return out;
 }

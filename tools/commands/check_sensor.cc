@@ -58,9 +58,7 @@ int study(const CheckSensorArguments& arguments) {
 
 int check_sensor(const CheckSensorArguments& arguments, const std::string& command_line) {
   const EventCameraSpec camera = named_event_camera(arguments.camera);
-  if (holds_campaign(arguments.out)) {
-    throw ScenarioError("--out " + arguments.out + " holds a campaign; choose another directory.");
-  }
+  if (!arguments.out.empty()) expect_no_campaign(arguments.out);
   auto make_checks = sensor_checks(camera, arguments.seed);
   std::optional<OutputFile> report;
   if (!arguments.out.empty()) {

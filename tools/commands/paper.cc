@@ -108,10 +108,7 @@ Flown fly(const PaperArguments& arguments, const std::vector<PaperFlight>& fligh
 }
 
 int paper(const PaperArguments& arguments) {
-  if (holds_campaign(arguments.options.out)) {
-    throw ScenarioError("--out " + arguments.options.out.string() +
-                        " holds a campaign; choose another directory.");
-  }
+  expect_no_campaign(arguments.options.out);
   const std::vector<PaperExperiment> experiments = chosen_experiments(arguments);
   const std::vector<PaperFlight> flights = flights_of(experiments);
   std::vector<Scenario> scenarios;

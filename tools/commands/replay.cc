@@ -1,6 +1,7 @@
 // dodgesim replay: flies one throw of a campaign again, bit-identically.
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -216,26 +217,30 @@ class Onlookers {
   std::unique_ptr<EventRecorder> events_;
 };
 
-// The pilots that do not perceive fly without cameras.
-void expect_cameras(const Scenario& scenario, const ReplayArguments& arguments) {
-  if (perceives(scenario.pilot)) return;
-  for (const auto& [option, value] :
-       {std::pair{"--events", &arguments.events}, {"--stages", &arguments.stages}}) {
-    if (value->empty()) continue;
-    throw ScenarioError(std::string(option) + " " + *value + ": the pilot of throw " +
-                        std::to_string(arguments.throw_index) + " is " + scenario.pilot +
-                        ", which flies without cameras.");
+struct OutputOption {
+  const char* name;
+  const std::string& file;
+};
+
+// Before anything flies for them.
+void refuse(std::initializer_list<OutputOption> options, const std::string& why) {
+  for (const OutputOption& option : options) {
+    if (option.file.empty()) continue;
+    throw ScenarioError(std::string(option.name) + " " + option.file + ": " + why);
   }
 }
 
-// Where nobody throws there are no paths to draw, and stages are of an object in flight.
-void expect_thrown(const Scenario& scenario, const ReplayArguments& arguments) {
-  if (scenario.anyone_throws()) return;
-  for (const auto& [option, value] :
-       {std::pair{"--picture", &arguments.picture}, {"--stages", &arguments.stages}}) {
-    if (value->empty()) continue;
-    throw ScenarioError(std::string(option) + " " + *value + ": in throw " +
-                        std::to_string(arguments.throw_index) + " nobody throws.");
+void expect_showable(const Scenario& scenario, const ReplayArguments& arguments) {
+  const std::string number = std::to_string(arguments.throw_index);
+  const OutputOption events = {"--events", arguments.events};
+  const OutputOption stages = {"--stages", arguments.stages};
+  const OutputOption picture = {"--picture", arguments.picture};
+  if (!perceives(scenario.pilot)) {
+    refuse({events, stages}, "the pilot of throw " + number + " is " + scenario.pilot +
+                                 ", which flies without cameras.");
+  }
+  if (!scenario.anyone_throws()) {
+    refuse({picture, stages}, "in throw " + number + " nobody throws.");
   }
 }
 
@@ -251,8 +256,7 @@ int replay(const ReplayArguments& arguments) {
   expect_models(campaign, scenario.pilot, directory, index);
   try_models({campaign});
   if (scenario.pilot == kPluginPilot) try_plugin(scenario);
-  expect_cameras(scenario, arguments);
-  expect_thrown(scenario, arguments);
+  expect_showable(scenario, arguments);
   const std::optional<std::string> recorded = recorded_row(directory, index, arguments.throw_index);
 
   watch_stop_signals();
