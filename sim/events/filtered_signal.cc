@@ -38,12 +38,9 @@ class FilteredSignal : public PixelSignal {
   void begin() override { curves_.clear(); }
 
   void scan(const RowPart& part, unsigned char* may_fire) override {
-    new_u_.resize(part.size);
-    new_y_.resize(part.size);
-    new_z_.resize(part.size);
+    for (auto* const before : {&light0_, &u0_, &y0_, &z0_}) before->resize(part.size);
     Photoreceptor::Row row{};
     row.size = part.size;
-    row.luminance_before = order_ > 0 ? light_.data() + part.first : nullptr;
     row.luminance = part.luminance;
     double earliest_us = part.same_last_us;
     if (part.last_us != nullptr) {
@@ -54,12 +51,14 @@ class FilteredSignal : public PixelSignal {
     } else {
       row.same_dt_s = interval_s(part, 0);
     }
+    row.light = order_ > 0 ? light_.data() + part.first : nullptr;
     row.u = u_.data() + part.first;
     row.y = order_ > 0 ? y_.data() + part.first : nullptr;
     row.z = order_ > 1 ? z_.data() + part.first : nullptr;
-    row.u1 = new_u_.data();
-    row.y1 = new_y_.data();
-    row.z1 = new_z_.data();
+    row.light0 = light0_.data();
+    row.u0 = u0_.data();
+    row.y0 = y0_.data();
+    row.z0 = z0_.data();
     row.low = low_.data() + part.first;
     row.high = high_.data() + part.first;
     // The leak only raises S.
@@ -71,30 +70,23 @@ class FilteredSignal : public PixelSignal {
 
   void take(const RowPart& part, std::span<const std::uint32_t> places,
             std::vector<Candidate>& candidates) override {
-    const std::vector<float>& now = order_ > 1 ? new_z_ : (order_ > 0 ? new_y_ : new_u_);
     for (const std::uint32_t i : places) {
       const std::size_t index = part.first + i;
       const double dt_s = kSecondsPerUs * (part.t_us - part.last_sample_us(i));
-      const Charge before = charge(index);
+      const Charge before = charge(u0_, y0_, z0_, i), after = charge(u_, y_, z_, index);
       Candidate candidate{};
       candidate.index = static_cast<std::uint32_t>(index);
       candidate.curve = static_cast<std::uint32_t>(curves_.size());
       candidate.t0_us = part.last_sample_us(i);
       candidate.s0 = before.z + leak_per_us_ * candidate.t0_us;
-      candidate.s1 = static_cast<double>(now[i]) + leak_per_us_ * part.t_us;
-      const double slope_1s = (static_cast<double>(new_u_[i]) - before.u) / dt_s;
-      const double light =
-          order_ > 0 ? 0.5 * (static_cast<double>(light_[index]) + part.luminance[i]) : 0;
+      candidate.s1 = after.z + leak_per_us_ * part.t_us;
+      const double slope_1s = (after.u - before.u) / dt_s;
+      const double light = order_ > 0 ? 0.5 * (static_cast<double>(light0_[i]) + light_[index]) : 0;
       candidate.rise_per_us = kSecondsPerUs * slope_1s + leak_per_us_;
       candidate.decay_per_us = decay_per_us(light);
       candidates.push_back(candidate);
-      if (order_ > 1) curves_.push_back({before, light, new_u_[i], dt_s, slope_1s});
+      if (order_ > 1) curves_.push_back({before, light, after.u, dt_s, slope_1s});
     }
-    const auto first = static_cast<std::ptrdiff_t>(part.first);
-    std::copy_n(new_u_.begin(), part.size, u_.begin() + first);
-    if (order_ > 0) std::copy_n(part.luminance, part.size, light_.begin() + first);
-    if (order_ > 0) std::copy_n(new_y_.begin(), part.size, y_.begin() + first);
-    if (order_ > 1) std::copy_n(new_z_.begin(), part.size, z_.begin() + first);
   }
 
   void finish(std::span<Candidate>) override {}
@@ -125,18 +117,18 @@ class FilteredSignal : public PixelSignal {
   }
 
   double value(std::size_t index, double t_us) const override {
-    return charge(index).z + leak_per_us_ * t_us;
+    return charge(u_, y_, z_, index).z + leak_per_us_ * t_us;
   }
 
   double rebase(std::size_t index, float luminance) override {
     const float u = photoreceptor_.response(luminance);
     const float change = u - u_[index];
-    const double before = charge(index).z;
+    const double before = charge(u_, y_, z_, index).z;
     u_[index] = u;
     if (order_ > 0) light_[index] = luminance;
     if (order_ > 0) y_[index] += change;
     if (order_ > 1) z_[index] += change;
-    return charge(index).z - before;
+    return charge(u_, y_, z_, index).z - before;
   }
 
  private:
@@ -152,11 +144,12 @@ class FilteredSignal : public PixelSignal {
     return order_ == 1 ? kSecondsPerUs * photoreceptor_.cutoff_rad_s(luminance) : -1;
   }
 
-  Charge charge(std::size_t index) const {
+  Charge charge(const std::vector<float>& u, const std::vector<float>& y,
+                const std::vector<float>& z, std::size_t i) const {
     Charge out;
-    out.u = u_[index];
-    out.y = order_ > 0 ? y_[index] : out.u;
-    out.z = order_ > 1 ? z_[index] : out.y;
+    out.u = u[i];
+    out.y = order_ > 0 ? y[i] : out.u;
+    out.z = order_ > 1 ? z[i] : out.y;
     return out;
   }
 
@@ -172,7 +165,8 @@ class FilteredSignal : public PixelSignal {
   std::vector<float> u_, light_, y_, z_;
   std::vector<float> low_, high_;
   std::vector<float> dt_s_;
-  std::vector<float> new_u_, new_y_, new_z_;  // of the part that was scanned last
+  // What they were at the sample before, of the part that was scanned last.
+  std::vector<float> light0_, u0_, y0_, z0_;
   std::vector<Curve> curves_;
 };
 

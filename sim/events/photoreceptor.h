@@ -48,11 +48,13 @@ class Photoreceptor {
   // A row of pixels.
   struct Row {
     std::size_t size;
-    const float *luminance_before, *luminance;
+    const float* luminance;
     const float* dt_s;  // since each pixel's last sample; null: same_dt_s
     float same_dt_s;
-    const float *u, *y, *z;  // before; y and z as far as the order goes
-    float *u1, *y1, *z1;     // after
+    // Of the last sample, replaced by this one's: its luminance (`light`) and y as far as the order
+    // is 1, z as far as it is 2.
+    float *light, *u, *y, *z;
+    float *light0, *u0, *y0, *z0;  // what they were
     // Bounds of z: a pixel whose z stays strictly between them makes no event.
     const float *low, *high;
     float leaked_before, leaked;  // what the leak has added to z before and after

@@ -19,8 +19,14 @@ class ResponseOf {
         slope_(static_cast<Number>(1 / (log_epsilon + linear_below))),
         knee_(static_cast<Number>(natural_log(log_epsilon + linear_below))) {}
 
+  bool linear_somewhere() const { return linear_below_ > 0; }
+  // at() where it is linear nowhere.
+  [[gnu::always_inline]] Number logarithm(Number luminance) const {
+    return natural_log(epsilon_ + luminance);
+  }
+
   [[gnu::always_inline]] Number at(Number luminance) const {
-    const Number log = natural_log(epsilon_ + luminance);
+    const Number log = logarithm(luminance);
     const Number line = knee_ + slope_ * (luminance - linear_below_);
     return luminance < linear_below_ ? line : log;
   }

@@ -106,32 +106,37 @@ struct Pixels {
   Pixels(std::size_t size, std::uint64_t seed) {
     RandomStream random(seed, 0, "pixels");
     for (std::size_t i = 0; i < size; ++i) {
-      for (std::vector<float>* light : {&luminance_before, &luminance}) {
+      for (std::vector<float>* light : {&light0, &luminance}) {
         light->push_back(static_cast<float>(std::exp(random.uniform(-9, 3))));
       }
       dt_s.push_back(static_cast<float>(std::exp(random.uniform(-13, -3))));
-      for (std::vector<float>* charge : {&u, &y, &z}) {
+      for (std::vector<float>* charge : {&u0, &y0, &z0}) {
         charge->push_back(static_cast<float>(random.uniform(-7, 2)));
       }
       low.push_back(static_cast<float>(random.uniform(-8, 0)));
       high.push_back(low.back() + static_cast<float>(random.uniform(0, 6)));
     }
-    for (std::vector<float>* after : {&u1, &y1, &z1}) after->resize(size);
+    for (std::vector<float>* was : {&was_light, &was_u, &was_y, &was_z}) was->resize(size);
     may_fire.resize(size);
   }
 
   Photoreceptor::Row row(bool own_time) {
+    light1 = light0;
+    u1 = u0;
+    y1 = y0;
+    z1 = z0;
     return {luminance.size(),
-            luminance_before.data(),
             luminance.data(),
             own_time ? dt_s.data() : nullptr,
             1e-3f,
-            u.data(),
-            y.data(),
-            z.data(),
+            light1.data(),
             u1.data(),
             y1.data(),
             z1.data(),
+            was_light.data(),
+            was_u.data(),
+            was_y.data(),
+            was_z.data(),
             low.data(),
             high.data(),
             0.01f,
@@ -139,13 +144,16 @@ struct Pixels {
             may_fire.data()};
   }
 
-  Charge before(std::size_t i) const { return {u[i], y[i], z[i]}; }
+  Charge before(std::size_t i) const { return {u0[i], y0[i], z0[i]}; }
   // Between the samples.
   double light(std::size_t i) const {
-    return 0.5 * (static_cast<double>(luminance_before[i]) + luminance[i]);
+    return 0.5 * (static_cast<double>(light0[i]) + luminance[i]);
   }
 
-  std::vector<float> luminance_before, luminance, dt_s, u, y, z, u1, y1, z1, low, high;
+  std::vector<float> luminance, dt_s, low, high;
+  std::vector<float> light0, u0, y0, z0;              // of the last sample
+  std::vector<float> light1, u1, y1, z1;              // of the new one
+  std::vector<float> was_light, was_u, was_y, was_z;  // what the kernel says they were
   std::vector<unsigned char> may_fire;
 };
 
@@ -184,14 +192,14 @@ TEST(Photoreceptor, RowsAnswerAsTheDifferentialEquationsOverAnyInterval) {
     const Photoreceptor photoreceptor(slow(3000, follower_hz));
     const double w1 = photoreceptor.cutoff_rad_s(0.3F), w2 = kTurnRad * follower_hz;  // 900 Hz
     Pixels p(40, 10);
-    std::fill(p.luminance_before.begin(), p.luminance_before.end(), 0.3F);
+    std::fill(p.light0.begin(), p.light0.end(), 0.3F);
     std::fill(p.luminance.begin(), p.luminance.end(), 0.3F);
     for (float& dt_s : p.dt_s) {
       dt_s = static_cast<float>(std::exp(random.uniform(std::log(1e-3), std::log(60))) /
                                 std::max(w1, w2));
     }
     photoreceptor.advance(p.row(true));
-    for (std::size_t i = 0; i < p.u.size(); ++i) {
+    for (std::size_t i = 0; i < p.u0.size(); ++i) {
       const double dt_s = p.dt_s[i];
       const Charge expected = integrated(p.before(i), w1, w2, p.u1[i], dt_s, dt_s);
       EXPECT_NEAR(p.y1[i], expected.y, 5e-6) << dt_s * w1;
@@ -262,6 +270,14 @@ TEST(Photoreceptor, RowsAreTheSameBytesAtEveryVectorLevel) {
           EXPECT_TRUE(same(portable.y1, wide.y1));
           EXPECT_TRUE(same(portable.z1, wide.z1));
           EXPECT_EQ(portable.may_fire, wide.may_fire);
+          EXPECT_EQ(wide.was_u, wide.u0);
+          if (photoreceptor.order() == 0) continue;
+          EXPECT_EQ(wide.was_y, wide.y0);
+          EXPECT_EQ(wide.was_light, wide.light0);
+          EXPECT_TRUE(same(wide.light1, wide.luminance));
+          if (photoreceptor.order() > 1) {
+            EXPECT_EQ(wide.was_z, wide.z0);
+          }
         }
       }
     }
@@ -307,28 +323,30 @@ TEST(Photoreceptor, AnswersToNothingWithinAMicrosecondHoweverDarkItIs) {
     spec.follower_hz = 1000;
     spec.photoreceptor_dark_hz = dark_hz;
     const Photoreceptor photoreceptor(spec);
-    const float grey = 0.4f, black = 0;
-    const float before = photoreceptor.response(grey);
-    float u1 = 0, y1 = 0, z1 = 0;
+    const float black = 0;
+    const float before = photoreceptor.response(0.4f);
+    float light = 0.4f, u = before, y = before, z = before;
+    float was_light = 0, was_u = 0, was_y = 0, was_z = 0;
     unsigned char may_fire = 0;
     const float low = -100, high = 100;
     photoreceptor.advance({.size = 1,
-                           .luminance_before = &grey,
                            .luminance = &black,
                            .dt_s = nullptr,
                            .same_dt_s = 1e-6f,
-                           .u = &before,
-                           .y = &before,
-                           .z = &before,
-                           .u1 = &u1,
-                           .y1 = &y1,
-                           .z1 = &z1,
+                           .light = &light,
+                           .u = &u,
+                           .y = &y,
+                           .z = &z,
+                           .light0 = &was_light,
+                           .u0 = &was_u,
+                           .y0 = &was_y,
+                           .z0 = &was_z,
                            .low = &low,
                            .high = &high,
                            .leaked_before = 0,
                            .leaked = 0,
                            .may_fire = &may_fire});
-    EXPECT_NEAR(z1, before, 1e-3) << dark_hz;
+    EXPECT_NEAR(z, before, 1e-3) << dark_hz;
   }
 }
 
