@@ -62,9 +62,10 @@ void PrimitivePainter::FaceRows::start(int width) {
   }
 }
 
-PointRow PrimitivePainter::FaceRows::at(int row) {
+PointRow PrimitivePainter::FaceRows::at(int row, int pixel) {
   auto& r = rows_[static_cast<std::size_t>(row)];
-  return {r[0].data(), r[1].data(), r[2].data(), r[3].data(), r[4].data(), r[5].data()};
+  const auto from = [&](std::size_t component) { return r[component].data() + pixel; };
+  return {from(0), from(1), from(2), from(3), from(4), from(5)};
 }
 
 void PrimitivePainter::FaceRows::compute(const SolidKernels& kernels, const SolidView& view,
@@ -137,7 +138,7 @@ void PrimitivePainter::paint_all(const Shot& shot, const Snapshot& snapshot,
 
 void PrimitivePainter::paint_arranged(const Shot& shot, const PaintedPicture& picture) {
   for (const std::size_t index : order_) {
-    start(shot, index);
+    start(shot, index, picture.depth || picture.id);
     const Rect& pixels = subject_.pixels;
     const int size = pixels.x1 - pixels.x0;
     for (int y = pixels.y0; y < pixels.y1; ++y) {
@@ -154,7 +155,7 @@ void PrimitivePainter::paint_arranged(const Shot& shot, const PaintedPicture& pi
   }
 }
 
-void PrimitivePainter::start(const Shot& shot, std::size_t index) {
+void PrimitivePainter::start(const Shot& shot, std::size_t index, bool depths) {
   const Primitive& primitive = scene_.primitives[index];
   const Surface& surface = primitive.surface;
   subject_.kernels = &solid_kernels(solid_type(primitive.type));
@@ -179,7 +180,7 @@ void PrimitivePainter::start(const Shot& shot, std::size_t index) {
   }
   turn_lights(poses_[index]);
   const int width = shot.intrinsics.width;
-  coverage_.start(*subject_.kernels, subject_.view, width);
+  coverage_.start(*subject_.kernels, subject_.view, width, depths || !views_[index].in_front);
   for (FaceRows& face : faces_) face.start(width);
   const auto lanes = static_cast<std::size_t>(whole_vectors(width));
   if (value_.size() >= lanes) return;
@@ -207,25 +208,38 @@ void PrimitivePainter::turn_lights(const Eigen::Isometry3d& X_WG) {
   }
 }
 
+// The pixels of a row that are covered at all, in whole vectors.
+PrimitivePainter::Span PrimitivePainter::covered(int size) const {
+  const float* const whole = coverage_.whole();
+  int begin = 0, end = size;
+  while (begin < end && !(whole[begin] > 0)) ++begin;
+  while (end > begin && !(whole[end - 1] > 0)) --end;
+  begin -= begin % kRowLanes;
+  return {begin, whole_vectors(end - begin)};
+}
+
 // Blends the luminance of the row whose coverage was computed last.
 void PrimitivePainter::paint_row(int y, int size, const float* depth, float* luminance) {
   const SurfaceKernels& kernels = surface_kernels();
-  const int lanes = whole_vectors(size);
-  std::fill_n(sum_.begin(), lanes, 0.0f);
+  const auto [begin, lanes] = covered(size);
+  float* const value = value_.data() + begin;
+  float* const sum = sum_.data() + begin;
+  std::fill_n(sum, lanes, 0.0f);
   for (int k = 0; k < subject_.kernels->faces; ++k) {
     if (!coverage_.any(k)) continue;
     FaceRows& face = faces_[static_cast<std::size_t>(k)];
     face.compute(*subject_.kernels, subject_.view, k, subject_.pixels.x0, y, size,
                  subject_.textured);
-    kernels.light(lights_, subject_.albedo, subject_.emission, face.here(), lanes, value_.data());
+    kernels.light(lights_, subject_.albedo, subject_.emission, face.here(begin), lanes, value);
     if (subject_.textured) {
-      kernels.texture[static_cast<std::size_t>(subject_.read)](subject_.texture, face.here(),
-                                                               face.below(), lanes, value_.data());
+      kernels.texture[static_cast<std::size_t>(subject_.read)](subject_.texture, face.here(begin),
+                                                               face.below(begin), lanes, value);
     }
-    kernels.accumulate(value_.data(), coverage_.share(k), lanes, sum_.data());
+    kernels.accumulate(value, coverage_.share(k) + begin, lanes, sum);
   }
-  kernels.blend(sum_.data(), depth ? unhidden(depth, size) : coverage_.whole(), coverage_.depth(),
-                size, luminance);
+  const float* const coverage = depth ? unhidden(depth, size) : coverage_.whole();
+  kernels.blend(sum, coverage + begin, coverage_.depth() + begin, std::min(lanes, size - begin),
+                luminance + begin);
 }
 
 // The coverage of those pixels in which nothing is in front.

@@ -42,12 +42,13 @@ class PrimitivePainter {
     // Of the row and, with `below`, of the next one.
     void compute(const SolidKernels& kernels, const SolidView& view, int face, int column, int row,
                  int size, bool below);
-    PointRow here() { return at(here_); }
-    PointRow below() { return at(1 - here_); }
+    // From that pixel of the row on.
+    PointRow here(int pixel = 0) { return at(here_, pixel); }
+    PointRow below(int pixel = 0) { return at(1 - here_, pixel); }
 
    private:
     static constexpr std::size_t kComponents = 6;
-    PointRow at(int row);
+    PointRow at(int row, int pixel);
 
     std::array<std::array<std::vector<float>, kComponents>, 2> rows_;
     int here_ = 0, row_below_ = -1;
@@ -69,8 +70,13 @@ class PrimitivePainter {
 
   void arrange(const Shot& shot, const Snapshot* snapshot, Wanted wanted);
   void paint_arranged(const Shot& shot, const PaintedPicture& picture);
-  void start(const Shot& shot, std::size_t index);
+  // Without depths only the luminance is wanted, and nothing hides the solid.
+  void start(const Shot& shot, std::size_t index, bool depths);
   void turn_lights(const Eigen::Isometry3d& X_WG);
+  struct Span {
+    int begin, size;
+  };
+  Span covered(int size) const;
   void paint_row(int y, int size, const float* depth, float* luminance);
   const float* unhidden(const float* depth, int size);
   float buffered(float z_C) const;

@@ -93,6 +93,7 @@ PrimitiveView view_primitive(const Primitive& primitive, const Eigen::Isometry3d
   const Eigen::Isometry3d X_GC = X_WG.inverse() * X_WC;
   const Vector3d center_C = X_WC.inverse() * X_WG.translation();
   const double radius = primitive.bounding_radius();
+  view.in_front = center_C.z() > radius;
   view.distance = center_C.norm();
   view.R_GC = X_GC.linear();
   view.eye_G = X_GC.translation();
@@ -110,7 +111,7 @@ PrimitiveView view_primitive(const Primitive& primitive, const Eigen::Isometry3d
   if (primitive.type == mjGEOM_BOX) return view;
 
   view.conic_origin = {intrinsics.cx(), intrinsics.cy()};
-  if (center_C.z() > radius) view.conic_origin = intrinsics.project(center_C);
+  if (view.in_front) view.conic_origin = intrinsics.project(center_C);
   Matrix3d ray_of_pixel = Matrix3d::Identity();
   ray_of_pixel.diagonal().head<2>().setConstant(1.0 / intrinsics.f);
   ray_of_pixel(0, 2) = (view.conic_origin.x() - intrinsics.cx()) / intrinsics.f;

@@ -11,6 +11,7 @@ namespace dodgesim {
 struct PrimitiveView {
   bool visible;           // in front of the camera, and the camera is not inside it
   Rect bounds;            // pixels it can touch, clipped to the image
+  bool in_front;          // all of it
   double distance;        // of its centre [m], for drawing back to front
   Eigen::Matrix3d R_GC;   // rotates camera rays into the geom's frame G
   Eigen::Vector3d eye_G;  // camera centre in G [m]

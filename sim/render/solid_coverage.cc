@@ -5,20 +5,24 @@
 
 namespace dodgesim {
 
-void SolidCoverage::start(const SolidKernels& kernels, const SolidView& view, int width) {
+void SolidCoverage::start(const SolidKernels& kernels, const SolidView& view, int width,
+                          bool depths) {
   kernels_ = &kernels;
   view_ = view;
   have_below_ = false;
+  depths_ = depths || !kernels.conic_is_outline;
   const auto size = static_cast<std::size_t>(whole_vectors(width + 1));  // corners are one more
-  if (whole_.size() >= size) return;
-  for (auto* row :
-       {&shares_[0], &shares_[1], &shares_[2], &whole_, &depth_, &depth_at_center_, &outline_}) {
-    row->resize(size);
+  if (whole_.size() < size) {
+    for (auto* row :
+         {&shares_[0], &shares_[1], &shares_[2], &whole_, &depth_, &depth_at_center_, &outline_}) {
+      row->resize(size);
+    }
+    for (auto* entries :
+         {&center_, &close_, &side_, &above_.all, &above_.side, &below_.all, &below_.side}) {
+      entries->resize(size);
+    }
   }
-  for (auto* entries :
-       {&center_, &close_, &side_, &above_.all, &above_.side, &below_.all, &below_.side}) {
-    entries->resize(size);
-  }
+  if (!depths_) std::fill(depth_.begin(), depth_.end(), 1.0f);
 }
 
 void SolidCoverage::cast_centers(int column, int row, int size) {
@@ -31,7 +35,7 @@ void SolidCoverage::cast_centers(int column, int row, int size) {
 }
 
 void SolidCoverage::compute(int column, int row, int size) {
-  cast_centers(column, row, size);
+  if (depths_) cast_centers(column, row, size);
   if (kernels_->conic_is_outline) {
     kernels_->outline_coverage(view_, static_cast<float>(column), static_cast<float>(row),
                                whole_vectors(size), shares_[0].data());

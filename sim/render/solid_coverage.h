@@ -18,8 +18,9 @@ inline constexpr int whole_vectors(int size) {
 
 class SolidCoverage {
  public:
-  // Takes a solid, in images of at most `width` pixels.
-  void start(const SolidKernels& kernels, const SolidView& view, int width);
+  // Takes a solid, in images of at most `width` pixels. Without depths, compute() may leave out how
+  // far it is: all of it must be in front of the camera.
+  void start(const SolidKernels& kernels, const SolidView& view, int width, bool depths = true);
 
   // Of the pixels (column, row) to (column + size - 1, row): what their centres meet; or all. Rows
   // of a solid have the same columns and follow one another from the top down: two of them share
@@ -34,6 +35,7 @@ class SolidCoverage {
   const float* whole() const { return whole_.data(); }
   // Depth z_C of what is seen of the solid [m] where whole() is more than 0: where the pixel's
   // centre meets it, else where that passes closest to a round side, else of the nearest point.
+  // Without depths only its sign means something.
   const float* depth() const { return depth_.data(); }
 
   // Of the last call of either: the depth [m] where the pixel's centre meets the solid, else 0.
@@ -62,6 +64,7 @@ class SolidCoverage {
   std::vector<float> whole_, depth_, depth_at_center_, outline_;
   Entries center_, close_, side_;
   Corners above_, below_;
+  bool depths_ = true;
   bool have_below_ = false;
 };
 

@@ -67,13 +67,15 @@ DODGESIM_INLINE void side_entries_row(const SolidView& view, float column, float
 
 DODGESIM_INLINE void outline_coverage_row(const SolidView& view, float column, float row, int size,
                                           float* __restrict coverage) {
-  constexpr float kFar = 1.0f;  // [px], more than half a pixel's diagonal
+  constexpr float kFar = 0.75f;  // [px], more than half a pixel's diagonal
+  constexpr float kNear = 0.5f;  // for the time being
   const SolidView v = view;
   const float y = row - v.conic_y;
   for (int i = 0; i < size; ++i) {
-    const float s = solid::outline_distance(v, (column + static_cast<float>(i)) - v.conic_x, y).s;
-    // 0 or 1 for pixels that are far from the outline; the others follow below.
-    coverage[i] = smaller(larger(0.5f + 0.5f * s / kFar, 0.0f), 1.0f);
+    const float x = (column + static_cast<float>(i)) - v.conic_x;
+    const solid::OutlineForm form = solid::outline_form(v, x, y);
+    const float all_or_none = form.g > 0.0f ? 1.0f : 0.0f;
+    coverage[i] = solid::outline_is_near(v, form, kFar) ? kNear : all_or_none;
   }
   // In each of pieces x pieces parts of a pixel the outline is taken as straight.
   constexpr int kMost = 64;
@@ -81,10 +83,14 @@ DODGESIM_INLINE void outline_coverage_row(const SolidView& view, float column, f
   float x[kMost], sum[kMost];
   const float width = 1.0f / static_cast<float>(v.pieces), first = 0.5f * width - 0.5f;
   for (int begin = 0; begin < size; begin += kMost) {
+    const int end = smaller(begin + kMost, size);
     int cut = 0;
-    for (int i = begin; i < smaller(begin + kMost, size); ++i) {
+    for (int i = begin; i < end; ++i) cut += coverage[i] == kNear ? 1 : 0;
+    if (cut == 0) continue;
+    cut = 0;
+    for (int i = begin; i < end; ++i) {
       pixel[cut] = i;
-      cut += (coverage[i] > 0.0f) & (coverage[i] < 1.0f) ? 1 : 0;
+      cut += coverage[i] == kNear ? 1 : 0;
     }
     for (int k = 0; k < cut; ++k) {
       x[k] = ((column + static_cast<float>(pixel[k])) - v.conic_x) + first;

@@ -41,6 +41,7 @@ DODGESIM_INLINE Vec3 times(const Vec3& a, const Vec3& b) {
 DODGESIM_INLINE Vec3 over(const Vec3& a, const Vec3& b) {
   return {a.x / b.x, a.y / b.y, a.z / b.z};
 }
+DODGESIM_INLINE Vec3 inverse(const Vec3& a) { return {1.0f / a.x, 1.0f / a.y, 1.0f / a.z}; }
 DODGESIM_INLINE float dot(const Vec3& a, const Vec3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -91,14 +92,16 @@ struct Ellipsoid {
     return {square, (-dot(e, d) - root_of(square)) / a};
   }
   DODGESIM_INLINE static Entry entry(const SolidView& v, const Vec3& size, const Vec3& d) {
-    const Roots r = roots(over(v.eye, size), over(d, size));
+    const Vec3 scale = inverse(size);  // the same for all rays
+    const Roots r = roots(times(v.eye, scale), times(d, scale));
     return {r.t, (r.square >= 0.0f) & (r.t > 0.0f) ? 0 : -1};
   }
   DODGESIM_INLINE static FacePoint point(const SolidView& v, int, const Vec3& d) {
-    const Vec3 e = over(v.eye, v.size), d_unit = over(d, v.size);
+    const Vec3 scale = inverse(v.size);
+    const Vec3 e = times(v.eye, scale), d_unit = times(d, scale);
     const float t = roots(e, d_unit).t;
     const Vec3 on_unit = e + t * d_unit;
-    return face_point(times(on_unit, v.size), normalized(over(on_unit, v.size)));
+    return face_point(times(on_unit, v.size), normalized(times(on_unit, scale)));
   }
 };
 
@@ -203,12 +206,27 @@ struct OutlineDistance {
   float s;         // along the gradient, exact for the form; positive inside [px]
   float n_x, n_y;  // unit gradient
 };
-DODGESIM_INLINE OutlineDistance outline_distance(const SolidView& v, float x, float y) {
+// The form, and its gradient.
+struct OutlineForm {
+  float g, g_x, g_y;
+};
+DODGESIM_INLINE OutlineForm outline_form(const SolidView& v, float x, float y) {
   const float* c = v.conic;
   const float q_x = c[0] * x + c[1] * y + c[2];
   const float q_y = c[3] * x + c[4] * y + c[5];
-  const float g = q_x * x + q_y * y + (c[6] * x + c[7] * y + c[8]);
-  const float g_x = 2.0f * q_x, g_y = 2.0f * q_y;
+  return {q_x * x + q_y * y + (c[6] * x + c[7] * y + c[8]), 2.0f * q_x, 2.0f * q_y};
+}
+// Whether the outline may be nearer than `far`: no straight line from there reaches it sooner, as
+// the form changes by no more than the gradient and its own greatest bend say.
+DODGESIM_INLINE bool outline_is_near(const SolidView& v, const OutlineForm& form, float far) {
+  const float* c = v.conic;
+  const float bend = magnitude(c[0]) + magnitude(c[1]) + magnitude(c[3]) + magnitude(c[4]);
+  const float slope = magnitude(form.g_x) + magnitude(form.g_y);
+  return !(magnitude(form.g) > far * (slope + far * bend));
+}
+DODGESIM_INLINE OutlineDistance outline_distance(const SolidView& v, float x, float y) {
+  const float* c = v.conic;
+  const auto [g, g_x, g_y] = outline_form(v, x, y);
   const float steepness = std::sqrt(g_x * g_x + g_y * g_y);
   const bool steep = steepness > 0.0f;
   const float n_x = steep ? g_x / steepness : 1.0f, n_y = steep ? g_y / steepness : 0.0f;
