@@ -46,46 +46,51 @@ constexpr int kDepthReadings = 3;
     const float dx = m.direction[0] * c + (m.direction[1] * row + m.direction[2]);
     const float dy = m.direction[3] * c + (m.direction[4] * row + m.direction[5]);
     const float dz = m.direction[6] * c + (m.direction[7] * row + m.direction[8]);
-    float x = m.f * (dx / dz) + m.cx;
-    float y = m.f * (dy / dz) + m.cy;
+    const float inverse_dz = 1.0f / dz;
+    const float right = dx * inverse_dz, down = dy * inverse_dz;
+    const float right_by = m.t[0] - m.t[2] * right, down_by = m.t[1] - m.t[2] * down;
+    float x = m.f * right + m.cx;
+    float y = m.f * down + m.cy;
     for (int k = 0; k < kDepthReadings; ++k) {
       // Neither is negative; lround would be a call.
       // NOLINTBEGIN(bugprone-incorrect-roundings)
       const int at_x = static_cast<int>(smaller(larger(x, 0.0f), m.last_column) + 0.5f);
       const int at_y = static_cast<int>(smaller(larger(y, 0.0f), m.last_row) + 0.5f);
       // NOLINTEND(bugprone-incorrect-roundings)
+      // The point along the ray from the camera's place whose z in the key is 1/rho, over its z.
       const float rho = inverse_depth[at_y * m.stride + at_x];
-      // 1/z of the point along the ray from the camera's place, whose z in the key is 1/rho.
-      const float mu = dz * rho / (1.0f - m.t[2] * rho);
-      const float z = dz + m.t[2] * mu;
-      x = m.f * ((dx + m.t[0] * mu) / z) + m.cx;
-      y = m.f * ((dy + m.t[1] * mu) / z) + m.cy;
+      x = m.f * (right + rho * right_by) + m.cx;
+      y = m.f * (down + rho * down_by) + m.cy;
     }
     x_out[i] = dz > 0.0f ? x : -1.0f;
     y_out[i] = y;
   }
 }
 
-[[gnu::always_inline]] inline void spread_row(const float* __restrict above,
-                                              const float* __restrict below, float share, int cells,
-                                              float* __restrict out) {
+[[gnu::always_inline]] inline void span_row(const float* __restrict above,
+                                            const float* __restrict below, float share, int cells,
+                                            CellRow row) {
+  float* const __restrict first = row.first;
+  float* const __restrict step = row.step;
   for (int cell = 0; cell < cells; ++cell) {
     const float left = above[cell] + share * (below[cell] - above[cell]);
     const float right = above[cell + 1] + share * (below[cell + 1] - above[cell + 1]);
-    const float step = (right - left) * (1.0f / kKeyCellPx);
-    for (int i = 0; i < kKeyCellPx; ++i) {
-      out[cell * kKeyCellPx + i] = left + step * static_cast<float>(i);
-    }
+    first[cell] = left;
+    step[cell] = (right - left) * (1.0f / kKeyCellPx);
   }
 }
 
-void read_portable(const std::uint16_t* means, int stride, const float* u, const float* v, int size,
+void read_portable(const std::uint16_t* means, int stride, CellRow u, CellRow v, int cells,
                    float* luminance) {
-  for (int i = 0; i < size; ++i) {
-    const int column = static_cast<int>(u[i]);
-    const int row = static_cast<int>(v[i]);
-    const float fu = u[i] - static_cast<float>(column);
-    const float fv = v[i] - static_cast<float>(row);
+  for (int i = 0; i < cells * kKeyCellPx; ++i) {
+    const int cell = i / kKeyCellPx;
+    const auto pixel = static_cast<float>(i % kKeyCellPx);
+    const float at_u = u.first[cell] + u.step[cell] * pixel;
+    const float at_v = v.first[cell] + v.step[cell] * pixel;
+    const int column = static_cast<int>(at_u);
+    const int row = static_cast<int>(at_v);
+    const float fu = at_u - static_cast<float>(column);
+    const float fv = at_v - static_cast<float>(row);
     const std::uint16_t* const top = means + row * stride + column;
     const std::uint16_t* const bottom = top + stride;
     const float a = from_half(top[0]), b = from_half(top[1]);
@@ -109,13 +114,19 @@ DODGESIM_TARGET_AVX2 inline __m256 between(__m256 a, __m256 b, __m256 share) {
   return _mm256_add_ps(a, _mm256_mul_ps(share, _mm256_sub_ps(b, a)));
 }
 
-DODGESIM_TARGET_AVX2 void read_avx2(const std::uint16_t* means, int stride, const float* u,
-                                    const float* v, int size, float* luminance) {
-  constexpr int kLanes = 8;
+// A cell.
+DODGESIM_TARGET_AVX2 inline __m256 coordinates_of_cell(CellRow row, int cell) {
+  const __m256 pixel = _mm256_setr_ps(0, 1, 2, 3, 4, 5, 6, 7);
+  return _mm256_add_ps(_mm256_set1_ps(row.first[cell]),
+                       _mm256_mul_ps(_mm256_set1_ps(row.step[cell]), pixel));
+}
+
+DODGESIM_TARGET_AVX2 void read_avx2(const std::uint16_t* means, int stride, CellRow u, CellRow v,
+                                    int cells, float* luminance) {
+  static_assert(kKeyCellPx == 8);
   const __m256i low = _mm256_set1_epi32(0xffff);
-  int i = 0;
-  for (; i + kLanes <= size; i += kLanes) {
-    const __m256 at_u = _mm256_loadu_ps(u + i), at_v = _mm256_loadu_ps(v + i);
+  for (int cell = 0; cell < cells; ++cell) {
+    const __m256 at_u = coordinates_of_cell(u, cell), at_v = coordinates_of_cell(v, cell);
     const __m256i column = _mm256_cvttps_epi32(at_u), row = _mm256_cvttps_epi32(at_v);
     const __m256 fu = _mm256_sub_ps(at_u, _mm256_cvtepi32_ps(column));
     const __m256 fv = _mm256_sub_ps(at_v, _mm256_cvtepi32_ps(row));
@@ -132,9 +143,8 @@ DODGESIM_TARGET_AVX2 void read_avx2(const std::uint16_t* means, int stride, cons
         between(numbers(_mm256_and_si256(top, low)), numbers(_mm256_srli_epi32(top, 16)), fu);
     const __m256 lower =
         between(numbers(_mm256_and_si256(bottom, low)), numbers(_mm256_srli_epi32(bottom, 16)), fu);
-    _mm256_storeu_ps(luminance + i, between(upper, lower, fv));
+    _mm256_storeu_ps(luminance + cell * kKeyCellPx, between(upper, lower, fv));
   }
-  read_portable(means, stride, u + i, v + i, size - i, luminance + i);
 }
 
 DODGESIM_TARGET_AVX512 inline __m512 numbers(__m512i halves) {
@@ -157,11 +167,20 @@ struct Corners {
   __m512i top, bottom;
 };
 
-DODGESIM_TARGET_AVX512 inline Places places_at(const float* u, const float* v) {
-  const __m512 at_u = _mm512_loadu_ps(u), at_v = _mm512_loadu_ps(v);
-  const __m512i column = _mm512_cvttps_epi32(at_u), row = _mm512_cvttps_epi32(at_v);
-  return {column, row, _mm512_sub_ps(at_u, _mm512_cvtepi32_ps(column)),
-          _mm512_sub_ps(at_v, _mm512_cvtepi32_ps(row))};
+// One number for each of two cells.
+DODGESIM_TARGET_AVX512 inline __m512 of_cells(const float* values) {
+  return _mm512_insertf32x8(_mm512_set1_ps(values[0]), _mm256_set1_ps(values[1]), 1);
+}
+
+DODGESIM_TARGET_AVX512 inline __m512 coordinates_of_cells(CellRow row, int cell) {
+  const __m512 pixel = _mm512_setr_ps(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
+  return _mm512_add_ps(of_cells(row.first + cell), _mm512_mul_ps(of_cells(row.step + cell), pixel));
+}
+
+DODGESIM_TARGET_AVX512 inline Places places_of(__m512 u, __m512 v) {
+  const __m512i column = _mm512_cvttps_epi32(u), row = _mm512_cvttps_epi32(v);
+  return {column, row, _mm512_sub_ps(u, _mm512_cvtepi32_ps(column)),
+          _mm512_sub_ps(v, _mm512_cvtepi32_ps(row))};
 }
 
 DODGESIM_TARGET_AVX512 inline Corners gathered(const std::uint16_t* means, int stride,
@@ -208,19 +227,24 @@ DODGESIM_TARGET_AVX512 inline bool pick(const std::uint16_t* means, int stride, 
   return true;
 }
 
-DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, const float* u,
-                                        const float* v, int size, float* luminance) {
-  constexpr int kLanes = 16;
+// Of the last pixel of the second of two cells.
+inline float last_of_cells(CellRow row, int cell) {
+  return row.first[cell + 1] + row.step[cell + 1] * (kKeyCellPx - 1);
+}
+
+DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, CellRow u,
+                                        CellRow v, int cells, float* luminance) {
+  constexpr int kCells = 2;
   constexpr int kMostRows = kKeySpareRows;  // more take longer than to gather
   const __m512i low = _mm512_set1_epi32(0xffff);
-  int i = 0;
-  for (; i + kLanes <= size; i += kLanes) {
-    const Places p = places_at(u + i, v + i);
+  int cell = 0;
+  for (; cell + kCells <= cells; cell += kCells) {
+    const Places p = places_of(coordinates_of_cells(u, cell), coordinates_of_cells(v, cell));
     // Places run nearly straight: those at the ends say which rows and columns are needed.
-    const float v0 = v[i], v1 = v[i + kLanes - 1];
+    const float v0 = v.first[cell], v1 = last_of_cells(v, cell);
     const int row = static_cast<int>(smaller(v0, v1));
     const int rows = static_cast<int>(larger(v0, v1)) - row + 1;
-    const int column = static_cast<int>(smaller(u[i], u[i + kLanes - 1]));
+    const int column = static_cast<int>(smaller(u.first[cell], last_of_cells(u, cell)));
     Corners c = {_mm512_setzero_si512(), _mm512_setzero_si512()};
     if (rows > kMostRows || !pick(means, stride, p, row, rows, column, c)) {
       c = gathered(means, stride, p);
@@ -229,9 +253,11 @@ DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, 
         between(numbers(_mm512_and_si512(c.top, low)), numbers(_mm512_srli_epi32(c.top, 16)), p.fu);
     const __m512 lower = between(numbers(_mm512_and_si512(c.bottom, low)),
                                  numbers(_mm512_srli_epi32(c.bottom, 16)), p.fu);
-    _mm512_storeu_ps(luminance + i, between(upper, lower, p.fv));
+    _mm512_storeu_ps(luminance + cell * kKeyCellPx, between(upper, lower, p.fv));
   }
-  read_portable(means, stride, u + i, v + i, size - i, luminance + i);
+  _mm256_zeroupper();  // GCC 12 forgets it here; all code without AVX is slow then
+  read_portable(means, stride, {u.first + cell, u.step + cell}, {v.first + cell, v.step + cell},
+                cells - cell, luminance + cell * kKeyCellPx);
 }
 #else
 constexpr auto read_avx2 = read_portable, read_avx512 = read_portable;
@@ -242,7 +268,7 @@ constexpr std::array<decltype(KeyKernels::read), kVectorLevels> kRead = {read_po
 
 constexpr KeyKernels kernels(int level) {
   return {compiled_for<halve_row>(level), compiled_for<place_row>(level),
-          compiled_for<spread_row>(level), kRead[static_cast<std::size_t>(level)]};
+          compiled_for<span_row>(level), kRead[static_cast<std::size_t>(level)]};
 }
 
 constexpr std::array<KeyKernels, kVectorLevels> kKernels = {kernels(kPortable), kernels(kAvx2),

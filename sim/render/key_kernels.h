@@ -20,23 +20,29 @@ struct KeyMap {
   int stride;                  // of inverse_depth
 };
 
+inline constexpr int kKeyCellPx = 8;
+inline constexpr int kKeySpareRows = 16;
+
+// Coordinates of the pixels in a row of cells: pixel i of a cell lies at first + i * step.
+struct CellRow {
+  float *first, *step;
+};
+
 struct KeyKernels {
   // Half precision (IEEE 754 binary16), rounded half up; of numbers from 0 to kLargestHalf.
   void (*halve)(const float* values, int size, std::uint16_t* halves);
   // Where view pixels (column, row), (column + step, row), ... lie in the key's depth [px].
   void (*place)(const KeyMap& map, float column, float step, float row, int size, float* x,
                 float* y);
-  // Straight between nodes: `cells` cells of kKeyCellPx pixels each from `cells` + 1 nodes, which
-  // lie at `share` of the way from `above` to `below`.
-  void (*spread)(const float* above, const float* below, float share, int cells, float* out);
-  // Reads `means` (half precision) at (u, v), linearly in between. kKeySpareRows rows must
-  // follow the last one that is needed; what is in them does not matter.
-  void (*read)(const std::uint16_t* means, int stride, const float* u, const float* v, int size,
+  // A row of `cells` cells between `cells` + 1 nodes, which lie at `share` of the way from `above`
+  // to `below`: where each cell's first pixel lies, and the step from pixel to pixel.
+  void (*span)(const float* above, const float* below, float share, int cells, CellRow row);
+  // Reads `means` (half precision) at all pixels of a row of cells, whose columns and rows among
+  // the means are u and v, linearly in between. kKeySpareRows rows must follow the last one that is
+  // needed; what is in them does not matter.
+  void (*read)(const std::uint16_t* means, int stride, CellRow u, CellRow v, int cells,
                float* luminance);
 };
-
-inline constexpr int kKeyCellPx = 8;
-inline constexpr int kKeySpareRows = 16;
 
 const KeyKernels& key_kernels();                  // the fastest
 const KeyKernels& key_kernels(int vector_level);  // this processor must have it

@@ -82,8 +82,10 @@ KeyPicture::KeyPicture(const Intrinsics& view, const KeySpec& spec)
       static_cast<std::size_t>(columns_) * static_cast<std::size_t>(cells_of(view.height) + 1);
   node_u_.resize(nodes);
   node_v_.resize(nodes);
-  row_u_.resize(static_cast<std::size_t>(columns_) * kKeyCellPx);
-  row_v_.resize(row_u_.size());
+  for (auto* const row : {&cell_u_, &cell_v_, &step_u_, &step_v_}) {
+    row->resize(static_cast<std::size_t>(columns_));
+  }
+  row_.resize(static_cast<std::size_t>(columns_) * kKeyCellPx);
 }
 
 void KeyPicture::set(const Eigen::Isometry3d& X_WC, const std::vector<float>& luminance,
@@ -242,12 +244,12 @@ bool KeyPicture::show(const Eigen::Isometry3d& X_WC, const Rect& region, float* 
   place_nodes();
   if (!covers_view()) return false;
   const Rect cells = cells_about(region);
+  const int size = region.x1 - region.x0, skipped = region.x0 - cells.x0 * kKeyCellPx;
+  const bool whole_cells = size == (cells.x1 - cells.x0) * kKeyCellPx;
   for (int y = region.y0; y < region.y1; ++y) {
-    place_pixels(y, cells);
-    const int skipped = region.x0 - cells.x0 * kKeyCellPx;
-    key_kernels().read(means_.data(), fine_.width, row_u_.data() + skipped, row_v_.data() + skipped,
-                       region.x1 - region.x0,
-                       luminance + std::ptrdiff_t{y} * view_.width + region.x0);
+    float* const shown = luminance + std::ptrdiff_t{y} * view_.width + region.x0;
+    read_row(y, cells, whole_cells ? shown : row_.data());
+    if (!whole_cells) std::copy_n(row_.data() + skipped, size, shown);
   }
   return true;
 }
@@ -298,14 +300,17 @@ bool KeyPicture::covers_view() const {
   return true;
 }
 
-// row_u_ and row_v_ for the pixels of the cells in a row of the view.
-void KeyPicture::place_pixels(int row, const Rect& cells) {
+// All pixels of the cells in a row of the view.
+void KeyPicture::read_row(int row, const Rect& cells, float* luminance) {
   const int j = row / kKeyCellPx;
   const float share = static_cast<float>(row % kKeyCellPx) / kKeyCellPx;
   const std::size_t above = node(cells.x0, j), below = node(cells.x0, j + 1);
   const int count = cells.x1 - cells.x0;
-  key_kernels().spread(&node_u_[above], &node_u_[below], share, count, row_u_.data());
-  key_kernels().spread(&node_v_[above], &node_v_[below], share, count, row_v_.data());
+  const CellRow u = {cell_u_.data(), step_u_.data()}, v = {cell_v_.data(), step_v_.data()};
+  const KeyKernels& kernels = key_kernels();
+  kernels.span(&node_u_[above], &node_u_[below], share, count, u);
+  kernels.span(&node_v_[above], &node_v_[below], share, count, v);
+  kernels.read(means_.data(), fine_.width, u, v, count, luminance);
 }
 
 double KeyPicture::nearest_m(const Rect& region) const {

@@ -59,7 +59,7 @@ class KeyPicture {
   double bend_px() const;
   void place_nodes();
   bool covers_view() const;
-  void place_pixels(int row, const Rect& cells);
+  void read_row(int row, const Rect& cells, float* luminance);
   std::size_t node(int column, int row) const;
   std::size_t tile(int column, int row) const;
 
@@ -86,7 +86,9 @@ class KeyPicture {
   // Of the last show().
   Eigen::Isometry3d X_KC_ = Eigen::Isometry3d::Identity();
   std::vector<float> node_u_, node_v_;  // where a node lies in means_ [px]
-  std::vector<float> row_u_, row_v_;    // where the pixels of a row lie
+  std::vector<float> cell_u_, cell_v_, step_u_,
+      step_v_;              // where a row's cells begin; from px to px
+  std::vector<float> row_;  // of the view, in whole cells
 };
 
 }  // namespace dodgesim

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -27,8 +28,36 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 // Each function of the kernels over some inputs, one after the other.
 struct Results {
   std::vector<std::uint16_t> halves;
-  std::vector<float> places, spread, read;
+  std::vector<float> places, spans, read;
 };
+
+// Coordinates of a row of cells.
+struct Coordinates {
+  std::vector<float> first, step;
+
+  explicit Coordinates(int cells) : first(static_cast<std::size_t>(cells)), step(first.size()) {}
+  CellRow row() { return {first.data(), step.data()}; }
+};
+
+// From a number drawn within the limits to another one, cell by cell.
+Coordinates scattered(int cells, double limit, RandomStream& random) {
+  Coordinates out(cells);
+  for (std::size_t i = 0; i < out.first.size(); ++i) {
+    const double first = random.uniform(0, limit), last = random.uniform(0, limit);
+    out.first[i] = static_cast<float>(first);
+    out.step[i] = static_cast<float>((last - first) / kKeyCellPx);
+  }
+  return out;
+}
+
+Coordinates on_a_line(int cells, float from, float step) {
+  Coordinates out(cells);
+  for (std::size_t i = 0; i < out.first.size(); ++i) {
+    out.first[i] = from + step * static_cast<float>(kKeyCellPx * i);
+    out.step[i] = step;
+  }
+  return out;
+}
 
 std::vector<float> luminances(int size, RandomStream& random) {
   const float special[] = {0,
@@ -100,29 +129,34 @@ Results results(int level, int size) {
     out.places.insert(out.places.end(), x.begin(), x.end());
     out.places.insert(out.places.end(), y.begin(), y.end());
 
-    std::vector<float> above, below, spread(static_cast<std::size_t>(size * kKeyCellPx));
+    std::vector<float> above, below;
     for (int i = 0; i <= size; ++i) {
       above.push_back(static_cast<float>(random.uniform(0, 600)));
       below.push_back(static_cast<float>(random.uniform(0, 600)));
     }
-    kernels.spread(above.data(), below.data(), 0.375f, size, spread.data());
-    out.spread.insert(out.spread.end(), spread.begin(), spread.end());
+    Coordinates span(size);
+    kernels.span(above.data(), below.data(), 0.375f, size, span.row());
+    out.spans.insert(out.spans.end(), span.first.begin(), span.first.end());
+    out.spans.insert(out.spans.end(), span.step.begin(), span.step.end());
 
-    constexpr int kWide = 300, kHigh = 90;
-    std::vector<std::uint16_t> picture(static_cast<std::size_t>(kWide * (kHigh + kKeySpareRows)));
-    std::vector<float> u, v, read(static_cast<std::size_t>(size));
-    const auto bright = luminances(kWide * kHigh, random);
-    kernels.halve(bright.data(), kWide * kHigh, picture.data());
+    const int wide = 3 * kKeyCellPx * size + 2, high = 90;
+    std::vector<std::uint16_t> picture(static_cast<std::size_t>(wide * (high + kKeySpareRows)));
+    std::vector<float> read(static_cast<std::size_t>(kKeyCellPx * size));
+    const auto bright = luminances(wide * high, random);
+    kernels.halve(bright.data(), wide * high, picture.data());
     // Scattered, or along lines as a camera reads them: level, rolled a little, a lot, backwards.
-    const float right = static_cast<float>(random.uniform(1, 2.9)) * (trial % 8 == 1 ? -1 : 1);
-    const float down = trial % 4 == 2 ? 0 : static_cast<float>(random.uniform(-0.4, 0.4));
-    const float u0 = right > 0 ? 0 : kWide - 1.01f, v0 = down > 0 ? 0 : kHigh - 1.01f;
-    for (int i = 0; i < size; ++i) {
-      const auto n = static_cast<float>(i);
-      u.push_back(trial % 4 ? u0 + right * n : static_cast<float>(random.uniform(0, kWide - 1)));
-      v.push_back(trial % 4 ? v0 + down * n : static_cast<float>(random.uniform(0, kHigh - 1)));
-    }
-    kernels.read(picture.data(), kWide, u.data(), v.data(), size, read.data());
+    const bool backwards = trial % 8 == 1;
+    const float right = static_cast<float>(random.uniform(1, 2.9)) * (backwards ? -1 : 1);
+    const auto steep = static_cast<float>(random.uniform(-0.4, 0.4));
+    const auto pixels = static_cast<float>(kKeyCellPx * size);
+    const float down =
+        trial % 4 == 2 ? 0 : steep * std::min(1.0f, 2 * static_cast<float>(high - 2) / pixels);
+    const auto last_u = static_cast<float>(wide) - 1.01f, last_v = static_cast<float>(high) - 1.01f;
+    Coordinates u = trial % 4 ? on_a_line(size, backwards ? last_u : 0, right)
+                              : scattered(size, last_u, random);
+    Coordinates v =
+        trial % 4 ? on_a_line(size, down > 0 ? 0 : last_v, down) : scattered(size, last_v, random);
+    kernels.read(picture.data(), wide, u.row(), v.row(), size, read.data());
     out.read.insert(out.read.end(), read.begin(), read.end());
   }
   return out;
@@ -134,7 +168,7 @@ TEST(KeyKernels, GiveTheSameBytesAtEveryVectorWidth) {
       const Results narrow = results(kPortable, size), wide = results(level, size);
       EXPECT_TRUE(same_bytes(wide.halves, narrow.halves)) << level << ", " << size;
       EXPECT_TRUE(same_bytes(wide.places, narrow.places)) << level << ", " << size;
-      EXPECT_TRUE(same_bytes(wide.spread, narrow.spread)) << level << ", " << size;
+      EXPECT_TRUE(same_bytes(wide.spans, narrow.spans)) << level << ", " << size;
       EXPECT_TRUE(same_bytes(wide.read, narrow.read)) << level << ", " << size;
     }
   }
@@ -147,10 +181,10 @@ TEST(KeyKernels, TheDefaultIsTheWidestThatTheProcessorHas) {
 // What is read in a picture of 2 x 2 such means.
 float read_alone(std::uint16_t half) {
   const std::uint16_t means[4 + 2 * kKeySpareRows] = {half, half, half, half};
-  const float zero = 0;
-  float out = -1;
-  key_kernels().read(means, 2, &zero, &zero, 1, &out);
-  return out;
+  float zero = 0;
+  float out[kKeyCellPx] = {-1};
+  key_kernels().read(means, 2, {&zero, &zero}, {&zero, &zero}, 1, out);
+  return out[0];
 }
 
 std::uint16_t half_of(float value) {
@@ -210,27 +244,40 @@ TEST(KeyKernels, WhatHalfPrecisionCannotHoldIsBounded) {
 }
 
 TEST(KeyKernels, ReadLinearlyBetweenFourMeans) {
-  const float values[] = {1, 2, 4, 8, 16, 32, 0};  // two rows of three
-  std::uint16_t means[7];
-  key_kernels().halve(values, 7, means);
-  const float u[] = {0.25f, 0, 1.5f}, v[] = {0.5f, 0.75f, 0.25f};
-  float out[3];
-  key_kernels().read(means, 3, u, v, 3, out);
-  EXPECT_EQ(out[0], 0.5f * (1.25f + 10));
-  EXPECT_EQ(out[1], 0.25f * 1 + 0.75f * 8);
-  EXPECT_EQ(out[2], 0.75f * 3 + 0.25f * 24);
+  // Two rows of three, and room for the pixels of a cell that are not looked at.
+  std::vector<float> values = {1, 2, 4, 8, 16, 32};
+  values.resize(values.size() + static_cast<std::size_t>(3 * kKeySpareRows));
+  std::vector<std::uint16_t> means(values.size());
+  key_kernels().halve(values.data(), static_cast<int>(values.size()), means.data());
+  float u[] = {0.25f, 0, 1.5f}, v[] = {0.5f, 0.75f, 0.25f}, none[] = {0, 0, 0};
+  float out[3 * kKeyCellPx];
+  key_kernels().read(means.data(), 3, {u, none}, {v, none}, 3, out);
+  for (int i = 0; i < kKeyCellPx; ++i) {
+    EXPECT_EQ(out[i], 0.5f * (1.25f + 10));
+    EXPECT_EQ(out[kKeyCellPx + i], 0.25f * 1 + 0.75f * 8);
+    EXPECT_EQ(out[2 * kKeyCellPx + i], 0.75f * 3 + 0.25f * 24);
+  }
+  // Along the row.
+  float first = 0.25f, step = 0.125f, level = 0;
+  key_kernels().read(means.data(), 3, {&first, &step}, {&level, none}, 1, out);
+  for (int i = 0; i < kKeyCellPx; ++i) {
+    const float at = first + step * static_cast<float>(i);
+    EXPECT_EQ(out[i], at < 1 ? 1 + at : 2 + 2 * (at - 1));
+  }
 }
 
-TEST(KeyKernels, SpreadIsBilinearInACell) {
+TEST(KeyKernels, SpanIsBilinearInACell) {
   const float above[] = {3, 11, 5}, below[] = {7, 31, 1};
-  float out[2 * kKeyCellPx];
-  key_kernels().spread(above, below, 0.25f, 2, out);
-  for (int i = 0; i < 2 * kKeyCellPx; ++i) {
-    const int cell = i / kKeyCellPx;
-    const float right = static_cast<float>(i % kKeyCellPx) / kKeyCellPx;
-    const float left_end = 0.75f * above[cell] + 0.25f * below[cell];
-    const float right_end = 0.75f * above[cell + 1] + 0.25f * below[cell + 1];
-    EXPECT_NEAR(out[i], left_end + right * (right_end - left_end), 1e-5f);
+  Coordinates span(2);
+  key_kernels().span(above, below, 0.25f, 2, span.row());
+  for (std::size_t cell = 0; cell < 2; ++cell) {
+    for (int i = 0; i < kKeyCellPx; ++i) {
+      const float right = static_cast<float>(i) / kKeyCellPx;
+      const float left_end = 0.75f * above[cell] + 0.25f * below[cell];
+      const float right_end = 0.75f * above[cell + 1] + 0.25f * below[cell + 1];
+      EXPECT_NEAR(span.first[cell] + span.step[cell] * static_cast<float>(i),
+                  left_end + right * (right_end - left_end), 1e-5f);
+    }
   }
 }
 
