@@ -42,14 +42,12 @@ class FilteredSignal : public PixelSignal {
     Photoreceptor::Row row{};
     row.size = part.size;
     row.luminance = part.luminance;
-    double earliest_us = part.same_last_us;
     if (part.last_us != nullptr) {
-      earliest_us = *std::min_element(part.last_us, part.last_us + part.size);
       dt_s_.resize(part.size);
-      for (std::size_t i = 0; i < part.size; ++i) dt_s_[i] = interval_s(part, i);
+      for (std::size_t i = 0; i < part.size; ++i) dt_s_[i] = interval_s(part.t_us, part.last_us[i]);
       row.dt_s = dt_s_.data();
     } else {
-      row.same_dt_s = interval_s(part, 0);
+      row.same_dt_s = interval_s(part.t_us, part.same_last_us);
     }
     row.light = order_ > 0 ? light_.data() + part.first : nullptr;
     row.u = u_.data() + part.first;
@@ -61,8 +59,8 @@ class FilteredSignal : public PixelSignal {
     row.z0 = z0_.data();
     row.low = low_.data() + part.first;
     row.high = high_.data() + part.first;
-    // The leak only raises S.
-    row.leaked_before = static_cast<float>(leak_per_us_ * earliest_us);
+    // The leak only raises S, and no pixel's last sample is older than that of all.
+    row.leaked_before = static_cast<float>(leak_per_us_ * part.same_last_us);
     row.leaked = static_cast<float>(leak_per_us_ * part.t_us);
     row.may_fire = may_fire;
     photoreceptor_.advance(row);
@@ -153,8 +151,8 @@ class FilteredSignal : public PixelSignal {
     return out;
   }
 
-  static float interval_s(const RowPart& part, std::size_t i) {
-    return static_cast<float>(kSecondsPerUs * (part.t_us - part.last_sample_us(i)));
+  static float interval_s(double t_us, double last_us) {
+    return static_cast<float>(kSecondsPerUs * (t_us - last_us));
   }
 
   Photoreceptor photoreceptor_;

@@ -40,7 +40,7 @@ struct RowPart {
   const float* luminance;  // of `size` pixels
   double t_us;             // of the sample; times count from the reset
   const double* last_us;   // of each pixel's last sample; null: same_last_us for all
-  double same_last_us;
+  double same_last_us;     // of the last sample of all pixels
 
   double last_sample_us(std::size_t i) const { return last_us ? last_us[i] : same_last_us; }
 };
