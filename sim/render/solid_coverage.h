@@ -9,13 +9,6 @@
 
 namespace dodgesim {
 
-// Rows are computed in whole vectors of this many pixels, which is faster. What lies beyond the
-// pixels that were asked for means nothing.
-inline constexpr int kRowLanes = 16;
-inline constexpr int whole_vectors(int size) {
-  return (size + kRowLanes - 1) / kRowLanes * kRowLanes;
-}
-
 class SolidCoverage {
  public:
   // Takes a solid, in images of at most `width` pixels. Without depths, compute() may leave out how
@@ -24,7 +17,7 @@ class SolidCoverage {
 
   // Of the pixels (column, row) to (column + size - 1, row): what their centres meet; or all. Rows
   // of a solid have the same columns and follow one another from the top down: two of them share
-  // the corners of their pixels.
+  // the corners of their pixels. What lies beyond them in the last vector means nothing.
   void cast_centers(int column, int row, int size);
   void compute(int column, int row, int size);
 

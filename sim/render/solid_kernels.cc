@@ -65,47 +65,50 @@ DODGESIM_INLINE void side_entries_row(const SolidView& view, float column, float
   }
 }
 
+// For the time being, of pixels that the outline may cut.
+constexpr float kCut = 0.5f;
+
+// Replaces kCut in `size` pixels. In each of pieces x pieces parts of a pixel the outline is taken
+// as straight.
+DODGESIM_INLINE void cover_cut_pixels(const SolidView& v, float column, float y, int size,
+                                      float* __restrict coverage) {
+  int cut = 0;
+  for (int i = 0; i < size; ++i) cut |= coverage[i] == kCut ? 1 : 0;
+  if (cut == 0) return;
+  float sum[kRowLanes] = {};
+  const float width = 1.0f / static_cast<float>(v.pieces), first = 0.5f * width - 0.5f;
+  for (int part = 0; part < v.pieces * v.pieces; ++part) {
+    const float right = first + width * static_cast<float>(part % v.pieces);
+    const float down = y + first + width * static_cast<float>(part / v.pieces);
+    for (int i = 0; i < size; ++i) {
+      const float x = (column + static_cast<float>(i)) - v.conic_x;
+      const auto line = solid::outline_distance(v, x + right, down);
+      sum[i] += solid::half_plane_coverage(line, width);
+    }
+  }
+  for (int i = 0; i < size; ++i) {
+    coverage[i] = coverage[i] == kCut ? sum[i] * (width * width) : coverage[i];
+  }
+}
+
 DODGESIM_INLINE void outline_coverage_row(const SolidView& view, float column, float row, int size,
                                           float* __restrict coverage) {
   constexpr float kFar = 0.75f;  // [px], more than half a pixel's diagonal
-  constexpr float kNear = 0.5f;  // for the time being
   const SolidView v = view;
   const float y = row - v.conic_y;
   for (int i = 0; i < size; ++i) {
     const float x = (column + static_cast<float>(i)) - v.conic_x;
     const solid::OutlineForm form = solid::outline_form(v, x, y);
     const float all_or_none = form.g > 0.0f ? 1.0f : 0.0f;
-    coverage[i] = solid::outline_is_near(v, form, kFar) ? kNear : all_or_none;
+    coverage[i] = solid::outline_is_near(v, form, kFar) ? kCut : all_or_none;
   }
-  // In each of pieces x pieces parts of a pixel the outline is taken as straight.
-  constexpr int kMost = 64;
-  int pixel[kMost];
-  float x[kMost], sum[kMost];
-  const float width = 1.0f / static_cast<float>(v.pieces), first = 0.5f * width - 0.5f;
-  for (int begin = 0; begin < size; begin += kMost) {
-    const int end = smaller(begin + kMost, size);
-    int cut = 0;
-    for (int i = begin; i < end; ++i) cut += coverage[i] == kNear ? 1 : 0;
-    if (cut == 0) continue;
-    cut = 0;
-    for (int i = begin; i < end; ++i) {
-      pixel[cut] = i;
-      cut += coverage[i] == kNear ? 1 : 0;
+  for (int begin = 0; begin < size; begin += kRowLanes) {
+    const float first = column + static_cast<float>(begin);
+    if (begin + kRowLanes <= size) {
+      cover_cut_pixels(v, first, y, kRowLanes, coverage + begin);
+    } else {
+      cover_cut_pixels(v, first, y, size - begin, coverage + begin);
     }
-    for (int k = 0; k < cut; ++k) {
-      x[k] = ((column + static_cast<float>(pixel[k])) - v.conic_x) + first;
-      sum[k] = 0.0f;
-    }
-    for (int part = 0; part < v.pieces * v.pieces; ++part) {
-      const int part_column = part % v.pieces, part_row = part / v.pieces;
-      const float right = width * static_cast<float>(part_column);
-      const float down = first + width * static_cast<float>(part_row);
-      for (int k = 0; k < cut; ++k) {
-        sum[k] +=
-            solid::half_plane_coverage(solid::outline_distance(v, x[k] + right, y + down), width);
-      }
-    }
-    for (int k = 0; k < cut; ++k) coverage[pixel[k]] = sum[k] * (width * width);
   }
 }
 

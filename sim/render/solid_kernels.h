@@ -8,6 +8,12 @@
 
 namespace dodgesim {
 
+// Rows of whole vectors of this many pixels are the fastest.
+inline constexpr int kRowLanes = 16;
+inline constexpr int whole_vectors(int size) {
+  return (size + kRowLanes - 1) / kRowLanes * kRowLanes;
+}
+
 // Points of a face that the rays of pixels side by side meet, in the geom's frame G.
 struct PointRow {
   float *x, *y, *z;        // [m]
