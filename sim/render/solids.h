@@ -52,7 +52,7 @@ DODGESIM_INLINE Vec3 normalized(const Vec3& a) { return (1.0f / std::sqrt(dot(a,
 DODGESIM_INLINE float root_of(float square) { return std::sqrt(larger(square, 0.0f)); }
 DODGESIM_INLINE float sign_of(float a) { return std::copysign(1.0f, a); }
 DODGESIM_INLINE float within(float a, float limit) { return smaller(larger(a, -limit), limit); }
-DODGESIM_INLINE float magnitude(float a) { return a < 0.0f ? -a : a; }
+DODGESIM_INLINE float magnitude(float a) { return std::fabs(a); }
 
 // Of a pixel. Its parameter t is the depth z_C.
 DODGESIM_INLINE Vec3 ray(const SolidView& v, float x, float y) {

@@ -79,20 +79,28 @@ DODGESIM_INLINE TexturePlace place_2d(const Vec3& at, const Vec3& right, const V
   return {0, fraction_of(at.x), fraction_of(at.y), right.x, right.y, down.x, down.y};
 }
 
+// `a` where the mask is -1, `b` where it is 0. Written as choices, compilers follow all three axes of
+// a cube to the end, divisions and all.
+DODGESIM_INLINE float chosen(int mask, float a, float b) {
+  const int y = std::bit_cast<int>(b);
+  return std::bit_cast<float>(y ^ ((std::bit_cast<int>(a) ^ y) & mask));
+}
+
 // OpenGL 3.3, table 3.19: a face by the largest component m of a direction; s and t are the others
 // over it, but for signs.
 DODGESIM_INLINE TexturePlace place_cube(const Vec3& at, const Vec3& right, const Vec3& down) {
   const float x = magnitude(at.x), y = magnitude(at.y), z = magnitude(at.z);
-  const bool on_x = (x >= y) & (x >= z), on_y = !on_x & (y >= z);
-  const float main = on_x ? at.x : (on_y ? at.y : at.z);
-  const float side = main < 0.0f ? -1.0f : 1.0f;
-  const int face = (on_x ? 0 : (on_y ? 2 : 4)) + (main < 0.0f ? 1 : 0);
-  const float m = main * side;
-  const float s_sign = on_x ? -side : (on_y ? 1.0f : side), t_sign = on_y ? side : -1.0f;
-  const auto s_of = [&](const Vec3& d) { return s_sign * (on_x ? d.z : d.x); };
-  const auto t_of = [&](const Vec3& d) { return t_sign * (on_y ? d.z : d.y); };
-  const auto m_of = [&](const Vec3& d) { return side * (on_x ? d.x : (on_y ? d.y : d.z)); };
-  const float half = 0.5f / m, s = 2.0f * half * s_of(at), t = 2.0f * half * t_of(at);
+  const int on_x = -static_cast<int>((x >= y) & (x >= z));
+  const int on_y = -static_cast<int>(y >= z) & ~on_x;
+  const auto main_of = [&](const Vec3& d) { return chosen(on_x, d.x, chosen(on_y, d.y, d.z)); };
+  const float main = main_of(at), side = solid::sign_of(main);
+  const int face = (4 & ~(on_x | on_y)) + (2 & on_y) + (1 & (std::bit_cast<int>(side) >> 31));
+  const float s_sign = chosen(on_x, -side, chosen(on_y, 1.0f, side));
+  const float t_sign = chosen(on_y, side, -1.0f);
+  const auto s_of = [&](const Vec3& d) { return s_sign * chosen(on_x, d.z, d.x); };
+  const auto t_of = [&](const Vec3& d) { return t_sign * chosen(on_y, d.z, d.y); };
+  const auto m_of = [&](const Vec3& d) { return side * main_of(d); };
+  const float half = 0.5f / magnitude(main), s = 2.0f * half * s_of(at), t = 2.0f * half * t_of(at);
   const auto bounded = [](float c) { return smaller(larger(0.5f * c + 0.5f, 0.0f), 1.0f); };
   return {face,
           bounded(s),
