@@ -10,15 +10,15 @@ namespace {
 
 constexpr double kSolvedUs = 0.01;  // size of the last step
 
-constexpr std::int64_t kNothing = Crossings::kNothing, kRearmed = Crossings::kRearmed;
-constexpr std::int64_t kHeld = Crossings::kHeld, kArmed = Crossings::kArmed;
-constexpr std::int64_t kAgain = Crossings::kAgain, kUnknown = Crossings::kUnknown;
+constexpr std::int32_t kNothing = Crossings::kNothing, kRearmed = Crossings::kRearmed;
+constexpr std::int32_t kHeld = Crossings::kHeld, kArmed = Crossings::kArmed;
+constexpr std::int32_t kAgain = Crossings::kAgain, kUnknown = Crossings::kUnknown;
 
 struct Row {
   std::size_t size;
   const double *s0, *s1, *dt_us, *rise_per_us, *decay_per_us, *held_us, *reference, *off, *on;
   double *crossing_us, *reference_after;
-  std::int64_t *answer, *on_event;
+  std::int32_t *answer, *on_event;
   double refractory_us;
 };
 
@@ -74,8 +74,8 @@ template <bool kBent>
     const double reference = was_held ? s_start : row.reference[i];
     const bool turns = (rise - p * decay * left_start) * (rise - p * decay * left) < 0;
     // Where it turns, p exp(-decay t) = rise / decay.
-    const double lag = rise / (turns ? decay : 1.0);
-    const double turn_us = natural_log(turns ? p / lag : 1.0) / (turns ? decay : 1.0);
+    const double tau = 1 / (turns ? decay : 1.0), lag = rise * tau;
+    const double turn_us = natural_log(turns ? p / lag : 1.0) * tau;
     const double extreme = turns ? s0 + rise * turn_us - p + lag : s1;
     const bool within = (extreme > reference + off) & (extreme < reference + on);
 
@@ -105,10 +105,10 @@ template <bool kBent>
     row.crossing_us[i] = t;
     row.reference_after[i] = crosses ? after : reference;
     row.on_event[i] = up ? 1 : 0;
-    const std::int64_t last = held ? kHeld : kArmed;
-    const std::int64_t event = again ? kAgain : last;
-    const std::int64_t none = was_held & (!still_held) ? kRearmed : kNothing;
-    const std::int64_t answer = crosses ? event : none;
+    const std::int32_t last = held ? kHeld : kArmed;
+    const std::int32_t event = again ? kAgain : last;
+    const std::int32_t none = was_held & (!still_held) ? kRearmed : kNothing;
+    const std::int32_t answer = crosses ? event : none;
     row.answer[i] = unknown ? kUnknown : answer;
   }
 }

@@ -55,7 +55,9 @@ class Crossings {
   std::vector<double> s0_, s1_, dt_us_, rise_per_us_, decay_per_us_, held_us_, reference_, off_,
       on_;
   std::vector<double> crossing_us_, reference_after_;
-  std::vector<std::int64_t> answer_, on_event_;  // as wide as the numbers: computed together
+  // Half as wide as the numbers, so that compilers work on two vectors of these at a time: one
+  // alone would wait for itself.
+  std::vector<std::int32_t> answer_, on_event_;
 };
 
 }  // namespace dodgesim

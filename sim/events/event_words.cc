@@ -42,25 +42,22 @@ void EventWords::sort() {
   sort_ties();
 }
 
+// Most are in order already.
 void EventWords::sort_ties() {
-  constexpr std::size_t kFewTies = 16;
-  std::uint64_t* const words = words_.data();
-  const std::size_t size = words_.size();
-  for (std::size_t first = 0; first < size;) {
-    const std::uint64_t time = words[first] >> kTimeShift;
-    std::size_t end = first + 1;
-    bool sorted = true;
-    for (; end < size && words[end] >> kTimeShift == time; ++end) {
-      sorted &= words[end - 1] <= words[end];
+  constexpr std::ptrdiff_t kFewTies = 16;
+  const auto time = [](std::uint64_t word) { return word >> kTimeShift; };
+  std::uint64_t* const begin = words_.data();
+  std::uint64_t* const end = begin + words_.size();
+  for (std::uint64_t* at = begin + 1; at < end; ++at) {
+    if (at[-1] <= at[0]) continue;
+    std::uint64_t* first = at - 1;
+    while (first > begin && time(first[-1]) == time(*at)) --first;
+    while (at < end && time(*at) == time(*first)) ++at;
+    if (at - first <= kFewTies) {
+      insertion_sort(first, at);
+    } else {
+      std::sort(first, at);
     }
-    if (!sorted) {
-      if (end - first <= kFewTies) {
-        insertion_sort(words + first, words + end);
-      } else {
-        std::sort(words + first, words + end);
-      }
-    }
-    first = end;
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/base/branchless.h"
+
 namespace dodgesim {
 
 namespace {
@@ -121,13 +123,12 @@ void Readout::arrive(EventWords& events, TimeUs origin_us, TimeUs t_us) {
 bool Readout::serve(double request_us, std::size_t pixel) {
   served_us_ = request_us;
   if (service_us_ == 0) return true;
-  if (request_us < free_us_) {
-    if (waits_until_[pixel] > request_us) {
-      ++lost_;
-      return false;
-    }
-    served_us_ = waits_until_[pixel] = free_us_;
+  if (waits_until_[pixel] > request_us) {
+    ++lost_;
+    return false;
   }
+  // No branch: whether one has to wait cannot be predicted.
+  served_us_ = waits_until_[pixel] = larger(request_us, free_us_);
   free_us_ = served_us_ + service_us_;
   return true;
 }
