@@ -102,6 +102,9 @@ void read_portable(const std::uint16_t* means, int stride, CellRow u, CellRow v,
 }
 
 #if defined(__x86_64__)
+// With the default supersampling the camera's next row lies so many rows of means below.
+constexpr int kNextRow = 3;
+
 // The same operations, eight or sixteen pixels at a time: compilers know no loads of 16 bits from
 // many places. One load of 32 bits takes a mean and its right neighbour.
 
@@ -131,9 +134,8 @@ DODGESIM_TARGET_AVX2 void read_avx2(const std::uint16_t* means, int stride, Cell
     const __m256 fu = _mm256_sub_ps(at_u, _mm256_cvtepi32_ps(column));
     const __m256 fv = _mm256_sub_ps(at_v, _mm256_cvtepi32_ps(row));
     const __m256i at = _mm256_add_epi32(_mm256_mullo_epi32(row, _mm256_set1_epi32(stride)), column);
-    // The camera's next row lies three rows of means below, with the default supersampling.
     const std::uint16_t* const next =
-        means + _mm_cvtsi128_si32(_mm256_castsi256_si128(at)) + 3 * stride;
+        means + _mm_cvtsi128_si32(_mm256_castsi256_si128(at)) + kNextRow * stride;
     _mm_prefetch(next, _MM_HINT_T0);
     _mm_prefetch(next + stride, _MM_HINT_T0);
     const __m256i top = _mm256_i32gather_epi32(reinterpret_cast<const int*>(means), at, 2);
@@ -215,12 +217,10 @@ DODGESIM_TARGET_AVX512 inline bool pick(const std::uint16_t* means, int stride, 
     above = _mm512_cmpeq_epi32_mask(down, _mm512_set1_epi32(n));
     corners.top = _mm512_mask_mov_epi32(corners.top, above, picked);
   }
-  // What the camera's next row needs besides lies three rows of means below, with the default
-  // supersampling.
-  constexpr int kDown = 3;
-  const int first = larger(kDown, rows + 1);
+  // What the camera's next row needs besides.
+  const int first = larger(kNextRow, rows + 1);
   at = means + (row + first) * stride + column;
-  for (int n = first; n <= kDown + rows; ++n, at += stride) {
+  for (int n = first; n <= kNextRow + rows; ++n, at += stride) {
     _mm_prefetch(at, _MM_HINT_T0);
     _mm_prefetch(at + kReach / 2, _MM_HINT_T0);
   }
@@ -235,7 +235,8 @@ inline float last_of_cells(CellRow row, int cell) {
 DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, CellRow u,
                                         CellRow v, int cells, float* luminance) {
   constexpr int kCells = 2;
-  constexpr int kMostRows = kKeySpareRows;  // more take longer than to gather
+  // More take longer than to gather, which Intel's processors are quick at.
+  static const int most_rows = __builtin_cpu_is("intel") ? 0 : kKeySpareRows;
   const __m512i low = _mm512_set1_epi32(0xffff);
   int cell = 0;
   for (; cell + kCells <= cells; cell += kCells) {
@@ -246,8 +247,13 @@ DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, 
     const int rows = static_cast<int>(larger(v0, v1)) - row + 1;
     const int column = static_cast<int>(smaller(u.first[cell], last_of_cells(u, cell)));
     Corners c = {_mm512_setzero_si512(), _mm512_setzero_si512()};
-    if (rows > kMostRows || !pick(means, stride, p, row, rows, column, c)) {
+    if (rows > most_rows || !pick(means, stride, p, row, rows, column, c)) {
       c = gathered(means, stride, p);
+      const std::uint16_t* const next = means + (row + kNextRow) * stride + column;
+      for (int n = 0; n < 2; ++n) {
+        _mm_prefetch(next + n * stride, _MM_HINT_T0);
+        _mm_prefetch(next + n * stride + kReach / 2, _MM_HINT_T0);
+      }
     }
     const __m512 upper =
         between(numbers(_mm512_and_si512(c.top, low)), numbers(_mm512_srli_epi32(c.top, 16)), p.fu);
