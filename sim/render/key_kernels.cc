@@ -33,6 +33,54 @@ constexpr int kMantissaBits = 13;
   for (int i = 0; i < size; ++i) halves[i] = static_cast<std::uint16_t>(to_half(values[i]));
 }
 
+[[gnu::always_inline]] inline void means_row(const float* rows, int stride, int n, int size,
+                                             float* __restrict sums, float* __restrict means) {
+  for (int i = 0; i < size; ++i) sums[i] = rows[i];
+  for (int k = 1; k < n; ++k) {
+    const float* const __restrict row = rows + std::ptrdiff_t{k} * stride;
+    for (int i = 0; i < size; ++i) sums[i] += row[i];
+  }
+  const int count = size - n + 1;
+  for (int i = 0; i < count; ++i) means[i] = sums[i];
+  for (int k = 1; k < n; ++k) {
+    for (int i = 0; i < count; ++i) means[i] += sums[i + k];
+  }
+  const float share = 1.0f / static_cast<float>(n * n);
+  for (int i = 0; i < count; ++i) means[i] *= share;
+}
+
+// Straight lines between means take from a wave, on the average over all places between them, what
+// this gives it first (the series of 1/sinc^2). Next to an edge it would go too far below the dark
+// side, of which the logarithm makes much; so it stops at this share of its neighbours.
+constexpr float kSharpening = 1.0f / 12;
+constexpr float kDarkest = 0.95f;
+
+[[gnu::always_inline]] inline float sharpened(float before, float here, float after) {
+  const float sharp = here + kSharpening * (2 * here - before - after);
+  return larger(sharp, kDarkest * smaller(here, smaller(before, after)));
+}
+
+[[gnu::always_inline]] inline void sharpen_row(const float* __restrict above,
+                                               const float* __restrict row,
+                                               const float* __restrict below, int size,
+                                               float* __restrict across, float* __restrict sharp) {
+  for (int i = 0; i < size; ++i) across[i] = sharpened(above[i], row[i], below[i]);
+  for (int i = 1; i + 1 < size; ++i) {
+    sharp[i] = sharpened(across[i - 1], across[i], across[i + 1]);
+  }
+  sharp[0] = across[0];
+  sharp[size - 1] = across[size - 1];
+}
+
+[[gnu::always_inline]] inline void largest_of_blocks(const float* rows, int stride, int n,
+                                                     int blocks, float* __restrict out) {
+  for (int i = 0; i < blocks; ++i) out[i] = 0;
+  for (int k = 0; k < n * n; ++k) {
+    const float* const __restrict row = rows + std::ptrdiff_t{k / n} * stride + k % n;
+    for (int i = 0; i < blocks; ++i) out[i] = larger(out[i], row[std::ptrdiff_t{i} * n]);
+  }
+}
+
 // Fixed-point iterations from the direction alone: each reads the depth where the last one led.
 constexpr int kDepthReadings = 3;
 
@@ -273,8 +321,10 @@ constexpr std::array<decltype(KeyKernels::read), kVectorLevels> kRead = {read_po
                                                                          read_avx512};
 
 constexpr KeyKernels kernels(int level) {
-  return {compiled_for<halve_row>(level), compiled_for<place_row>(level),
-          compiled_for<span_row>(level), kRead[static_cast<std::size_t>(level)]};
+  return {compiled_for<means_row>(level),         compiled_for<sharpen_row>(level),
+          compiled_for<largest_of_blocks>(level), compiled_for<halve_row>(level),
+          compiled_for<place_row>(level),         compiled_for<span_row>(level),
+          kRead[static_cast<std::size_t>(level)]};
 }
 
 constexpr std::array<KeyKernels, kVectorLevels> kKernels = {kernels(kPortable), kernels(kAvx2),

@@ -29,6 +29,15 @@ struct CellRow {
 };
 
 struct KeyKernels {
+  // Means over n x n values: those that begin at each of the first size - n + 1 values of the first
+  // of n rows of `size` values, which lie `stride` values apart. `sums` is scratch for `size`.
+  void (*means)(const float* rows, int stride, int n, int size, float* sums, float* means);
+  // A row of means, from the rows above it, of it and below it: what is lost between means that are
+  // joined by straight lines, on the average, is put in before. `across` is scratch for `size`.
+  void (*sharpen)(const float* above, const float* row, const float* below, int size, float* across,
+                  float* sharp);
+  // The largest of blocks of n x n values side by side.
+  void (*largest)(const float* rows, int stride, int n, int blocks, float* largest);
   // Half precision (IEEE 754 binary16), rounded half up; of numbers from 0 to kLargestHalf.
   void (*halve)(const float* values, int size, std::uint16_t* halves);
   // Where view pixels (column, row), (column + step, row), ... lie in the key's depth [px].

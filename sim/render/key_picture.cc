@@ -35,17 +35,6 @@ Rect cells_about(const Rect& region) {
   return {region.x0 / kKeyCellPx, region.y0 / kKeyCellPx, cells_of(region.x1), cells_of(region.y1)};
 }
 
-// Straight lines between means take from a wave, on the average over all places between them, what
-// this gives it first (the series of 1/sinc^2). Next to an edge it would go too far below the dark
-// side, of which the logarithm makes much; so it stops at this share of its neighbours.
-constexpr float kSharpening = 1.0f / 12;
-constexpr float kDarkest = 0.95f;
-
-inline float sharpened(float before, float here, float after) {
-  const float sharp = here + kSharpening * (2 * here - before - after);
-  return larger(sharp, kDarkest * smaller(here, smaller(before, after)));
-}
-
 std::size_t area(const Intrinsics& picture) {
   return static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
 }
@@ -72,9 +61,9 @@ KeyPicture::KeyPicture(const Intrinsics& view, const KeySpec& spec)
   fine_ = {supersampling_ * wide_.width, supersampling_ * wide_.height, supersampling_ * f};
   means_.resize(area(fine_) +
                 static_cast<std::size_t>(kKeySpareRows) * static_cast<std::size_t>(fine_.width));
-  column_sums_.resize(static_cast<std::size_t>(fine_.width));
-  sharp_row_.resize(column_sums_.size());
-  for (auto& row : mean_rows_) row.resize(column_sums_.size());
+  scratch_row_.resize(static_cast<std::size_t>(fine_.width));
+  sharp_row_.resize(scratch_row_.size());
+  for (auto& row : mean_rows_) row.resize(scratch_row_.size());
   inverse_depth_.resize(area(wide_));
   tile_columns_ = cells_of(wide_.width);
   tile_nearest_.resize(tile(0, cells_of(wide_.height)));
@@ -110,22 +99,8 @@ void KeyPicture::set_aperture_means(const std::vector<float>& luminance) {
 }
 
 void KeyPicture::take_means(const std::vector<float>& luminance, int j, std::vector<float>& means) {
-  const int n = supersampling_;
-  const int width = fine_.width;
-  const float* const top = luminance.data() + std::ptrdiff_t{j} * width;
-  float* const __restrict sums = column_sums_.data();
-  std::copy_n(top, width, sums);
-  for (int k = 1; k < n; ++k) {
-    const float* const row = top + std::ptrdiff_t{k} * width;
-    for (int i = 0; i < width; ++i) sums[i] += row[i];
-  }
-  float* const __restrict out = means.data();
-  for (int i = 0; i + n <= width; ++i) out[i] = sums[i];
-  for (int k = 1; k < n; ++k) {
-    for (int i = 0; i + n <= width; ++i) out[i] += sums[i + k];
-  }
-  const float share = 1.0f / static_cast<float>(n * n);
-  for (int i = 0; i + n <= width; ++i) out[i] *= share;
+  key_kernels().means(luminance.data() + std::ptrdiff_t{j} * fine_.width, fine_.width,
+                      supersampling_, fine_.width, scratch_row_.data(), means.data());
 }
 
 // Row j of means_, from the rows above it, of it and below it.
@@ -134,33 +109,21 @@ void KeyPicture::put_means(int j, int above, int at, int below) {
     return mean_rows_[static_cast<std::size_t>(k % kMeanRows)].data();
   };
   const int size = fine_.width - supersampling_ + 1;
-  float* const __restrict across = column_sums_.data();
-  const float* const a = row(above);
-  const float* const b = row(at);
-  const float* const c = row(below);
-  if (every_picture_) {  // read at the means themselves
-    key_kernels().halve(b, size, means_.data() + std::ptrdiff_t{j} * fine_.width);
-    return;
+  const float* means = row(at);
+  if (!every_picture_) {  // else they are read at the means themselves
+    key_kernels().sharpen(row(above), means, row(below), size, scratch_row_.data(),
+                          sharp_row_.data());
+    means = sharp_row_.data();
   }
-  for (int i = 0; i < size; ++i) across[i] = sharpened(a[i], b[i], c[i]);
-  float* const __restrict out = sharp_row_.data();
-  for (int i = 1; i + 1 < size; ++i) out[i] = sharpened(across[i - 1], across[i], across[i + 1]);
-  out[0] = across[0];
-  out[size - 1] = across[size - 1];
-  key_kernels().halve(out, size, means_.data() + std::ptrdiff_t{j} * fine_.width);
+  key_kernels().halve(means, size, means_.data() + std::ptrdiff_t{j} * fine_.width);
 }
 
 // Of the pixels of a fine block the nearest counts, so that nothing thin is lost.
 void KeyPicture::set_depth(const std::vector<float>& inverse_depth) {
   const int n = supersampling_;
   for (int j = 0; j < wide_.height; ++j) {
-    float* const __restrict out = inverse_depth_.data() + std::ptrdiff_t{j} * wide_.width;
-    std::fill_n(out, wide_.width, 0.0f);
-    for (int k = 0; k < n * n; ++k) {
-      const float* const in =
-          inverse_depth.data() + std::ptrdiff_t{j * n + k / n} * fine_.width + k % n;
-      for (int i = 0; i < wide_.width; ++i) out[i] = larger(out[i], in[std::ptrdiff_t{i} * n]);
-    }
+    key_kernels().largest(inverse_depth.data() + std::ptrdiff_t{j * n} * fine_.width, fine_.width,
+                          n, wide_.width, inverse_depth_.data() + std::ptrdiff_t{j} * wide_.width);
   }
   nearest_inverse_m_ = 0;
   misplacement_px_per_m_ = 0;

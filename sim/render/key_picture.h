@@ -74,7 +74,7 @@ class KeyPicture {
   // While means are taken.
   static constexpr int kMeanRows = 3;
   std::array<std::vector<float>, kMeanRows> mean_rows_;
-  std::vector<float> column_sums_, sharp_row_;
+  std::vector<float> scratch_row_, sharp_row_;
 
   Eigen::Isometry3d X_KW_ = Eigen::Isometry3d::Identity();  // K: the camera when it was drawn
   std::vector<std::uint16_t> means_;  // over apertures, half precision; of fine_, with spare rows
