@@ -25,10 +25,9 @@ constexpr Number kEqualShare = std::is_same_v<Number, float> ? Number(0.01) : Nu
 
 // Of numbers that are not negative, which are ordered like their bits: with a comparison of numbers
 // compilers follow both ways to the end.
-template <float kMost>
-[[gnu::always_inline]] inline float at_most(float x) {
-  constexpr auto kMostBits = std::bit_cast<std::uint32_t>(kMost);
-  return std::bit_cast<float>(std::min(std::bit_cast<std::uint32_t>(x), kMostBits));
+[[gnu::always_inline]] inline float at_most(float x, float most) {
+  return std::bit_cast<float>(
+      std::min(std::bit_cast<std::uint32_t>(x), std::bit_cast<std::uint32_t>(most)));
 }
 
 // How a low-pass answers over an interval of x tau: exp(-x), and its mean over the interval.
@@ -44,7 +43,7 @@ struct Decay {
   constexpr float kRound = 12582912.0f;  // 1.5 * 2^23: adding it rounds to an integer
   constexpr float kLn2 = 0.693147181f;
   constexpr std::uint32_t kOne = 0x3f800000u;
-  const float within = at_most<kMost>(x);
+  const float within = at_most(x, kMost);
   const float shifted = within * 1.44269504f + kRound;
   const float r = within - (shifted - kRound) * kLn2;
   // Summed in pairs and with the division on its own, so that nothing waits long for anything.

@@ -78,8 +78,9 @@ DODGESIM_INLINE void cover_cut_pixels(const SolidView& v, float column, float y,
   float sum[kRowLanes] = {};
   const float width = 1.0f / static_cast<float>(v.pieces), first = 0.5f * width - 0.5f;
   for (int part = 0; part < v.pieces * v.pieces; ++part) {
-    const float right = first + width * static_cast<float>(part % v.pieces);
-    const float down = y + first + width * static_cast<float>(part / v.pieces);
+    const int part_column = part % v.pieces, part_row = part / v.pieces;
+    const float right = first + width * static_cast<float>(part_column);
+    const float down = y + first + width * static_cast<float>(part_row);
     for (int i = 0; i < size; ++i) {
       const float x = (column + static_cast<float>(i)) - v.conic_x;
       const auto line = solid::outline_distance(v, x + right, down);
