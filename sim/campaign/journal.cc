@@ -128,6 +128,14 @@ class RecordReader {
   std::uint64_t at_ = 0, size_ = 0;
 };
 
+ThrowResult decoded(const std::string& bytes, const std::filesystem::path& path) {
+  try {
+    return result_from_bytes(bytes);
+  } catch (const IoError& error) {
+    throw IoError(path.string() + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 std::uint64_t result_digest(const ThrowResult& result) {
@@ -156,7 +164,7 @@ JournalIndex read_journal(const std::filesystem::path& path) {
       continue;
     }
     index.end = reader.at();
-    const ThrowResult result = result_from_bytes(bytes);
+    const ThrowResult result = decoded(bytes, path);
     const auto size = static_cast<std::uint32_t>(bytes.size());
     index.throws[result.index] = {reader.at() - size, size, result_digest(result), result.lost()};
   }
@@ -171,7 +179,7 @@ ThrowResult read_result(std::ifstream& file, const std::filesystem::path& path,
   file.seekg(static_cast<std::streamoff>(record.offset));
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!file) throw IoError(path.string() + " could not be read.");
-  ThrowResult result = result_from_bytes(bytes);
+  ThrowResult result = decoded(bytes, path);
   if (result_digest(result) != record.digest) throw IoError(path.string() + " has changed.");
   return result;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -16,7 +17,9 @@ namespace fs = std::filesystem;
 using dodgesim::testing::CommandTest;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 const fs::path kSource = DODGESIM_SOURCE_DIR;
@@ -148,6 +151,16 @@ TEST_F(DodgesimTest, FliesACampaignAndReplaysAThrowOfIt) {
   const Outcome replay = dodgesim("replay " + one + " --throw 2");
   EXPECT_EQ(replay.exit_code, 0) << replay.output;
   EXPECT_EQ(dodgesim("replay " + one + " --throw 3").exit_code, 2) << "there are three throws";
+
+  // With another seed it is another throw.
+  const std::string kept = contents(one + "/scenario.resolved.yaml");
+  std::ofstream(one + "/scenario.resolved.yaml")
+      << std::regex_replace(kept, std::regex("seed: 9"), "seed: 8");
+  const Outcome changed = dodgesim("replay " + one + " --throw 2");
+  EXPECT_EQ(changed.exit_code, 1) << changed.output;
+  EXPECT_THAT(changed.output, HasSubstr("Throw 2 did not fly as recorded"));
+  EXPECT_THAT(changed.output, ContainsRegex("\n  distance_m: recorded [0-9.]+, flown [0-9.]+\n"));
+  EXPECT_THAT(changed.output, Not(HasSubstr("  throw: ")));
 }
 
 TEST_F(DodgesimTest, WritesTheTruthAboutEvents) {

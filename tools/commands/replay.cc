@@ -17,6 +17,7 @@
 #include "sim/config/expand.h"
 #include "sim/config/pilot.h"
 #include "sim/files/event_writer.h"
+#include "sim/gate/csv_table.h"
 #include "sim/loop.h"
 #include "sim/observers/event_truth.h"
 #include "sim/observers/film.h"
@@ -135,6 +136,20 @@ std::optional<std::string> recorded_row(const std::filesystem::path& directory,
   std::cerr << "Throw " << throw_index
             << " was lost, there is nothing to compare with: " << result.flown.error << "\n";
   return std::nullopt;
+}
+
+// The columns in which two rows differ, a line each.
+std::string differences(const std::string& header, const std::string& recorded,
+                        const std::string& flown) {
+  const CsvTable rows(header + recorded + flown, "The throw");
+  const auto shown = [](const std::string& cell) { return cell.empty() ? "nothing" : cell; };
+  std::string text;
+  for (const std::string& column : rows.columns()) {
+    const std::string &before = rows.at(0, column), &now = rows.at(1, column);
+    if (before == now) continue;
+    text += "  " + column + ": recorded " + shown(before) + ", flown " + shown(now) + "\n";
+  }
+  return text;
 }
 
 std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
@@ -275,7 +290,7 @@ int replay(const ReplayArguments& arguments) {
   std::cerr << "Throw " << arguments.throw_index
             << " did not fly as recorded: was it another commit or another kind of machine, or "
                "does its pilot not do the same twice?\n"
-            << "recorded: " << *recorded << "flown:    " << flown;
+            << differences(csv_header(result), *recorded, flown);
   return kBelowBar;
 }
 
