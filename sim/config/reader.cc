@@ -23,6 +23,16 @@ std::string quote(const std::string& text) {
   return "\"" + text.substr(0, end) + "...\"";
 }
 
+// "{mean: 3, sd: 1}", if it is short.
+std::string describe_map(const YamlNode& node) {
+  std::string text;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (node.items[i].kind != Kind::kScalar || text.size() > kLongestQuote) return "a map";
+    text += (i > 0 ? ", " : "") + node.keys[i].name + ": " + node.items[i].text;
+  }
+  return text.size() > kLongestQuote ? "a map" : "{" + text + "}";
+}
+
 // What the user wrote, for "throw.size_m is <this>, but must be ...".
 std::string describe(const YamlNode& node) {
   const std::string tag = node.tag.empty() ? "" : node.tag + " ";
@@ -33,7 +43,7 @@ std::string describe(const YamlNode& node) {
       return tag + (node.items.empty() ? "an empty list"
                                        : "a list of " + std::to_string(node.items.size()));
     case Kind::kMap:
-      return tag + "a map";
+      return tag.empty() ? "a map" : tag + describe_map(node);
     case Kind::kScalar:
       break;
   }
@@ -99,16 +109,15 @@ bool Reader::is_map(const YamlNode& node, const std::string& name) {
   return false;
 }
 
-const YamlNode* Reader::take_list(const char* key, const char* wanted) {
-  constexpr std::size_t kMostItems = 100;
+const YamlNode* Reader::take_list(const char* key, const char* wanted, std::size_t most) {
   const YamlNode* node = take(key);
   if (node == nullptr) return nullptr;
   if (node->kind == Kind::kSequence && node->tag.empty() && !node->items.empty() &&
-      node->items.size() <= kMostItems) {
+      node->items.size() <= most) {
     return node;
   }
   problem(*node, full(key),
-          std::string("must be ") + wanted + ", 1 to " + std::to_string(kMostItems) + " of them");
+          std::string("must be ") + wanted + ", 1 to " + std::to_string(most) + " of them");
   return nullptr;
 }
 
@@ -220,7 +229,7 @@ void Reader::operator()(const char* key, std::optional<Eigen::Vector3d>& value, 
 
 void Reader::operator()(const char* key, std::vector<Eigen::Vector3d>& value, double min,
                         double max, const char*) {
-  const YamlNode* list = take_list(key, "a list of [x, y, z]");
+  const YamlNode* list = take_list(key, "a list of [x, y, z]", kMostPoints);
   if (list == nullptr) return;
   value.assign(list->items.size(), Eigen::Vector3d::Zero());
   for (std::size_t i = 0; i < value.size(); ++i) {

@@ -50,7 +50,7 @@ class Reader {
   void operator()(const char* key, std::optional<Eigen::Vector3d>& value, double min, double max,
                   const char*);
 
-  // A list of up to 100.
+  // A list of up to kMostPoints.
   void operator()(const char* key, std::vector<Eigen::Vector3d>& value, double min, double max,
                   const char*);
 
@@ -84,10 +84,10 @@ class Reader {
     read_nested(key, *map, *value);
   }
 
-  // A list of parts.
+  // A list of up to kMostParts.
   template <class T>
   void operator()(const char* key, std::vector<T>& values, const char*) {
-    const YamlNode* list = take_list(key, "a list of maps");
+    const YamlNode* list = take_list(key, "a list of maps", kMostParts);
     if (list == nullptr) return;
     values.clear();
     for (const YamlNode& item : list->items) {
@@ -98,6 +98,9 @@ class Reader {
   }
 
  private:
+  static constexpr std::size_t kMostPoints = 100;
+  static constexpr std::size_t kMostParts = 16;  // throws: as many objects can fly
+
   template <class T>
   void read_nested(const std::string& key, const YamlNode& map, T& value) {
     Reader nested(map, full(key), context_);
@@ -108,7 +111,7 @@ class Reader {
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   const YamlNode* take(const char* key);
   const YamlNode* take_map(const char* key);
-  const YamlNode* take_list(const char* key, const char* wanted);  // not empty
+  const YamlNode* take_list(const char* key, const char* wanted, std::size_t most);  // not empty
   bool is_map(const YamlNode& node, const std::string& name);
   void problem(const YamlNode& node, const std::string& name, const std::string& complaint);
 

@@ -42,9 +42,10 @@ void EventWords::sort() {
   sort_ties();
 }
 
-// Most are in order already.
+// Most words are in order already.
 void EventWords::sort_ties() {
   constexpr std::ptrdiff_t kFewTies = 16;
+  if (words_.empty()) return;
   const auto time = [](std::uint64_t word) { return word >> kTimeShift; };
   std::uint64_t* const begin = words_.data();
   std::uint64_t* const end = begin + words_.size();

@@ -29,6 +29,10 @@ constexpr Number kEqualShare = std::is_same_v<Number, float> ? Number(0.01) : Nu
   return std::bit_cast<float>(
       std::min(std::bit_cast<std::uint32_t>(x), std::bit_cast<std::uint32_t>(most)));
 }
+[[gnu::always_inline]] inline float at_least(float x, float least) {
+  return std::bit_cast<float>(
+      std::max(std::bit_cast<std::uint32_t>(x), std::bit_cast<std::uint32_t>(least)));
+}
 
 // How a low-pass answers over an interval of x tau: exp(-x), and its mean over the interval.
 template <class Number>
@@ -37,25 +41,26 @@ struct Decay {
 };
 
 // Both to within 3e-7. x = n ln 2 + r with |r| <= ln(2)/2, and exp(-r) = 1 - r q, where q is fitted
-// so that the greatest error is least (1.1e-8).
+// so that the greatest error is least (3e-8).
 [[gnu::always_inline]] inline Decay<float> decay(float x) {
+  constexpr float kLeast = 1e-30f;       // in so short a time nothing happens
   constexpr float kMost = 80;            // after so long nothing is left
   constexpr float kRound = 12582912.0f;  // 1.5 * 2^23: adding it rounds to an integer
   constexpr float kLn2 = 0.693147181f;
   constexpr std::uint32_t kOne = 0x3f800000u;
-  const float within = at_most(x, kMost);
+  const float some = at_least(x, kLeast), within = at_most(some, kMost);
   const float shifted = within * 1.44269504f + kRound;
   const float r = within - (shifted - kRound) * kLn2;
   // Summed in pairs and with the division on its own, so that nothing waits long for anything.
   const float r2 = r * r;
-  const float low = 1.00000001f - r * 0.500000008f;
+  const float low = 1.0f - r * 0.5f;
   const float middle = 0.166665046f - r * 0.041666239f;
   const float high = 0.00836922227f - r * 0.00139487038f;
   const float q = low + r2 * (middle + r2 * high);
   // 2^-n: the lowest bits of `shifted` are those of n.
   const float halved = std::bit_cast<float>(kOne - (std::bit_cast<std::uint32_t>(shifted) << 23));
   const float fallen = (halved * r) * q;
-  return {halved - fallen, ((1.0f - halved) + fallen) * (1.0f / x)};
+  return {halved - fallen, ((1.0f - halved) + fallen) * (1.0f / some)};
 }
 
 // To within 1e-9, and the same on every machine, which libm's exp is not.
@@ -122,9 +127,11 @@ template <int kOrder, bool kOwnTime, bool kLinear>
     const float light1 = row.luminance[i];
     const float u0 = row.u[i];  // not from the light before: a logarithm costs more than to read it
     const float u1 = kLinear ? c.response.at(light1) : c.response.logarithm(light1);
-    float least = smaller(u0, u1);
-    float most = larger(u0, u1);
-    if constexpr (kOrder > 0) {
+    float least{}, most{};  // of the output from sample to sample
+    if constexpr (kOrder == 0) {
+      least = smaller(u0, u1);
+      most = larger(u0, u1);
+    } else {
       const float light0 = row.light[i], y0 = row.y[i];
       const float dt_s = kOwnTime ? row.dt_s[i] : row.same_dt_s;
       const float x1 = (c.dark_rad_s + c.rad_s * (0.5f * light0 + 0.5f * light1)) * dt_s;
@@ -142,9 +149,11 @@ template <int kOrder, bool kOwnTime, bool kLinear>
         const float x2 = c.follower_rad_s * dt_s;
         const Kept<float> left = kept(x1, first, x2, decay(x2));
         row.z0[i] = z0;
-        row.z[i] = u1 + left.z * (z0 - u0) + left.y * from0 - left.rise * rise;
-        least = smaller(z0, least);
-        most = larger(z0, most);
+        const float z1 = u1 + left.z * (z0 - u0) + left.y * from0 - left.rise * rise;
+        row.z[i] = z1;
+        // z follows y, but for rounding.
+        least = smaller(smaller(z0, z1), least);
+        most = larger(larger(z0, z1), most);
       }
       row.light0[i] = light0;
       row.light[i] = light1;

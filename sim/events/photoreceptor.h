@@ -51,8 +51,8 @@ class Photoreceptor {
     const float* luminance;
     const float* dt_s;  // since each pixel's last sample; null: same_dt_s
     float same_dt_s;
-    // Of the last sample, replaced by this one's: its luminance (`light`) and y as far as the order
-    // is 1, z as far as it is 2.
+    // Of the last sample, replaced by this one's. Its luminance (`light`) and y if the order is at
+    // least 1, z if it is 2; else null.
     float *light, *u, *y, *z;
     float *light0, *u0, *y0, *z0;  // what they were
     // Bounds of z: a pixel whose z stays strictly between them makes no event.

@@ -41,8 +41,8 @@ Readout::Readout(const EventCameraSpec& spec, int width, int height, const Rando
   for (std::size_t i = 0; i < kLatenesses; ++i) {
     const double normal = normal_quantile((static_cast<double>(i) + 0.5) / kLatenesses);
     const double late_us = static_cast<double>(spec.latency_us) + spec.jitter_us * normal;
-    const double rounded_us = std::max(0.0, late_us) + 0.5;
-    lateness_us_.push_back(static_cast<TimeUs>(rounded_us));
+    const double half_more_us = std::max(0.0, late_us) + 0.5;
+    lateness_us_.push_back(static_cast<TimeUs>(half_more_us));
   }
   if (service_us_ > 0) waits_until_.resize(width_ * static_cast<std::size_t>(height));
 }

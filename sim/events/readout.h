@@ -62,7 +62,7 @@ class Readout {
 
   double free_us_ = 0;               // when the arbiter has served all, since the reset
   double served_us_ = 0;             // when it takes the event that it is given last
-  std::vector<double> waits_until_;  // of pixels that have had to wait
+  std::vector<double> waits_until_;  // when each pixel's last request is served
   std::int64_t lost_ = 0;
 
   std::vector<Later> to_arrive_, to_leave_;

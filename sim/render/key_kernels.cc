@@ -242,8 +242,8 @@ DODGESIM_TARGET_AVX512 inline Corners gathered(const std::uint16_t* means, int s
 
 constexpr int kReach = 64;
 
-// The same as gathered() in a fraction of its time, if the pixels lie in `rows` rows from `row` on
-// and within kReach means from `column` on; false if they do not.
+// The same as gathered(), on AMD's processors in a fraction of its time, if the pixels lie in
+// `rows` rows from `row` on and within kReach means from `column` on; false if they do not.
 DODGESIM_TARGET_AVX512 inline bool pick(const std::uint16_t* means, int stride, const Places& p,
                                         int row, int rows, int column, Corners& corners) {
   const __m512i right = _mm512_sub_epi32(p.column, _mm512_set1_epi32(column));
@@ -280,11 +280,11 @@ inline float last_of_cells(CellRow row, int cell) {
   return row.first[cell + 1] + row.step[cell + 1] * (kKeyCellPx - 1);
 }
 
+template <bool kGathers>
 DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, CellRow u,
                                         CellRow v, int cells, float* luminance) {
   constexpr int kCells = 2;
-  // More take longer than to gather, which Intel's processors are quick at.
-  static const int most_rows = __builtin_cpu_is("intel") ? 0 : kKeySpareRows;
+  constexpr int kMostRows = kGathers ? 0 : kKeySpareRows;  // more take longer than to gather
   const __m512i low = _mm512_set1_epi32(0xffff);
   int cell = 0;
   for (; cell + kCells <= cells; cell += kCells) {
@@ -295,7 +295,7 @@ DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, 
     const int rows = static_cast<int>(larger(v0, v1)) - row + 1;
     const int column = static_cast<int>(smaller(u.first[cell], last_of_cells(u, cell)));
     Corners c = {_mm512_setzero_si512(), _mm512_setzero_si512()};
-    if (rows > most_rows || !pick(means, stride, p, row, rows, column, c)) {
+    if (rows > kMostRows || !pick(means, stride, p, row, rows, column, c)) {
       c = gathered(means, stride, p);
       const std::uint16_t* const next = means + (row + kNextRow) * stride + column;
       for (int n = 0; n < 2; ++n) {
@@ -314,31 +314,45 @@ DODGESIM_TARGET_AVX512 void read_avx512(const std::uint16_t* means, int stride, 
                 cells - cell, luminance + cell * kKeyCellPx);
 }
 #else
-constexpr auto read_avx2 = read_portable, read_avx512 = read_portable;
+constexpr auto read_avx2 = read_portable;
+template <bool kGathers>
+constexpr auto read_avx512 = read_portable;
 #endif
 
-constexpr std::array<decltype(KeyKernels::read), kVectorLevels> kRead = {read_portable, read_avx2,
-                                                                         read_avx512};
-
-constexpr KeyKernels kernels(int level) {
-  return {compiled_for<means_row>(level),         compiled_for<sharpen_row>(level),
-          compiled_for<largest_of_blocks>(level), compiled_for<halve_row>(level),
-          compiled_for<place_row>(level),         compiled_for<span_row>(level),
-          kRead[static_cast<std::size_t>(level)]};
+constexpr KeyKernels kernels(int level, decltype(KeyKernels::read) read) {
+  return {compiled_for<means_row>(level),
+          compiled_for<sharpen_row>(level),
+          compiled_for<largest_of_blocks>(level),
+          compiled_for<halve_row>(level),
+          compiled_for<place_row>(level),
+          compiled_for<span_row>(level),
+          read};
 }
 
-constexpr std::array<KeyKernels, kVectorLevels> kKernels = {kernels(kPortable), kernels(kAvx2),
-                                                            kernels(kAvx512)};
+constexpr std::array<KeyKernels, kVectorLevels> kKernels = {kernels(kPortable, read_portable),
+                                                            kernels(kAvx2, read_avx2),
+                                                            kernels(kAvx512, read_avx512<true>)};
+constexpr KeyKernels kWithoutGathers = kernels(kAvx512, read_avx512<false>);
+
+// Those of Intel's processors are quick, those of AMD's are not.
+bool gathers_are_quick() {
+#if defined(__x86_64__)
+  return __builtin_cpu_is("intel") != 0;
+#else
+  return false;
+#endif
+}
 
 }  // namespace
 
-const KeyKernels& key_kernels(int vector_level) {
+const KeyKernels& key_kernels(int vector_level, bool gathers) {
+  if (vector_level == kAvx512 && !gathers) return kWithoutGathers;
   return kKernels[static_cast<std::size_t>(vector_level)];
 }
 
 const KeyKernels& key_kernels() {
-  static const int level = widest_vector_level();
-  return key_kernels(level);
+  static const KeyKernels& fastest = key_kernels(widest_vector_level(), gathers_are_quick());
+  return fastest;
 }
 
 }  // namespace dodgesim

@@ -22,6 +22,7 @@ struct KeyMap {
 
 inline constexpr int kKeyCellPx = 8;
 inline constexpr int kKeySpareRows = 16;
+inline constexpr int kKeySpareMeans = 64;
 
 // Coordinates of the pixels in a row of cells: pixel i of a cell lies at first + i * step.
 struct CellRow {
@@ -36,7 +37,7 @@ struct KeyKernels {
   // joined by straight lines, on the average, is put in before. `across` is scratch for `size`.
   void (*sharpen)(const float* above, const float* row, const float* below, int size, float* across,
                   float* sharp);
-  // The largest of blocks of n x n values side by side.
+  // The largest of blocks of n x n values side by side, none of which is negative.
   void (*largest)(const float* rows, int stride, int n, int blocks, float* largest);
   // Half precision (IEEE 754 binary16), rounded half up; of numbers from 0 to kLargestHalf.
   void (*halve)(const float* values, int size, std::uint16_t* halves);
@@ -47,13 +48,15 @@ struct KeyKernels {
   // to `below`: where each cell's first pixel lies, and the step from pixel to pixel.
   void (*span)(const float* above, const float* below, float share, int cells, CellRow row);
   // Reads `means` (half precision) at all pixels of a row of cells, whose columns and rows among
-  // the means are u and v, linearly in between. kKeySpareRows rows must follow the last one that is
-  // needed; what is in them does not matter.
+  // the means are u and v, linearly in between. kKeySpareRows rows, and no fewer than
+  // kKeySpareMeans means, must follow the last one that is needed; what is in them does not matter.
   void (*read)(const std::uint16_t* means, int stride, CellRow u, CellRow v, int cells,
                float* luminance);
 };
 
-const KeyKernels& key_kernels();                  // the fastest
-const KeyKernels& key_kernels(int vector_level);  // this processor must have it
+const KeyKernels& key_kernels();  // the fastest
+// This processor must have the level. With vectors of 512 bits it reads by gathers, or by loads and
+// permutations where those take less time.
+const KeyKernels& key_kernels(int vector_level, bool gathers = true);
 
 }  // namespace dodgesim

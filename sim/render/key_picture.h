@@ -86,9 +86,9 @@ class KeyPicture {
   // Of the last show().
   Eigen::Isometry3d X_KC_ = Eigen::Isometry3d::Identity();
   std::vector<float> node_u_, node_v_;  // where a node lies in means_ [px]
-  std::vector<float> cell_u_, cell_v_, step_u_,
-      step_v_;              // where a row's cells begin; from px to px
-  std::vector<float> row_;  // of the view, in whole cells
+  std::vector<float> cell_u_, cell_v_;  // where a row's cells begin in means_
+  std::vector<float> step_u_, step_v_;  // from pixel to pixel of a cell
+  std::vector<float> row_;              // of the view, in whole cells
 };
 
 }  // namespace dodgesim

@@ -222,6 +222,7 @@ PrimitivePainter::Span PrimitivePainter::covered(int size) const {
 void PrimitivePainter::paint_row(int y, int size, const float* depth, float* luminance) {
   const SurfaceKernels& kernels = surface_kernels();
   const auto [begin, lanes] = covered(size);
+  if (lanes == 0) return;
   float* const value = value_.data() + begin;
   float* const sum = sum_.data() + begin;
   std::fill_n(sum, lanes, 0.0f);

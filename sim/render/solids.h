@@ -216,8 +216,8 @@ DODGESIM_INLINE OutlineForm outline_form(const SolidView& v, float x, float y) {
   const float q_y = c[3] * x + c[4] * y + c[5];
   return {q_x * x + q_y * y + (c[6] * x + c[7] * y + c[8]), 2.0f * q_x, 2.0f * q_y};
 }
-// Whether the outline may be nearer than `far`: no straight line from there reaches it sooner, as
-// the form changes by no more than the gradient and its own greatest bend say.
+// Whether the outline may be nearer than `far`: over that way the form changes by no more than far
+// |gradient| + far^2 |its second-order part|, whose norms sums of absolute values bound.
 DODGESIM_INLINE bool outline_is_near(const SolidView& v, const OutlineForm& form, float far) {
   const float* c = v.conic;
   const float bend = magnitude(c[0]) + magnitude(c[1]) + magnitude(c[3]) + magnitude(c[4]);

@@ -156,6 +156,9 @@ TEST_F(ReportCommandTest, ASweepHasACurveWithItsBandForEachCellOfTheGrid) {
   // Without --by the cells of the grid are told apart.
   EXPECT_THAT(dodgesim("table " + path("swept") + " --format csv").output,
               ::testing::StartsWith("delays.compute_us,throw.speed_mps,pilot,"));
+  const Outcome twice = dodgesim("table " + path("swept") + " --by speed_mps,size_m,speed_mps");
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_THAT(twice.output, HasSubstr("--by names speed_mps twice."));
 }
 
 TEST_F(ReportCommandTest, ASweepOverNamesSaysThatThereIsNoCurve) {

@@ -19,7 +19,7 @@ bool evades_the_room(const std::string& pilot, int seed, int flight, const std::
 }
 
 TEST(QuietFlight, DodgesimDoesNotTakeTheRoomForAnObject) {
-  // It would, in two flights of three, if it were satisfied with less.
+  // It would in one of them at least, as in most flights, if it were satisfied with less.
   const std::string less =
       "{cluster: {weight_position_1ppx: 0.6}, escape: {min_speed_mps: 1.5},\n"
       " association: {gate_sigmas: 0, min_detections: 5}}";

@@ -37,11 +37,19 @@ void expect_ending(const TableArguments& arguments) {
                       arguments.format + ".");
 }
 
+void expect_keys_once(const std::vector<std::string>& keys) {
+  for (auto key = keys.begin(); key != keys.end(); ++key) {
+    if (std::find(keys.begin(), key, *key) == key) continue;
+    throw ScenarioError("--by names " + *key + " twice.");
+  }
+}
+
 int table(const TableArguments& arguments) {
   if (!arguments.out.empty() && belongs_to_campaign(arguments.out)) {
     throw ScenarioError("--out " + arguments.out + " would overwrite a file of a campaign.");
   }
   if (!arguments.out.empty()) expect_ending(arguments);
+  expect_keys_once(arguments.by);
   const LoadedCampaign campaign = load_campaign(arguments.directory);
   const std::vector<Part> parts = parts_of(campaign);
   std::vector<Axis> axes = arguments.by.empty() ? grid_axes(campaign.results) : std::vector<Axis>();

@@ -161,9 +161,10 @@ TEST(Photoreceptor, RowsAgreeWithSinglePixels) {
   for (const auto& [photoreceptor_hz, follower_hz] :
        {std::pair{0.0, 0.0}, {3000.0, 0.0}, {3000.0, 1000.0}}) {
     EventCameraSpec spec = slow(photoreceptor_hz, follower_hz);
-    spec.linear_below = 0.01;
-    const Photoreceptor photoreceptor(spec);
-    for (const bool own_time : {false, true}) {
+    for (const auto& [linear_below, own_time] :
+         {std::pair{0.0, false}, {0.0, true}, {0.01, false}, {0.01, true}}) {
+      spec.linear_below = linear_below;
+      const Photoreceptor photoreceptor(spec);
       Pixels p(999, 4);
       photoreceptor.advance(p.row(own_time));
       for (std::size_t i = 0; i < 999; ++i) {
@@ -250,10 +251,11 @@ TEST(Photoreceptor, RowsAreTheSameBytesAtEveryVectorLevel) {
   for (const auto& [photoreceptor_hz, follower_hz] :
        {std::pair{0.0, 0.0}, {3000.0, 0.0}, {3000.0, 900.0}}) {
     EventCameraSpec spec = slow(photoreceptor_hz, follower_hz);
-    spec.linear_below = 0.01;
-    const Photoreceptor photoreceptor(spec);
     for (const std::size_t size : {1u, 7u, 16u, 31u, 64u, 333u}) {
-      for (const bool own_time : {false, true}) {
+      for (const auto& [linear_below, own_time] :
+           {std::pair{0.0, false}, {0.0, true}, {0.01, false}, {0.01, true}}) {
+        spec.linear_below = linear_below;
+        const Photoreceptor photoreceptor(spec);
         Pixels portable(size, 6), wide(size, 6);
         for (std::size_t i = 0; i < size; i += 3) {
           portable.luminance[i] = wide.luminance[i] = odd[i / 3 % odd.size()];
@@ -281,6 +283,16 @@ TEST(Photoreceptor, RowsAreTheSameBytesAtEveryVectorLevel) {
         }
       }
     }
+  }
+}
+
+// A low-pass that is all but closed keeps what it holds.
+TEST(Photoreceptor, RowsWithNextToNoBandwidthStayWhereTheyAre) {
+  for (const double follower_hz : {1e-9, 1e-30, 1e-39, 1e-60}) {
+    const Photoreceptor photoreceptor(slow(0, follower_hz));
+    Pixels p(50, 11);
+    photoreceptor.advance(p.row(true));
+    for (std::size_t i = 0; i < 50; ++i) EXPECT_NEAR(p.y1[i], p.y0[i], 2e-6) << follower_hz;
   }
 }
 
