@@ -175,8 +175,7 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:1:41: throw.size_m.sd is 0, but must be between"},
     {"NormalMeanOutside", "throw: {size_m: !normal {mean: 0.2, sd: 0.1, min: 0.3, max: 0.4}}\n",
      "bad.yaml:1:17: throw.size_m is !normal {mean: 0.2, sd: 0.1, min: 0.3, max: 0.4}, but must "
-     "have "
-     "min < max and its mean between"},
+     "have min < max and its mean between"},
     {"NormalUnknownKey", "throw: {size_m: !normal {mean: 0.2, sd: 0.1, sigma: 1}}\n",
      "bad.yaml:1:46: throw.size_m.sigma is not a known key"},
     {"UnknownDistribution", "throw: {size_m: !gauss [0, 1]}\n",
