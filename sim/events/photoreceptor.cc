@@ -104,12 +104,9 @@ struct Constants {
   float rad_s, dark_rad_s, follower_rad_s;
 };
 
-// `first` where a and b are on different sides of 0, else `second`. Written as a choice, compilers
-// make a tangle of conditions of it and all that follows.
-[[gnu::always_inline]] inline float where_apart(float a, float b, float first, float second) {
-  const std::int32_t mask = (std::bit_cast<std::int32_t>(a) ^ std::bit_cast<std::int32_t>(b)) >> 31;
-  const auto x = std::bit_cast<std::int32_t>(first), y = std::bit_cast<std::int32_t>(second);
-  return std::bit_cast<float>(y ^ ((x ^ y) & mask));
+// -1 where a and b are on different sides of 0, else 0.
+[[gnu::always_inline]] inline std::int32_t apart(float a, float b) {
+  return (std::bit_cast<std::int32_t>(a) ^ std::bit_cast<std::int32_t>(b)) >> 31;
 }
 
 // Positive, or +0, and finite.
@@ -141,7 +138,7 @@ template <int kOrder, bool kOwnTime, bool kLinear>
       const float y1 = u1 + from1;
       // Where y stays on one side of u it only rises or only falls; where it meets u it turns, and
       // u comes from u0.
-      const float farthest = where_apart(from0, from1, u0, y1);
+      const float farthest = chosen(apart(from0, from1), u0, y1);
       least = smaller(smaller(y0, y1), farthest);
       most = larger(larger(y0, y1), farthest);
       if constexpr (kOrder > 1) {

@@ -79,13 +79,6 @@ DODGESIM_INLINE TexturePlace place_2d(const Vec3& at, const Vec3& right, const V
   return {0, fraction_of(at.x), fraction_of(at.y), right.x, right.y, down.x, down.y};
 }
 
-// `a` where the mask is -1, `b` where it is 0. Written as choices, compilers follow all three axes
-// of a cube to the end, divisions and all.
-DODGESIM_INLINE float chosen(int mask, float a, float b) {
-  const int y = std::bit_cast<int>(b);
-  return std::bit_cast<float>(y ^ ((std::bit_cast<int>(a) ^ y) & mask));
-}
-
 // OpenGL 3.3, table 3.19: a face by the largest component m of a direction; s and t are the others
 // over it, but for signs.
 DODGESIM_INLINE TexturePlace place_cube(const Vec3& at, const Vec3& right, const Vec3& down) {
