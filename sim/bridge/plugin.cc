@@ -36,12 +36,20 @@ Function* function_of(void* library, const char* name, const Plugin& plugin) {
   return reinterpret_cast<Function*>(symbol);
 }
 
+// Why the library could not be loaded, without the name of the copy that nobody knows.
+std::string loading_error(const std::string& copy) {
+  std::string why = ::dlerror();
+  const std::string name = copy + ": ";
+  for (std::size_t at = 0; (at = why.find(name, at)) != std::string::npos;) {
+    why.erase(at, name.size());
+  }
+  return why;
+}
+
 PilotFunction* load(const Plugin& plugin) {
   const std::string path = "/proc/self/fd/" + std::to_string(plugin.copy);
   void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) {
-    refuse(plugin, std::string("cannot be loaded: ") + ::dlerror() + ".");
-  }
+  if (library == nullptr) refuse(plugin, "cannot be loaded: " + loading_error(path) + ".");
   if (function_of<InterfaceFunction>(library, "dodge_plugin_interface", plugin)() !=
       dodge::kPluginInterface) {
     refuse(plugin,

@@ -53,7 +53,10 @@ class RecordReader {
  public:
   explicit RecordReader(const std::filesystem::path& path)
       : path_(path), file_(path, std::ios::binary) {
-    if (!file_) fail(std::string("could not be opened: ") + std::strerror(errno));
+    if (!file_) {
+      fail(std::string("could not be opened: ") + std::strerror(errno) +
+           "; a campaign is named by the directory that `dodgesim run --out DIR` wrote");
+    }
     file_.seekg(0, std::ios::end);
     size_ = static_cast<std::uint64_t>(file_.tellg());
   }

@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::int64_t kMostCombinations = 10000;
 constexpr std::int64_t kMostThrows = 10000000;
-constexpr int kMostObjects = 16;
 
 Position position_of(const ReadContext& context, const std::string& key) {
   const auto found = context.where.find(key);
@@ -80,10 +79,10 @@ void check_throws(const Scenario& scenario, ReadContext& context) {
   }
   int objects = 0;
   for (const ThrowSpec& spec : scenario.throw_specs()) objects += spec.count;
-  if (objects > kMostObjects) {
+  if (objects > ThrowSpec::kMost) {
     context.problems.add(position_of(context, "throws"),
                          "throws has " + std::to_string(objects) + " objects; at most " +
-                             std::to_string(kMostObjects) + " can fly.");
+                             std::to_string(ThrowSpec::kMost) + " can fly.");
   }
 }
 

@@ -84,10 +84,10 @@ class Reader {
     read_nested(key, *map, *value);
   }
 
-  // A list of up to kMostParts.
+  // A list of up to T::kMost.
   template <class T>
   void operator()(const char* key, std::vector<T>& values, const char*) {
-    const YamlNode* list = take_list(key, "a list of maps", kMostParts);
+    const YamlNode* list = take_list(key, "a list of maps", std::size_t{T::kMost});
     if (list == nullptr) return;
     values.clear();
     for (const YamlNode& item : list->items) {
@@ -99,7 +99,6 @@ class Reader {
 
  private:
   static constexpr std::size_t kMostPoints = 100;
-  static constexpr std::size_t kMostParts = 16;  // throws: as many objects can fly
 
   template <class T>
   void read_nested(const std::string& key, const YamlNode& map, T& value) {

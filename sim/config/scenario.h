@@ -99,6 +99,8 @@ struct MissionSpec {
 };
 
 struct ThrowSpec {
+  static constexpr int kMost = 16;  // objects in a flight
+
   NameChoice object = {{"ball"}};
   Distribution size_m = Distribution::constant(0.2);
   Distribution speed_mps = Distribution::constant(6);
@@ -135,7 +137,7 @@ struct ThrowSpec {
     v("launch_height_m", launch_height_m, 0.05, 10,
       "Height of the hand (z of the world) when it lets go.");
     v("launch_s", launch_s, 0.1, 600, "Time of the launch after the start of the flight.");
-    v("count", count, 1, 16,
+    v("count", count, 1, kMost,
       "How many of these are thrown in one flight, each with draws of its own.");
     v("interval_s", interval_s, 0, 60,
       "Time from one of their launches to the next. 0: all are launched together, at launch_s of "

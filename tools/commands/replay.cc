@@ -1,4 +1,6 @@
 // dodgesim replay: flies one throw of a campaign again, bit-identically.
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <initializer_list>
@@ -13,6 +15,7 @@
 #include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/csv.h"
 #include "sim/campaign/journal.h"
+#include "sim/campaign/progress.h"
 #include "sim/campaign/result_files.h"
 #include "sim/config/expand.h"
 #include "sim/config/pilot.h"
@@ -111,6 +114,21 @@ class EventRecorder : public FlightObserver {
   std::size_t count_ = 0;
 };
 
+// Says on a terminal how far the flight is.
+class FlightProgress : public FlightObserver {
+ public:
+  explicit FlightProgress(TimeUs duration_us)
+      : progress_(duration_us / kUsPerMs, ::isatty(STDERR_FILENO) == 1, "ms of flight") {}
+  void on_tick(const World& world) override {
+    progress_.show(std::max<TimeUs>(1, world.snapshot().t_us / kUsPerMs));
+  }
+  void finish() { progress_.finish(); }
+
+ private:
+  static constexpr TimeUs kUsPerMs = 1000;
+  Progress progress_;
+};
+
 // With other models or, if one flies it, another plug-in it would be another throw.
 void expect_models(const Scenario& campaign, const std::string& pilot, const std::string& directory,
                    const JournalIndex& index) {
@@ -122,17 +140,17 @@ void expect_models(const Scenario& campaign, const std::string& pilot, const std
                       "; --models and --plugin say where those are that it was flown with.");
 }
 
-// The row of throws.csv of this throw, from the journal, which also a campaign under way has;
-// nothing if its worker died, as it may again.
-std::optional<std::string> recorded_row(const std::filesystem::path& directory,
-                                        const JournalIndex& index, int throw_index) {
+// What became of this throw, from the journal, which also a campaign under way has; nothing if its
+// worker died, as it may again.
+std::optional<ThrowResult> recorded_result(const std::filesystem::path& directory,
+                                           const JournalIndex& index, int throw_index) {
   const auto record = index.throws.find(throw_index);
   if (record == index.throws.end()) {
     throw ScenarioError(directory.string() + " has no result of throw " +
                         std::to_string(throw_index) + ".");
   }
-  const ThrowResult result = read_result(directory / kJournalFile, record->second);
-  if (!result.lost()) return csv_row(result);
+  ThrowResult result = read_result(directory / kJournalFile, record->second);
+  if (!result.lost()) return result;
   std::cerr << "Throw " << throw_index
             << " was lost, there is nothing to compare with: " << result.flown.error << "\n";
   return std::nullopt;
@@ -164,8 +182,11 @@ std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
 // Everything that looks on, as the arguments ask for.
 class Onlookers {
  public:
-  Onlookers(const Scenario& scenario, const ReplayArguments& arguments)
+  // `duration_us`: how long the flight is, as far as anybody knows.
+  Onlookers(const Scenario& scenario, const ReplayArguments& arguments,
+            std::optional<TimeUs> duration_us)
       : arguments_(arguments), poster_(intrinsics(scenario.sensors.camera)) {
+    if (duration_us) observers_.add(&progress_.emplace(*duration_us));
     const Intrinsics camera = intrinsics(scenario.sensors.camera);
     if (!arguments.video.empty()) {
       film_ = std::make_unique<Film>(arguments.video, camera, arguments.slow);
@@ -192,6 +213,7 @@ class Onlookers {
   // Completes the files and says what they are; false if something cannot be shown. Of a flight
   // that failed there is only the recording, which shows how.
   bool finish(const ThrowResult& result) {
+    if (progress_) progress_->finish();
     if (mcap_) {
       mcap_->finish(result);
       std::cout << "Recording for Foxglove or Lichtblick: " << arguments_.mcap << "\n";
@@ -224,6 +246,7 @@ class Onlookers {
  private:
   const ReplayArguments& arguments_;
   Observers observers_;
+  std::optional<FlightProgress> progress_;
   std::unique_ptr<Film> film_;
   std::unique_ptr<StageFilm> stages_;
   std::unique_ptr<McapRecorder> mcap_;
@@ -272,25 +295,27 @@ int replay(const ReplayArguments& arguments) {
   try_models({campaign});
   if (scenario.pilot == kPluginPilot) try_plugin(scenario);
   expect_showable(scenario, arguments);
-  const std::optional<std::string> recorded = recorded_row(directory, index, arguments.throw_index);
+  const std::optional<ThrowResult> recorded =
+      recorded_result(directory, index, arguments.throw_index);
 
   watch_stop_signals();
-  Onlookers onlookers(scenario, arguments);
+  Onlookers onlookers(scenario, arguments,
+                      recorded ? std::optional(recorded->duration_us) : std::nullopt);
   const ThrowResult result = fly_throw(campaign, arguments.throw_index, onlookers.observer());
   if (result.flown.failed()) {
     std::cerr << "Throw " << arguments.throw_index << " fails: " << result.flown.error << "\n";
   }
   const bool shown = onlookers.finish(result);
-  const std::string flown = csv_row(result);
   if (!recorded) return kIncomplete;
-  if (flown == recorded) {
+  const std::string flown = csv_row(result), before = csv_row(*recorded);
+  if (flown == before) {
     std::cout << "Throw " << arguments.throw_index << " flew as recorded, bit for bit.\n";
     return shown ? kOk : kIncomplete;
   }
   std::cerr << "Throw " << arguments.throw_index
             << " did not fly as recorded: was it another commit or another kind of machine, or "
                "does its pilot not do the same twice?\n"
-            << differences(csv_header(result), *recorded, flown);
+            << differences(csv_header(result), before, flown);
   return kBelowBar;
 }
 

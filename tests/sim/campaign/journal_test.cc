@@ -48,6 +48,17 @@ TEST_F(JournalTest, ResultsAreReadAsTheyWereWritten) {
   EXPECT_EQ(next, 10);
 }
 
+TEST_F(JournalTest, WhereThereIsNoneTheReaderLearnsWhatACampaignIs) {
+  try {
+    read_journal(path_);
+    FAIL();
+  } catch (const IoError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              path_.string() + " could not be opened: No such file or directory; a campaign is " +
+                  "named by the directory that `dodgesim run --out DIR` wrote.");
+  }
+}
+
 TEST_F(JournalTest, CutOffAnywhereItKeepsEveryWholeRecord) {
   write_ten();
   const std::string whole = bytes();
