@@ -75,12 +75,12 @@ bool turned(Commands commands, const Encounter& undisturbed) {
   });
 }
 
-// The pilot's answer to the detection of an object. Commands arrive command_delay_us after their
+// The pilot's answer to an object that it knows of. Commands arrive command_delay_us after their
 // output.
 void add_answer(const Testimony& testimony, const Testimony::Object& object,
                 TimeUs command_delay_us, CollisionEvidence& evidence) {
-  if (evidence.perceives && object.detections.empty()) return;
-  Commands commands = answer(testimony, evidence.earliest_command_us.value_or(0));
+  if (!evidence.earliest_command_us) return;
+  Commands commands = answer(testimony, *evidence.earliest_command_us);
   if (commands.empty()) return;
   evidence.command_us = commands.front().t_us;
   if (evidence.undisturbed) commands = before(evidence.undisturbed->contact_us, commands);
@@ -110,18 +110,11 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
   const Testimony& testimony = flown.testimony;
   const Testimony::Object& object = testimony.objects[static_cast<std::size_t>(hitter)];
   evidence.in_view = object.in_view_us.has_value();
-  std::optional<TimeUs> detected_us;
-  if (!object.detections.empty()) {
-    detected_us = object.detections.front().output_us;
-    evidence.earliest_command_us = *detected_us + flown.command_delay_us;
-  }
-  for (std::size_t i = 0; i < testimony.objects.size(); ++i) {
-    const auto& other = testimony.objects[i].detections;
-    if (&testimony.objects[i] == &object || other.empty()) continue;
-    if (!detected_us || other.front().output_us < *detected_us) {
-      evidence.another_detected_before = true;
-    }
-  }
+  if (object.known_us) evidence.earliest_command_us = *object.known_us + flown.command_delay_us;
+  evidence.another_known_before =
+      std::any_of(testimony.objects.begin(), testimony.objects.end(), [&](const auto& other) {
+        return other.known_us && (!object.known_us || *other.known_us < *object.known_us);
+      });
   // Of a later object nobody knows how it would have met a vehicle that stayed.
   if (would_hit && none->verdict.nearest_object == hitter) evidence.undisturbed = encounter(*none);
   add_answer(testimony, object, flown.command_delay_us, evidence);

@@ -246,6 +246,7 @@ void Flight::decide() {
   const auto start = WallClock::now();
   if (computer_.run_cycle(now_us())) {
     note_detections();
+    note_told();
     if (observer_ != nullptr) observer_->on_cycle(now_us(), computer_.pilot());
   }
   if (const auto command = computer_.take_command(now_us())) {
@@ -313,6 +314,14 @@ void Flight::note_detections() {
       if (observer_ != nullptr) observer_->on_first_detection();
     }
     detections_.push(now_us(), located);
+  }
+}
+
+// A pilot that knows the truth detects nothing: it is told.
+void Flight::note_told() {
+  if (truth_pilot_ == nullptr) return;
+  for (const dodge::Obstacle& obstacle : truth_pilot_->obstacles()) {
+    witness_.add_told(obstacle.id, now_us() + scenario_.delays.pilot_us());
   }
 }
 

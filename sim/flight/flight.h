@@ -154,6 +154,7 @@ class Flight {
     double distance_m = 0;  // of that object, from the camera
   };
   void note_detections();
+  void note_told();
   LocatedDetection with_truth(const Snapshot& truth, const dodge::Detection& detection,
                               DetectionRow row) const;
   void log(const LocatedDetection& detection);

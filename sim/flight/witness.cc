@@ -68,8 +68,9 @@ Trajectory::Sample Witness::sample(const Snapshot& now, const VelocityReference&
 
 void Witness::add_detection(const DetectionRow& row, bool true_object) {
   if (true_object) {
-    testimony_.objects.at(static_cast<std::size_t>(*row.object))
-        .detections.push_back({row.output_us, vector(row.p_W) - vector(*row.true_p_W)});
+    Testimony::Object& object = testimony_.objects.at(static_cast<std::size_t>(*row.object));
+    if (!object.known_us) object.known_us = row.output_us;
+    object.detections.push_back({row.output_us, vector(row.p_W) - vector(*row.true_p_W)});
   }
   std::vector<Trajectory::Detection>& shown = testimony_.trajectory.detections;
   const auto recent = [&](const Trajectory::Detection& d) {
@@ -78,6 +79,12 @@ void Witness::add_detection(const DetectionRow& row, bool true_object) {
   };
   if (std::any_of(shown.rbegin(), shown.rend(), recent)) return;
   shown.push_back({row.output_us, vector(row.p_W), true_object});
+}
+
+void Witness::add_told(int object, TimeUs output_us) {
+  std::optional<TimeUs>& known_us =
+      testimony_.objects.at(static_cast<std::size_t>(object)).known_us;
+  if (!known_us) known_us = output_us;
 }
 
 void Witness::add_command(const Snapshot& now, const VelocityReference& reference) {

@@ -20,6 +20,9 @@ inline double true_detection_m(double radius_m) { return std::max(0.5, radius_m 
 struct Testimony {
   struct Object {
     std::optional<TimeUs> in_view_us;  // first
+    // Output of the pilot's first cycle that knew of it: that detected it or, of a pilot that is
+    // told of objects, was told.
+    std::optional<TimeUs> known_us;
     // Outputs of the detections that are of it, in order, with detected less true position.
     struct Detection {
       TimeUs output_us = 0;
@@ -53,6 +56,8 @@ class Witness {
   void observe(const World& world, const VelocityReference& reference);
   // true_object: it is one of row.object.
   void add_detection(const DetectionRow& row, bool true_object);
+  // Of a pilot that is told of objects: its cycle with this output knew of it.
+  void add_told(int object, TimeUs output_us);
   // A command has reached the flight controller.
   void add_command(const Snapshot& now, const VelocityReference& reference);
 

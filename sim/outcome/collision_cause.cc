@@ -61,7 +61,7 @@ CollisionCause collision_cause(const Agility& agility, const CollisionEvidence& 
   if (!evidence.hit) {
     return evidence.evaded ? CollisionCause::kFledIntoTheRoom : CollisionCause::kFlewIntoTheRoom;
   }
-  if (evidence.another_detected_before) return CollisionCause::kSecondObject;
+  if (evidence.another_known_before) return CollisionCause::kSecondObject;
   if (evidence.perceives && !evidence.in_view) return CollisionCause::kNotSeen;
   if (evidence.perceives && !evidence.earliest_command_us) return CollisionCause::kNotDetected;
   if (!evidence.undisturbed) return CollisionCause::kWrongDirection;

@@ -1,16 +1,17 @@
 // Why a flight came to harm, from the truth. A collision is held against what the vehicle's rotors
-// allow, whatever its pilot and controller made of it (agility.h):
+// allow, whatever its pilot and controller made of it (agility.h). A pilot that is told of objects
+// detects one when it is first told of it:
 //
 //   not seen              the object was never in view of a camera
 //   not detected          in view, but no detection was of it
-//   second object         the pilot had detected another object before this one
+//   second object         the pilot knew of another object before this one
 //   not evaded            a command sent at the first detection would have left some manoeuvre, but
 //                         none came before the object did: the pilot did not believe what it had
 //                         detected, or did not act on it
 //   seen late             when the evasive command arrived, or would have had it been sent at the
 //                         first detection, none of the manoeuvres that are tried would have brought
 //                         the vehicle out of the way in time; or a pilot that is told of objects
-//                         gave no such command
+//                         was not told of this one
 //   wrong position        some manoeuvre was left, but none that led where the commands did, which
 //                         would have been right had the object been where it was detected
 //   wrong direction       some manoeuvre was left, but none that led where the commands did; or
@@ -79,11 +80,12 @@ struct CollisionEvidence {
   bool landing = false;   // the pilot had begun an emergency landing
   bool perceives = true;  // the pilot sees with its cameras; others are told of objects
   bool in_view = false;   // the object was, before the hit
-  // When a command sent at the object's first detection would have arrived; empty: not detected.
+  // When a command sent at the object's first detection, or when the pilot was told of it, would
+  // have arrived; empty: there was none.
   std::optional<TimeUs> earliest_command_us;
-  bool another_detected_before = false;
+  bool another_known_before = false;
   std::optional<Encounter> undisturbed;  // empty: nothing would have happened
-  std::optional<TimeUs> command_us;      // first evasive command after the detection
+  std::optional<TimeUs> command_us;      // first evasive command from earliest_command_us on
   // Mean of the evasive commands until the contact of `undisturbed`, less the vehicle's velocity
   // when the first arrived.
   Eigen::Vector3d command_W = Eigen::Vector3d::Zero();

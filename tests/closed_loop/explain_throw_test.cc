@@ -82,6 +82,22 @@ TEST(ExplainThrow, AControllerThatDoesNotFollowDoesNotUseTheThrust) {
   EXPECT_EQ(result.cause, "not enough thrust");
 }
 
+// The first ball, which would miss, is evaded before the second one is thrown; of that one the
+// pilot is told at 1 m, 0.08 s before it comes.
+TEST(ExplainThrow, ToldOfTwoObjectsItsAnswerToTheSecondIsNoneToTheFirst) {
+  const ThrowResult result = fly_throw(
+      scenario("pilot: oracle\nfly_oracle: false\nroom: field\noracle: {range_cap_m: 1}\n"
+               "mission: {start_m: [-2, 0, 2]}\nafter_s: 0.1\nthrows:\n"
+               "  - {speed_mps: 5, distance_m: 3, launch_s: 0.2, aim_offset_m: [0.9, 0]}\n"
+               "  - {speed_mps: 12, distance_m: 3, launch_s: 0.9, size_m: 0.3}\n"
+               "controller: {evading_velocity_gain_1ps: 0.3}\n"),
+      0);
+  ASSERT_TRUE(result.flown.hit);
+  ASSERT_LT(*result.first_command_us, 900000);
+  EXPECT_LT(*result.escape_left_s, 0.08);
+  EXPECT_EQ(result.cause, "second object");
+}
+
 // Nobody flew this: a ball of 20 cm comes along x at a vehicle that is a point, and hits it after
 // 1 s.
 FlightRecord head_on_hit() {
@@ -103,6 +119,7 @@ std::string cause_of(const std::vector<Testimony::Command>& commands) {
   const FlightRecord none = head_on_hit();
   FlightRecord flown = none;
   flown.testimony.objects.resize(1);
+  flown.testimony.objects[0].known_us = 0;
   flown.testimony.commands = commands;
   flown.first_command_us = commands.front().t_us;
   FlightPlan plan;
@@ -213,7 +230,7 @@ TEST(ExplainThrow, AnAnswerIsSentAfterTheDetection) {
   FlightRecord flown = none;
   flown.command_delay_us = 100000;
   flown.testimony.objects.resize(1);
-  flown.testimony.objects[0].detections.push_back({500000, {}});
+  flown.testimony.objects[0].known_us = 500000;
   for (TimeUs t_us = 450000; t_us < 900000; t_us += 50000) {
     flown.testimony.commands.push_back({t_us, true, Eigen::Vector3d::UnitZ(), {0, 0, 0}});
   }

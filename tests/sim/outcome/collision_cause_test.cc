@@ -172,7 +172,7 @@ TEST(CollisionCause, AHitThatOnlyTheEvasionBroughtIsAWrongDirection) {
 
 TEST(CollisionCause, TheSecondObjectAndTheRoomAreCausesOfTheirOwn) {
   CollisionEvidence second = evidence(500000, kUp);
-  second.another_detected_before = true;
+  second.another_known_before = true;
   EXPECT_EQ(cause(second), CollisionCause::kSecondObject);
   second.hit = false;
   EXPECT_EQ(cause(second), CollisionCause::kFlewIntoTheRoom);
