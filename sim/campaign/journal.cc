@@ -174,6 +174,13 @@ JournalIndex read_journal(const std::filesystem::path& path) {
   return index;
 }
 
+std::string damage_text(int records) {
+  const bool one = records == 1;
+  return std::to_string(records) + (one ? " record" : " records") + " of results.bin " +
+         (one ? "is" : "are") + " damaged or cut off; --resume flies " +
+         (one ? "its throw" : "their throws") + " again";
+}
+
 namespace {
 
 ThrowResult read_result(std::ifstream& file, const std::filesystem::path& path,

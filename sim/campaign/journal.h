@@ -34,12 +34,15 @@ struct JournalRecord {
 struct JournalIndex {
   CampaignIdentity identity;
   std::map<int, JournalRecord> throws;  // by number
-  int damaged = 0;                      // records that were left out
+  int damaged = 0;                      // records that were left out, see damage_text()
   std::uint64_t end = 0;                // of the last intact record
 };
 
 // Throws IoError if the file cannot be read or is no journal.
 JournalIndex read_journal(const std::filesystem::path& path);
+
+// "1 record of results.bin is damaged or cut off; --resume flies its throw again", of one and more.
+std::string damage_text(int records);
 
 // The result of one record. Throws IoError if the file has changed since.
 ThrowResult read_result(const std::filesystem::path& path, const JournalRecord& record);
@@ -58,8 +61,8 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  // Throws IoError; nothing of the result is in the file then. That somebody else has written to
-  // the file is an error, too: locks do not hold between hosts on every shared disk.
+  // Throws IoError; the result is in the file then as a whole or not at all. That somebody else has
+  // written to the file is an error, too: locks do not hold between hosts on every shared disk.
   void add(const ThrowResult& result);
   void sync();  // returns when all is on the disk; throws IoError
 

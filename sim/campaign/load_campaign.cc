@@ -9,7 +9,7 @@ namespace dodgesim {
 
 LoadedCampaign campaign_of(Scenario scenario, std::string program,
                            std::vector<ThrowResult> results) {
-  LoadedCampaign campaign = {std::move(scenario), std::move(program), std::move(results), {}};
+  LoadedCampaign campaign = {std::move(scenario), std::move(program), std::move(results), {}, 0};
   if (!campaign.scenario.stop) return campaign;
   campaign.stop.emplace(campaign.scenario);
   for (const ThrowResult& result : campaign.results) campaign.stop->add(result);
@@ -37,8 +37,10 @@ LoadedCampaign load_campaign(const std::filesystem::path& directory) {
     result.object_rows = {};
     results.push_back(std::move(result));
   });
-  return campaign_of(parse_scenario(index.identity.scenario, kScenarioFile, ""),
-                     index.identity.program, std::move(results));
+  LoadedCampaign campaign = campaign_of(parse_scenario(index.identity.scenario, kScenarioFile, ""),
+                                        index.identity.program, std::move(results));
+  campaign.damaged = index.damaged;
+  return campaign;
 }
 
 }  // namespace dodgesim

@@ -27,6 +27,7 @@ struct Source {
 struct Sources {
   CampaignIdentity identity;
   std::map<int, Source> throws;
+  int damaged = 0;  // records
 };
 
 // Which of two unequal results of a throw counts; nothing if they contradict each other. One that
@@ -40,6 +41,7 @@ const Source* better(const Source& a, const Source& b) {
 void add_directory(const fs::path& directory, bool first, Sources& sources) {
   const JournalIndex index = read_journal(directory / kJournalFile);
   if (first) sources.identity = index.identity;
+  sources.damaged += index.damaged;
   if (index.identity != sources.identity) {
     throw ScenarioError(directory.string() + " holds results " +
                         difference(index.identity, sources.identity) +
@@ -83,7 +85,8 @@ void expect_all(const Scenario& scenario, const Sources& sources) {
   }
   if (missing.empty()) return;
   throw MissingThrows(std::to_string(missing.size()) + " of " + std::to_string(count) +
-                      " throws are missing: " + ranges(missing) + ".");
+                      " throws are missing: " + ranges(missing) +
+                      (sources.damaged > 0 ? "; " + damage_text(sources.damaged) : "") + ".");
 }
 
 Sources collect(const std::vector<fs::path>& directories) {

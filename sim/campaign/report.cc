@@ -25,11 +25,12 @@ constexpr std::uint8_t kNone = 255;
 
 // What is true of a throw, as bits of the column "flags".
 constexpr const char* kFlags[] = {"thrown",      "failed", "hit",         "crashed", "none_hit",
-                                  "oracle_flew", "evaded", "false_alarm", "gave_up"};
+                                  "oracle_flew", "evaded", "false_alarm", "gave_up", "unjudged"};
 
 unsigned flags_of(const ThrowResult& r) {
+  const bool unjudged = r.thrown() && !r.none.ok();  // nobody knows whether it would have hit
   const bool set[] = {r.thrown(),    r.flown.failed(), r.flown.hit,   r.flown.crashed, r.none.hit,
-                      r.oracle.ok(), r.evaded,         r.false_alarm, r.gave_up()};
+                      r.oracle.ok(), r.evaded,         r.false_alarm, r.gave_up(),     unjudged};
   unsigned flags = 0;
   for (std::size_t i = 0; i < std::size(set); ++i) flags |= set[i] ? 1U << i : 0U;
   return flags;
@@ -50,6 +51,18 @@ std::uint8_t place(std::optional<std::size_t> at) {
 // A grid may have more rows than `place` can tell apart.
 std::uint32_t heat_place(std::optional<std::size_t> at) {
   return at ? static_cast<std::uint32_t>(*at) : std::numeric_limits<std::uint32_t>::max();
+}
+
+// Why a throw's flights failed; empty: none did.
+std::string errors_of(const ThrowResult& r) {
+  std::string text;
+  const auto add = [&text](const std::string& what, const FlightResult& flight) {
+    if (flight.failed()) text += (text.empty() ? "" : " ") + what + flight.error;
+  };
+  add("", r.flown);
+  add("The flight of the pilot none failed: ", r.none);
+  add("The flight of the oracle failed: ", r.oracle);
+  return text;
 }
 
 std::uint8_t cause_of(const ThrowResult& result) {
@@ -220,7 +233,8 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
   for (const ThrowResult& result : results) {
     simulated_s += seconds(result.duration_us);
     computing_s += result.wall_s;
-    if (result.flown.failed()) errors[std::to_string(result.index)] = result.flown.error;
+    const std::string error = errors_of(result);
+    if (!error.empty()) errors[std::to_string(result.index)] = error;
   }
   const std::vector<Part> parts = parts_of(campaign);
   Json sections = Json::array();

@@ -19,6 +19,7 @@ std::optional<double> seconds_between(std::optional<TimeUs> from, std::optional<
 void add_flight(const ThrowResult& result, ThrowResult::FlightOf by, PilotStatistics& sum) {
   const FlightResult& flight = result.*by;
   if (!result.thrown()) {
+    if (flight.failed()) ++sum.tally.errors;
     if (flight.ok()) sum.tally.collisions.add(!flight.unharmed());
     return;
   }

@@ -41,13 +41,13 @@ std::string rate_text(const Rate& rate);
 
 // Counts over some throws, for one pilot.
 struct Tally {
-  int throws = 0;          // thrown, flown by the pilot and by the pilot none
+  int throws = 0;          // thrown, and tried by the pilot
   int would_have_hit = 0;  // of those, hit when nobody dodged, or that flight failed
   int dodged = 0;          // of those that would have hit
   Rate hit_undisturbed;    // by the pilot none, of its flights that did not fail
-  int errors = 0;          // flights of this pilot, or of the pilot none, that failed
-  Rate collisions;         // hit or crashed, of all flights of the pilot that did not fail, also
-                           // of those in which nobody threw
+  // Also of flights in which nobody threw:
+  int errors = 0;   // flights of this pilot, or of the pilot none, that failed
+  Rate collisions;  // hit or crashed, of all flights of the pilot that did not fail
   std::optional<SequentialInterval> sequential = {};  // of the success rate, see Rate
 
   void add(const ThrowResult& result, ThrowResult::FlightOf by = &ThrowResult::flown);

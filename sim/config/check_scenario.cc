@@ -6,6 +6,7 @@
 
 #include "sim/base/time.h"
 #include "sim/base/utf8.h"
+#include "sim/config/check_presets.h"
 #include "sim/config/expand.h"
 #include "sim/config/numbers.h"
 #include "sim/config/pilot.h"
@@ -17,11 +18,6 @@ namespace {
 
 constexpr std::int64_t kMostCombinations = 10000;
 constexpr std::int64_t kMostThrows = 10000000;
-
-Position position_of(const ReadContext& context, const std::string& key) {
-  const auto found = context.where.find(key);
-  return found == context.where.end() ? Position{} : found->second;
-}
 
 // R_BC of a camera whose z looks along x of B.
 Eigen::Matrix3d looking_forward() {
@@ -41,12 +37,12 @@ void check_text(const std::string& key, const std::string& text, std::string_vie
   for (std::size_t i = 0; i < text.size(); i += length) {
     length = utf8_length(std::string_view(text).substr(i));
     if (length == 0) {
-      return context.problems.add(position_of(context, key), what + " is not UTF-8 text.");
+      return context.problems.add(context.position_of(key), what + " is not UTF-8 text.");
     }
     const bool control =
         byte(i) < 0x20 || byte(i) == 0x7f || (length == 2 && byte(i) == 0xc2 && byte(i + 1) < 0xa0);
     if (!control || allowed.find(text[i]) != std::string_view::npos) continue;
-    return context.problems.add(position_of(context, key), what + complaint);
+    return context.problems.add(context.position_of(key), what + complaint);
   }
 }
 
@@ -63,24 +59,24 @@ void check_mission_key(const Scenario& scenario, const std::string& type, const 
                        bool given, ReadContext& context) {
   const std::string& mission = scenario.mission.type;
   if (mission == type && !given) {
-    context.problems.add(position_of(context, "mission.type"),
+    context.problems.add(context.position_of("mission.type"),
                          key + " is missing, but mission.type " + type + " needs it.");
   }
   if (mission != type && given) {
-    context.problems.add(position_of(context, key),
+    context.problems.add(context.position_of(key),
                          key + " is given, but mission.type " + mission + " does not fly there.");
   }
 }
 
 void check_throws(const Scenario& scenario, ReadContext& context) {
   if (scenario.toss && !scenario.throws.empty()) {
-    context.problems.add(position_of(context, "throws"),
+    context.problems.add(context.position_of("throws"),
                          "throws and throw are both given; one of them is enough.");
   }
   int objects = 0;
   for (const ThrowSpec& spec : scenario.throw_specs()) objects += spec.count;
   if (objects > ThrowSpec::kMost) {
-    context.problems.add(position_of(context, "throws"),
+    context.problems.add(context.position_of("throws"),
                          "throws has " + std::to_string(objects) + " objects; at most " +
                              std::to_string(ThrowSpec::kMost) + " can fly.");
   }
@@ -90,15 +86,15 @@ void check_throws(const Scenario& scenario, ReadContext& context) {
 void check_stop(const Scenario& scenario, ReadContext& context) {
   if (!scenario.stop) return;
   if (!scenario.anyone_throws()) {
-    context.problems.add(position_of(context, "stop"), "stop is given, but nobody throws.");
+    context.problems.add(context.position_of("stop"), "stop is given, but nobody throws.");
   }
   if (!scenario.sweep.empty()) {
-    context.problems.add(position_of(context, "stop"),
+    context.problems.add(context.position_of("stop"),
                          "stop and sweep are both given, but the success rates of different sweep "
                          "values are not one.");
   }
   if (cell_count(scenario) > 1) {
-    context.problems.add(position_of(context, "stop"),
+    context.problems.add(context.position_of("stop"),
                          "stop and grid are both given, but a campaign that ends within a round of "
                          "its cells has flown some oftener than others, and its interval would "
                          "not hold: draw the key instead, as in size_m: !choice [0.1, 0.2].");
@@ -113,7 +109,7 @@ void add_core_problem(const std::string& what, ReadContext& context) {
     const auto at = context.where.find(text.substr(0, text.find(' ')));
     if (at != context.where.end()) return context.problems.add(at->second, text);
   }
-  context.problems.add(position_of(context, "dodger"), "dodger does not fit together: " + what);
+  context.problems.add(context.position_of("dodger"), "dodger does not fit together: " + what);
 }
 
 // The flight core checks its own configuration. Which cameras it gets is known only with the
@@ -136,7 +132,7 @@ void check_height_monitor(const Scenario& scenario, ReadContext& context) {
   const int rate_hz = scenario.sensors.range.rate_hz;
   if (!perceives(scenario.pilot) || !monitor.enabled) return;
   if (monitor.max_gap_us * rate_hz >= 1000000) return;
-  context.problems.add(position_of(context, "sensors.range.rate_hz"),
+  context.problems.add(context.position_of("sensors.range.rate_hz"),
                        "sensors.range.rate_hz is " + std::to_string(rate_hz) +
                            ", too slow for dodger.height_monitor.max_gap_us, which is " +
                            std::to_string(monitor.max_gap_us) +
@@ -146,7 +142,7 @@ void check_height_monitor(const Scenario& scenario, ReadContext& context) {
 
 void check_rate(const std::string& key, int rate_hz, ReadContext& context) {
   if (SampleClock::fits(rate_hz)) return;
-  context.problems.add(position_of(context, key),
+  context.problems.add(context.position_of(key),
                        key + " is " + std::to_string(rate_hz) + ", but must divide " +
                            std::to_string(SampleClock::kTickRateHz) + ".");
 }
@@ -158,25 +154,34 @@ void check_rates(const Scenario& scenario, ReadContext& context) {
   const int period_us = scenario.flight_controller.period_us;
   if (period_us % kTickUs != 0) {
     const std::string key = "flight_controller.period_us";
-    context.problems.add(position_of(context, key), key + " is " + std::to_string(period_us) +
-                                                        ", but must be a multiple of " +
-                                                        std::to_string(kTickUs) + ".");
+    context.problems.add(context.position_of(key), key + " is " + std::to_string(period_us) +
+                                                       ", but must be a multiple of " +
+                                                       std::to_string(kTickUs) + ".");
   }
 }
 
-// Of two keys whose values exclude each other; `must`: what the first's must be of the second's.
-void add_contradiction(const std::string& key, double value, const std::string& must,
-                       const std::string& other_key, double other_value, ReadContext& context) {
-  context.problems.add(position_of(context, key), key + " is " + to_text(value) + ", but must " +
-                                                      must + " " + other_key + ", which is " +
-                                                      to_text(other_value) + ".");
+struct ValueOfKey {
+  std::string key;
+  double value;
+};
+
+// Of two keys whose values exclude each other; `must`: what the first must be to the second,
+// "be less than", `converse` the second to the first. Says it of the one that the scenario gives.
+void add_contradiction(const ValueOfKey& a, const std::string& must, const ValueOfKey& b,
+                       const std::string& converse, ReadContext& context) {
+  const bool a_given = context.where.contains(a.key) || !context.where.contains(b.key);
+  const auto &about = a_given ? a : b, &other = a_given ? b : a;
+  context.problems.add(context.position_of(about.key),
+                       about.key + " is " + to_text(about.value) + ", but must " +
+                           (a_given ? must : converse) + " " + other.key + ", which is " +
+                           to_text(other.value) + ".");
 }
 
 void check_range_sensor(const Scenario& scenario, ReadContext& context) {
   const RangeSpec& range = scenario.sensors.range;
   if (range.min_range_m < range.max_range_m) return;
-  add_contradiction("sensors.range.min_range_m", range.min_range_m, "be less than",
-                    "sensors.range.max_range_m", range.max_range_m, context);
+  add_contradiction({"sensors.range.min_range_m", range.min_range_m}, "be less than",
+                    {"sensors.range.max_range_m", range.max_range_m}, "exceed", context);
 }
 
 // A pilot that takes the vehicle for faster than it may fly predicts escapes that never happen.
@@ -184,16 +189,17 @@ void check_speed_limit(const Scenario& scenario, ReadContext& context) {
   const double limit_mps = scenario.controller.evading_speed_limit_mps;
   const double pilot_mps = scenario.dodger.velocity_limit.max_speed_mps;
   if (scenario.pilot == kNoPilot || pilot_mps <= limit_mps) return;
-  add_contradiction("dodger.velocity_limit.max_speed_mps", pilot_mps, "not exceed",
-                    "controller.evading_speed_limit_mps", limit_mps, context);
+  add_contradiction({"dodger.velocity_limit.max_speed_mps", pilot_mps}, "not exceed",
+                    {"controller.evading_speed_limit_mps", limit_mps}, "not be less than", context);
 }
 
 void check_cruise_speed(const Scenario& scenario, ReadContext& context) {
   const MissionSpec& mission = scenario.mission;
   const double limit_mps = scenario.dodger.velocity_limit.max_speed_mps;
   if (mission.type == "hover" || mission.speed_mps <= limit_mps) return;
-  add_contradiction("mission.speed_mps", mission.speed_mps, "not exceed",
-                    "dodger.velocity_limit.max_speed_mps", limit_mps, context);
+  add_contradiction({"mission.speed_mps", mission.speed_mps}, "not exceed",
+                    {"dodger.velocity_limit.max_speed_mps", limit_mps}, "not be less than",
+                    context);
 }
 
 // Of a rotor's thrusts that the scenario sets. What a model says is known only to the simulation.
@@ -201,8 +207,20 @@ void check_thrust(const Scenario& scenario, ReadContext& context) {
   const double least_n = scenario.motors.min_thrust_n;
   const double most_n = scenario.vehicle_overrides.max_thrust_n;
   if (most_n == 0 || least_n < most_n) return;
-  add_contradiction("motors.min_thrust_n", least_n, "be less than",
-                    "vehicle_overrides.max_thrust_n", most_n, context);
+  add_contradiction({"motors.min_thrust_n", least_n}, "be less than",
+                    {"vehicle_overrides.max_thrust_n", most_n}, "exceed", context);
+}
+
+// An error of calibration between cameras of which one sends nothing.
+void check_lower_camera(const Scenario& scenario, ReadContext& context) {
+  const std::string key = "vehicle_overrides.lower_camera_turn_deg";
+  if (scenario.dodger.position.depth == "stereo" || !perceives(scenario.pilot) ||
+      scenario.vehicle_overrides.lower_camera_turn_deg.isZero(0)) {
+    return;
+  }
+  context.problems.add(context.position_of(key),
+                       key + " is given, but with dodger.position.depth " +
+                           scenario.dodger.position.depth + " the lower camera sends no events.");
 }
 
 void check_keys_together(const Scenario& scenario, ReadContext& context) {
@@ -218,6 +236,7 @@ void check_keys_together(const Scenario& scenario, ReadContext& context) {
   check_thrust(scenario, context);
   check_speed_limit(scenario, context);
   check_cruise_speed(scenario, context);
+  check_lower_camera(scenario, context);
 }
 
 std::int64_t product(const VariedKeys& axes) {
@@ -232,7 +251,7 @@ std::int64_t product(const VariedKeys& axes) {
 // Whether there are so few combinations that the counts of expand.h are right.
 bool check_counts(const Scenario& scenario, ReadContext& context) {
   const std::int64_t combinations = product(scenario.grid) * product(scenario.sweep);
-  const Position at = position_of(context, scenario.grid.empty() ? "sweep" : "grid");
+  const Position at = context.position_of(scenario.grid.empty() ? "sweep" : "grid");
   if (combinations > kMostCombinations) {
     context.problems.add(at, "grid and sweep have more than " + std::to_string(kMostCombinations) +
                                  " combinations of values.");
@@ -303,6 +322,8 @@ void check_scenario(const Scenario& scenario, ReadContext& context) {
   check_stop(scenario, context);
   context.problems.raise_if_any();
   if (!check_counts(scenario, context)) return;
+  for (const VariedKey& axis : scenario.grid) check_presets(scenario, axis, context);
+  for (const VariedKey& axis : scenario.sweep) check_presets(scenario, axis, context);
   check_combinations(scenario, context);
 }
 

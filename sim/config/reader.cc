@@ -73,12 +73,13 @@ void Reader::finish() {
     if (key.name == "<<") continue;  // already a problem of the parser
     std::string sentence = full(key.name) + " is not a known key";
     const std::string near = closest_name(key.name, known_);
-    std::string elsewhere;
+    std::vector<std::string> elsewhere;
     for (const std::string& path : context_.all_keys) {
-      if (elsewhere.empty() && last_part(path) == key.name) elsewhere = path;
+      if (last_part(path) == key.name) elsewhere.push_back(path);
     }
     if (!elsewhere.empty()) {
-      sentence += "; " + elsewhere + " is.";
+      sentence +=
+          "; " + joined(elsewhere, {}, " and ") + (elsewhere.size() == 1 ? " is." : " are.");
     } else if (!near.empty()) {
       sentence += "; did you mean " + full(near) + "?";
     } else {

@@ -26,6 +26,12 @@ struct ReadContext {
   std::vector<std::string> all_keys;       // dotted paths of all keys there are, for suggestions
   std::vector<std::string> variable_keys;  // of those that grid and sweep may have
   std::string models_dir;                  // when set, named models must exist below it
+
+  // Of a key's value; of none where the key is not given.
+  Position position_of(const std::string& key) const {
+    const auto found = where.find(key);
+    return found == where.end() ? Position{} : found->second;
+  }
 };
 
 class Reader {

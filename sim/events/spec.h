@@ -45,8 +45,6 @@ struct EventCameraSpec {
 //   low_light  the sees1 at 5 lux instead of 500
 EventCameraSpec event_camera_preset(const std::string& name);
 
-inline EventCameraSpec ideal_event_camera() { return event_camera_preset("ideal"); }
-
 template <class Visitor>
 void EventCameraSpec::visit(Visitor& v) {
   const std::string before = preset;
@@ -130,7 +128,7 @@ void EventCameraSpec::visit(Visitor& v) {
     "waits makes no other event, which is counted as lost. 0: no limit.");
   v("stamp_resolution_us", stamp_resolution_us, 1, 100000,
     "Time stamps are multiples of this since the first frame, rounded up from the nearest "
-    "microsecond.");
+    "microsecond (from the next one for what happens within 0.5 us after a frame).");
 }
 
 struct SamplingSpec {

@@ -107,9 +107,11 @@ void judge(const CsvTable& table, std::size_t row, ThrowOutcome& out) {
     out.what = "landed";
   } else if (!thrown && table.boolean(row, "evaded")) {
     out.what = "evaded nothing";
+  } else if (!judged && thrown) {
+    out.what = "not judged: " + table.at(row, "none_error");
   } else {
     out.what = thrown ? "dodged" : "quiet";
-    out.success = !thrown || judged;
+    out.success = true;
   }
 }
 

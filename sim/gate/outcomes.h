@@ -39,7 +39,9 @@ struct ThrowOutcome {
   bool counts = false;                // it would have hit, or nobody threw
   // Neither hit nor crashed, nor given up on with a landing; without a throw, no dodge either.
   bool success = false;
-  std::string what;  // "dodged", "hit", "crashed", "landed", "evaded nothing", "error: ..."
+  // "dodged", "hit", "crashed", "landed", "evaded nothing", "quiet", "error: ..."; "not judged:
+  // ..." where the flight failed that tells whether it would have hit.
+  std::string what;
 };
 
 // Whether a column of throws.csv or objects.csv says what was drawn.

@@ -92,7 +92,7 @@ Sight MissObserver::sight(const Snapshot& state, std::size_t camera) const {
 void MissObserver::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
   truth_.on_cycle(now_us, pilot);
   const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);
-  const std::optional<Snapshot> state = state_at(now_us - scenario_.delays.transport_us);
+  const std::optional<Snapshot> state = state_at(scenario_.delays.newest_packet_end_us(now_us));
   if (dodger == nullptr || !state) return;
   CycleSight cycle;
   const Sight both = sight_of(rig_, state->vehicle.pose(), state->objects.front().p_W, radius_m_);

@@ -93,37 +93,72 @@ std::vector<std::string> perception_cells(const Perception& sum) {
           percent(sum, &Sums::after, false_share)};
 }
 
-TextTable table_with(const std::vector<std::string>& first) {
-  TextTable table;
-  table.head = first;
-  table.head.insert(table.head.end(), perception_head().begin(), perception_head().end());
-  return table;
+// The same as numbers.
+const std::vector<std::string>& number_head() {
+  static const std::vector<std::string> head = {
+      "dodged",        "would_have_hit", "first_detection_m", "false_alarms", "flights",
+      "recall_before", "recall_evading", "false_before",      "false_evading"};
+  return head;
 }
 
-void add_row(const std::vector<std::string>& first, const Results& results, TextTable& table) {
-  std::vector<std::string>& row = table.rows.emplace_back(first);
-  const std::vector<std::string> cells = perception_cells(perception_of(results));
-  row.insert(row.end(), cells.begin(), cells.end());
+std::vector<std::string> number_cells(const Perception& sum) {
+  const auto share = [](Share value) { return value ? fixed_text(*value, 4) : ""; };
+  const auto distance = sum.distance_m.quantile(0.5);
+  const EventTruthCounts &before = sum.events.before, &after = sum.events.after;
+  return {std::to_string(sum.tally.dodged),
+          std::to_string(sum.tally.would_have_hit),
+          distance ? fixed_text(distance->value, 3) : "",
+          std::to_string(sum.false_alarms.count),
+          std::to_string(sum.false_alarms.of),
+          share(recall(before)),
+          share(recall(after)),
+          share(false_share(before)),
+          share(false_share(after))};
 }
 
+using Texts = std::vector<std::string>;
+
+Texts chained(Texts a, const Texts& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+// For people, and as numbers.
+struct PerceptionTables {
+  TextTable shown, numbers;
+
+  PerceptionTables(const Texts& first, const Texts& first_numbers)
+      : shown{chained(first, perception_head()), {}},
+        numbers{chained(first_numbers, number_head()), {}} {}
+  void add_row(const Texts& first, const Texts& first_numbers, const Results& results) {
+    const Perception sum = perception_of(results);
+    shown.rows.push_back(chained(first, perception_cells(sum)));
+    numbers.rows.push_back(chained(first_numbers, number_cells(sum)));
+  }
+};
+
+// Returns the table for people, and adds to the numbers.
 TextTable threshold_table(const std::string& name, const std::string& key, double paper,
-                          const LoadedCampaign& campaign) {
-  TextTable table = table_with({name});
+                          const LoadedCampaign& campaign, TextTable& numbers) {
+  PerceptionTables tables({name}, {"key", "value"});
   for (const Part& part : parts_of(campaign)) {
     const std::string value = sweep_value(part, key);
-    add_row({sweep_number(part, key) == paper ? "**" + value + "**" : value}, part.results, table);
+    const bool bold = sweep_number(part, key) == paper;
+    tables.add_row({bold ? "**" + value + "**" : value}, {key, value}, part.results);
   }
-  return table;
+  numbers.head = tables.numbers.head;
+  numbers.rows.insert(numbers.rows.end(), tables.numbers.rows.begin(), tables.numbers.rows.end());
+  return tables.shown;
 }
 
 PaperTables analyse_threshold(const std::vector<LoadedCampaign>& campaigns) {
   const dodge::TimeImageConfig paper = dodge::preset(kPaperPilot).time_image;
+  TextTable numbers;
   const TextTable a = threshold_table("a [s]", "dodger.time_image.threshold_a_s",
-                                      paper.threshold_a_s, campaigns[0]);
-  const TextTable b =
-      threshold_table("b", "dodger.time_image.threshold_b", paper.threshold_b, campaigns[1]);
-  return {a.to_markdown() + "\n" + b.to_markdown() + "\n" + kThresholdProtocol,
-          a.to_csv() + b.to_csv()};
+                                      paper.threshold_a_s, campaigns[0], numbers);
+  const TextTable b = threshold_table("b", "dodger.time_image.threshold_b", paper.threshold_b,
+                                      campaigns[1], numbers);
+  return {a.to_markdown() + "\n" + b.to_markdown() + "\n" + kThresholdProtocol, numbers.to_csv()};
 }
 
 double image_motion_px(double speed_mps, const Scenario& scenario) {
@@ -134,17 +169,18 @@ double image_motion_px(double speed_mps, const Scenario& scenario) {
 
 PaperTables analyse_translation(const std::vector<LoadedCampaign>& campaigns) {
   const LoadedCampaign& campaign = campaigns.front();
-  TextTable table = table_with({"flight [m/s]", "image motion [px]", "oracle: dodged"});
+  PerceptionTables tables({"flight [m/s]", "image motion [px]", "oracle: dodged"},
+                          {"flight_mps", "image_motion_px", "oracle_dodged"});
   for (const Part& part : parts_of(campaign)) {
     const double speed_mps = sweep_number(part, "mission.speed_mps");
     Tally oracle;
     for (const ThrowResult* result : part.results) oracle.add(*result, &ThrowResult::oracle);
-    add_row({sweep_value(part, "mission.speed_mps"),
-             fixed_text(image_motion_px(speed_mps, campaign.scenario), 2),
-             short_rate_text(oracle.success())},
-            part.results, table);
+    const std::string flight = sweep_value(part, "mission.speed_mps");
+    const std::string motion_px = fixed_text(image_motion_px(speed_mps, campaign.scenario), 2);
+    tables.add_row({flight, motion_px, short_rate_text(oracle.success())},
+                   {flight, motion_px, std::to_string(oracle.dodged)}, part.results);
   }
-  return {table.to_markdown() + "\n" + kTranslationProtocol, table.to_csv()};
+  return {tables.shown.to_markdown() + "\n" + kTranslationProtocol, tables.numbers.to_csv()};
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ struct FlickerSpec {
       "light is steady.");
     v("flicker_depth", flicker_depth, 0, 1,
       "By how much of its mean the light swings up and down, as a sine (assumed: 0.2; an "
-      "incandescent lamp about 0.1, a cheap LED up to 1).");
+      "incandescent lamp about 0.1, a cheap LED up to 1, with which flights take many times as "
+      "long).");
   }
 };
 

@@ -1,16 +1,8 @@
 #include "sim/sensors/state_estimator.h"
 
+#include "sim/base/rotation.h"
+
 namespace dodgesim {
-
-namespace {
-
-Eigen::Quaterniond rotation(const Eigen::Vector3d& rotation_vector) {
-  const double angle = rotation_vector.norm();
-  if (angle == 0) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation_vector / angle));
-}
-
-}  // namespace
 
 StateEstimator::StateEstimator(const StateEstimateSpec& spec, std::uint64_t seed,
                                std::uint64_t throw_index)

@@ -4,11 +4,37 @@
 #include <cmath>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/base/gravity.h"
 #include "sim/world/compose.h"
+#include "sim/world/convex.h"
 #include "sim/world/mujoco_eigen.h"
 
 namespace dodgesim {
+
+namespace {
+
+// How far an object reaches from its centre of mass, as multiples of its size: half of it in the
+// middle of a ball, the whole at the end of a club.
+constexpr double kLeastReach = 0.4, kMostReach = 1.2;
+
+// Nearly: how far the parts reach along the edges and diagonals of a cube.
+double farthest_m(const std::vector<Convex>& parts) {
+  double farthest_m = 0;
+  for (const Eigen::Vector3d& edge :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(1, -1, 0),
+        Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, 1, -1), Eigen::Vector3d(1, -1, 1),
+        Eigen::Vector3d(-1, 1, 1)}) {
+    for (int turn = 0; turn < 3; ++turn) {
+      const Eigen::Vector3d along =
+          Eigen::Vector3d(edge[turn], edge[(turn + 1) % 3], edge[(turn + 2) % 3]).normalized();
+      farthest_m = std::max({farthest_m, reach_m(parts, along), reach_m(parts, -along)});
+    }
+  }
+  return farthest_m;
+}
+
+}  // namespace
 
 int ModelReader::find(mjtObj type, const std::string& name) const {
   const int id = mj_name2id(&model_, type, name.c_str());
@@ -178,7 +204,23 @@ VehicleParameters ModelReader::vehicle(double mass_scale) const {
   return vehicle;
 }
 
-ObjectPhysics ModelReader::object(const std::string& prefix) const {
+void ModelReader::check_reach(int body, double size_m) const {
+  std::vector<Convex> parts;
+  const int first = model_.body_geomadr[body];
+  for (int g = first; g < first + model_.body_geomnum[body]; ++g) {
+    if (model_.geom_contype[g] == 0 && model_.geom_conaffinity[g] == 0) continue;
+    parts.push_back(Convex::from_geom(model_, g, file_));
+  }
+  const double reach_m = farthest_m(parts);
+  if (parts.empty() || (reach_m > kLeastReach * size_m && reach_m < kMostReach * size_m)) return;
+  throw ScenarioError(
+      file_ + formatted(": with a size of %.3g m its geoms reach %.3g m from its centre of mass, "
+                        "which must be %.3g to %.3g times the size; reference_size_m is the "
+                        "longest extension of the geoms.",
+                        size_m, reach_m, kLeastReach, kMostReach));
+}
+
+ObjectPhysics ModelReader::object(const std::string& prefix, double size_m) const {
   const int body = find(mjOBJ_BODY, prefix + "body");
   ObjectPhysics object;
   object.mass_kg = model_.body_mass[body];
@@ -187,6 +229,7 @@ ObjectPhysics ModelReader::object(const std::string& prefix) const {
     const double extent = ConstMap3(model_.geom_pos + 3 * g).norm() + model_.geom_rbound[g];
     object.bounding_radius_m = std::max(object.bounding_radius_m, extent);
   }
+  check_reach(body, size_m);
   object.drag_area_m2 =
       numeric(prefix + "drag_coefficient", 1)[0] * numeric(prefix + "frontal_area_m2", 1)[0];
   if (!(object.drag_area_m2 >= 0)) {

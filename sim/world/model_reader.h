@@ -51,12 +51,14 @@ class ModelReader {
   // Of a model that is overridden already; mass_scale: by how much its mass was.
   VehicleParameters vehicle(double mass_scale) const;
 
-  // `prefix`: what the names of the object begin with.
-  ObjectPhysics object(const std::string& prefix) const;
+  // `prefix`: what the names of the object begin with. Its geoms must fit its size `size_m`, as its
+  // longest extension.
+  ObjectPhysics object(const std::string& prefix, double size_m) const;
 
  private:
   std::span<const double> numeric(const std::string& name, int count) const;
   void check_rotor(int site, int actuator) const;
+  void check_reach(int body, double size_m) const;
   void read_rotors(VehicleParameters& vehicle) const;
 
   const mjModel& model_;

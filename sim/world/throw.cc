@@ -1,6 +1,7 @@
 #include "sim/world/throw.h"
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "sim/base/error.h"
@@ -9,7 +10,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
+constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kStepS = 1e-3;          // the Runge-Kutta error of a flight stays below 1 um
 constexpr double kAimToleranceM = 1e-5;  // at the aim point
 constexpr int kMaxAimIterations = 50;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/base/error.h"
+#include "sim/base/rotation.h"
 #include "sim/world/mujoco_eigen.h"
 #include "sim/world/ray.h"
 
@@ -13,12 +14,6 @@ namespace {
 
 // Where objects wait for their launch: far outside every room.
 constexpr double kParkingM = 1000.0;
-
-Eigen::Quaterniond rotation(const Eigen::Vector3d& angle_rad) {
-  const double angle = angle_rad.norm();
-  if (angle < 1e-12) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, angle_rad / angle));
-}
 
 }  // namespace
 
@@ -31,18 +26,18 @@ World::World(const WorldSpec& spec) : model_(compose_model(spec)) {
     const bool moves = model_->body_weldid[model_->geom_bodyid[geom]] != 0;
     if (moves && model_->geom_group[geom] == kRoomGroup) model_->geom_group[geom] = kObjectGroup;
   }
-  ModelReader(*model_, spec.models_dir + "/rooms/" + spec.room + ".xml").check_room();
   const ModelReader vehicle(*model_, spec.models_dir + "/vehicles/" + spec.vehicle + ".xml");
   vehicle_body_ = vehicle.find(mjOBJ_BODY, "vehicle");
   vehicle.override_vehicle(*model_, *data_, spec.vehicle_overrides);
-  vehicle_free_ = vehicle.free_body(vehicle_body_);
+  vehicle_free_ = vehicle.free_body(vehicle_body_);  // else its geoms would seem the room's
+  ModelReader(*model_, spec.models_dir + "/rooms/" + spec.room + ".xml").check_room();
   vehicle_ = vehicle.vehicle(spec.vehicle_overrides.mass_scale);
   for (int i = 0; i < static_cast<int>(spec.objects.size()); ++i) {
-    const std::string& kind = spec.objects[static_cast<std::size_t>(i)].kind;
-    const ModelReader object(*model_, spec.models_dir + "/objects/" + kind + ".xml");
+    const ObjectSpec& of = spec.objects[static_cast<std::size_t>(i)];
+    const ModelReader object(*model_, spec.models_dir + "/objects/" + of.kind + ".xml");
     object_bodies_.push_back(object.find(mjOBJ_BODY, object_prefix(i) + "body"));
     objects_free_.push_back(object.free_body(object_bodies_.back()));
-    objects_.push_back(object.object(object_prefix(i)));
+    objects_.push_back(object.object(object_prefix(i), of.size_m));
     if (!spec.air_drag) objects_.back().drag_area_m2 = 0;
   }
   snapshot_.objects.resize(objects_.size());

@@ -81,6 +81,17 @@ TEST_F(ReportCommandTest, ReportAndTableReadADirectory) {
   EXPECT_EQ(dodgesim("table " + path("nowhere")).exit_code, 4);
 }
 
+TEST_F(ReportCommandTest, ADamagedRecordIsMissedAloud) {
+  fs::copy(root_ / "out", root_ / "damaged");
+  std::string bytes = contents(root_ / "damaged/results.bin");
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
+  std::ofstream(root_ / "damaged/results.bin", std::ios::binary) << bytes;
+  const Outcome table = dodgesim("table " + path("damaged"));
+  EXPECT_EQ(table.exit_code, 3);
+  EXPECT_THAT(table.output, HasSubstr("damaged has 3 of 4 throws only: 1 record of results.bin is "
+                                      "damaged or cut off; --resume flies its throw again.\n"));
+}
+
 TEST_F(ReportCommandTest, NothingIsWrittenOverACampaign) {
   const std::string results = contents(root_ / "out/results.bin");
   for (const std::string file : {"results.bin", "throws.csv", "table.csv", "manifest.json"}) {

@@ -57,7 +57,7 @@ class RigTest : public ::testing::Test {
  protected:
   RigTest() : world_({scenario("{}").models_dir, "room", "qav_rxl", {{"ball", 0.2}}}) {
     setup_.intrinsics = intrinsics(CameraSpec{});
-    setup_.events = ideal_event_camera();
+    setup_.events = event_camera_preset("ideal");
     world_.reset(kVehicle_p_W, 0, Vector3d::Zero());
   }
 

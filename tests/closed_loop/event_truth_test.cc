@@ -17,7 +17,7 @@ class CausesTest : public ::testing::Test {
  protected:
   CausesTest() : world_({scenario("{}").models_dir, "room", "qav_rxl", {{"ball", 0.2}}}) {
     setup_.intrinsics = intrinsics(CameraSpec{});
-    setup_.events = ideal_event_camera();
+    setup_.events = event_camera_preset("ideal");
     setup_.cameras = 1;
     setup_.keep_causes = true;
   }

@@ -32,7 +32,7 @@ class MovingRig : public ::testing::Test {
  protected:
   MovingRig() : world_({scenario("{}").models_dir, "room", "qav_rxl", {{"ball", 0.2}}}) {
     setup_.intrinsics = intrinsics(CameraSpec{});
-    setup_.events = ideal_event_camera();
+    setup_.events = event_camera_preset("ideal");
     setup_.cameras = 1;
     setup_.packet_us = kTickUs;
     world_.reset(Vector3d(-2, 0.5, 2), 0.2, Vector3d::Zero());

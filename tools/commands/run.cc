@@ -107,7 +107,7 @@ int run(const RunArguments& arguments) {
   const std::string part =
       summary.flown < summary.wanted ? std::to_string(summary.flown) + " of " : "";
   std::printf(
-      "%s%s in %s; real-time factor of the closed loop on one core: %.2f\nResults: %s\n"
+      "%s%s in %s; real-time factor of the closed loop on one core: %.3g\nResults: %s\n"
       "Report, for any browser: %s\n",
       part.c_str(), count_text(summary.wanted, "throw").c_str(),
       duration_text(summary.wall_s).c_str(), summary.real_time_factor, options.out.c_str(),

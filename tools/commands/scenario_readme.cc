@@ -82,7 +82,8 @@ flies the same throws with the same noise again with every value (with every com
 are several keys). So two values can be compared throw by throw, and are never pooled: the tables
 have a part for each. The throws of sweep value k are numbered from k x cells x repeats. `dodgesim
 sweep FILE --over delays.compute_us=0,3500,30000` does the same to any scenario. A swept
-`sensors.events.preset` takes the place of the whole camera. `throws.csv` has the columns `cell` and
+`sensors.events.preset` takes the place of the whole camera, a swept `pilot` (dodgesim beside others)
+that of `dodger`: a key of theirs that is to hold for all stands in the sweep, too, as a list of one. `throws.csv` has the columns `cell` and
 `sweep` and one for every key of both.
 
 ## Bases and settings

@@ -29,6 +29,7 @@ function outcomeOf(i) {
   if (has(i, 'crashed')) return 'crashed';
   if (has(i, 'gave_up')) return 'landed';
   if (!has(i, 'thrown')) return has(i, 'evaded') ? 'false alarm' : 'quiet';
+  if (has(i, 'unjudged')) return 'not judged';
   return has(i, 'none_hit') ? 'dodged' : 'would have missed';
 }
 

@@ -14,17 +14,22 @@ function trackOf(i) {
 }
 
 function storyOf(i) {
-  if (has(i, 'failed')) return data.errors[throws.number[i]] || 'The simulation failed.';
+  const error = data.errors[throws.number[i]];
+  if (has(i, 'failed')) return error || 'The simulation failed.';
   if (!has(i, 'thrown')) return outcomeOf(i);
   const parts = [`${data.objects[throws.object[i]]} of ${number(throws.size[i])} m from ` +
                  `${number(throws.distance[i], 1)} m at ${number(throws.speed[i], 1)} m/s: ` +
                  outcomeOf(i)];
   if (throws.cause[i] !== kNone) parts.push(`, ${data.causes[throws.cause[i]]}`);
   if (Number.isFinite(throws.left[i])) {
-    parts.push(`. The evasive command came ${number(throws.left[i], 3)} s before the contact without ` +
-               `it; the vehicle needs ${number(throws.needed[i], 3)} s at least`);
+    const left = throws.left[i];
+    parts.push(`. The evasive command came ${number(Math.abs(left), 3)} s ` +
+               `${left < 0 ? 'after' : 'before'} the contact without it; ` +
+               (Number.isFinite(throws.needed[i]) ?
+                    `the vehicle needs ${number(throws.needed[i], 3)} s at least` :
+                    'no manoeuvre would have avoided it within 1 s'));
   }
-  return parts.join('') + '.';
+  return parts.join('') + '.' + (error ? ` ${error}` : '');
 }
 
 function open(i, scroll) {

@@ -244,6 +244,7 @@ class View3d {
     const at = (v) => rotated(now.q, v).map((x, i) => x + now.p[i]);
     const colour = this.colour('vehicle');
     this.line([now.p, [now.p[0], now.p[1], 0]], this.colour('muted'), 1, 0.6);
+    // A sketch in the size of qav_rxl, whatever the vehicle.
     const rotors = [[0.085, 0.1], [0.085, -0.1], [-0.085, -0.1], [-0.085, 0.1]];
     for (const [x, y] of rotors) {
       this.line([at([0, 0, 0]), at([x, y, 0.01])], colour, 3);

@@ -133,7 +133,7 @@ TEST(EmulatorCases, FilmsMakeAsManyEventsAsTheyAreMeantTo) {
 }
 
 TEST(TimedEmulation, PassesOnTheEventsOfTheCamera) {
-  const EventCameraSpec spec = ideal_event_camera();
+  const EventCameraSpec spec = event_camera_preset("ideal");
   EventCamera camera(spec, 2, 1, 1, 0, "timed");
   camera.reset(0, std::vector<float>{1, 1}.data());
   TimedEmulation timed(camera, spec.log_epsilon);

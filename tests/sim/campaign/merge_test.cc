@@ -102,6 +102,17 @@ TEST_F(MergeTest, OfManyMissingThrowsItListsTheFirst) {
               ::testing::MatchesRegex("50 of 100 throws are missing: 1, 3, .*, 39 and 30 more."));
 }
 
+TEST_F(MergeTest, SaysWhenAPartIsDamaged) {
+  fly_shard("a", 0, 1);
+  const fs::path journal = root_ / "a/results.bin";
+  std::string bytes = read(journal);
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
+  std::ofstream(journal, std::ios::binary) << bytes;
+  EXPECT_THAT(refusal<MissingThrows>({"a"}),
+              ::testing::EndsWith("; 1 record of results.bin is damaged or cut off; --resume flies "
+                                  "its throw again."));
+}
+
 TEST_F(MergeTest, CanBeAskedWhetherAllIsThere) {
   fly_shard("a", 0, 2);
   EXPECT_THROW(expect_complete({root_ / "a"}), MissingThrows);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sim/files/base64.h"
 #include "sim/files/json.h"
 #include "sim/outcome/trajectory.h"
 #include "tests/sim/campaign/fake_throws.h"
@@ -149,6 +150,24 @@ TEST(ReportPage, ShowsTheCellsOfAnyGridAndTheHeatMapOfItsFirstTwoNumbers) {
   for (const auto& rate : none["by_cell"]) EXPECT_EQ(rate[1], 8);
   EXPECT_EQ(none["heat"].size(), 3u);
   EXPECT_EQ(none["heat"][2][0][1], 16);
+}
+
+TEST(ReportPage, SaysOfAThrowThatNobodyCanJudgeWhy) {
+  LoadedCampaign one = campaign(1);
+  one.results[0].flown = flown(false);
+  one.results[0].none = failed("It diverged.");
+  const auto data = data_of(report_html(one, "out/x"));
+  EXPECT_EQ(data["errors"]["0"], "The flight of the pilot none failed: It diverged.");
+  const auto flags = [&](std::initializer_list<const char*> names) {
+    std::string bytes(2, '\0');
+    for (const char* name : names) {
+      const auto bit = data["flags"][name].get<unsigned>();
+      bytes[0] = static_cast<char>(static_cast<unsigned char>(bytes[0]) | (bit & 0xff));
+      bytes[1] = static_cast<char>(static_cast<unsigned char>(bytes[1]) | bit >> 8);
+    }
+    return base64(bytes);
+  };
+  EXPECT_EQ(data["columns"]["flags"]["values"], flags({"thrown", "unjudged", "oracle_flew"}));
 }
 
 TEST(ReportPage, OfNoThrowsAndOfQuietFlightsIsAPage) {

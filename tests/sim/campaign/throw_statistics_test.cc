@@ -164,5 +164,15 @@ TEST(ThrowStatistics, FailedFlightsSayNothingOfThePilot) {
   EXPECT_FALSE(sum.flown().clearance_m.quantile(0.5));
 }
 
+TEST(ThrowStatistics, FailedFlightsInWhichNobodyThrewAreErrors) {
+  std::vector<ThrowResult> results(2);
+  results[0].flown = flown(false);
+  results[1].flown = failed("diverged");
+  const ThrowStatistics sum = statistics(results);
+  EXPECT_EQ(sum.flown().tally.errors, 1);
+  EXPECT_EQ(sum.flown().tally.collisions.of, 1);
+  EXPECT_EQ(sum.flown().tally.throws, 0);
+}
+
 }  // namespace
 }  // namespace dodgesim

@@ -22,7 +22,7 @@ TEST(ConvergenceCheck, FailsForEventsThatDependOnTheSampling) {
 }
 
 TEST(ConvergenceCheck, SeesTheErrorGrowWithTheDisplacement) {
-  const std::vector<Sampled> rates = measure_convergence(ideal_event_camera(), 1);
+  const std::vector<Sampled> rates = measure_convergence(event_camera_preset("ideal"), 1);
   for (std::size_t i = 1; i < rates.size(); ++i) {
     EXPECT_LT(rates[i].difference.count_ratio, rates[i - 1].difference.count_ratio);
     EXPECT_GE(rates[i].difference.median_us, rates[i - 1].difference.median_us);

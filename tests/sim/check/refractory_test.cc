@@ -49,7 +49,7 @@ TEST(RefractoryCheck, WaitsUntilTheLowPassesHaveSettled) {
       EXPECT_EQ(failures(judge(measured, longer)).front(), "refractory.interval");
     }
   }
-  EventCameraSpec dim = ideal_event_camera(), slowest = ideal_event_camera();
+  EventCameraSpec dim = event_camera_preset("ideal"), slowest = event_camera_preset("ideal");
   dim.photoreceptor_hz = 1;
   dim.photoreceptor_dark_hz = 0.1;
   EXPECT_EQ(failures(judge(measure_ramp(dim, 1), dim)), Names());
@@ -61,7 +61,7 @@ TEST(RefractoryCheck, WaitsUntilTheLowPassesHaveSettled) {
 // Among them those that divide the time from one event to the next, 50 us.
 TEST(RefractoryCheck, KnowsWhichWayAClockOfAnyResolutionRounds) {
   for (const std::int64_t resolution_us : {2, 7, 10, 25, 37, 50, 100, 333, 1000, 2000}) {
-    EventCameraSpec spec = ideal_event_camera();
+    EventCameraSpec spec = event_camera_preset("ideal");
     spec.stamp_resolution_us = resolution_us;
     RampEvents measured = measure_ramp(spec, 1);
     const Check check = judge(measured, spec);

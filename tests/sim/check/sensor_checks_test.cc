@@ -38,7 +38,7 @@ TEST(SensorChecks, OfACameraUnlikeThePresetsPass) {
 
 TEST(SensorChecks, SayThatWhatIsSwitchedOffIsOff) {
   Names off;
-  for (const auto& make_check : sensor_checks(ideal_event_camera(), 1)) {
+  for (const auto& make_check : sensor_checks(event_camera_preset("ideal"), 1)) {
     const Names names = lines(make_check(), Outcome::kOff);
     off.insert(off.end(), names.begin(), names.end());
   }

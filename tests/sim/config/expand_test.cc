@@ -10,6 +10,26 @@
 namespace dodgesim {
 namespace {
 
+double threshold_b(const Scenario& campaign, int throw_index) {
+  return case_of(campaign, throw_index).scenario.dodger.time_image.threshold_b;
+}
+
+TEST(Expand, KeysOfTheDodgerHoldForAllPilotsThatStartFromOnePreset) {
+  const Scenario campaign =
+      parse("dodger: {time_image: {threshold_b: 0.9}}\nsweep: {pilot: [oracle, falanga2020]}\n");
+  EXPECT_EQ(threshold_b(campaign, 0), 0.9);
+  EXPECT_EQ(threshold_b(campaign, 1), 0.9);
+}
+
+TEST(Expand, OfPilotsWithPresetsOfTheirOwnASweptKeyHoldsForAll) {
+  const std::string pilots = "sweep: {pilot: [falanga2020, dodgesim]";
+  const Scenario own = parse(pilots + "}\n"),
+                 same = parse(pilots + ", dodger.time_image.threshold_b: [0.9]}\n");
+  for (const int i : {0, 1}) EXPECT_EQ(threshold_b(same, i), 0.9);
+  EXPECT_EQ(threshold_b(own, 0), dodge::preset("falanga2020").time_image.threshold_b);
+  EXPECT_EQ(threshold_b(own, 1), dodge::preset("dodgesim").time_image.threshold_b);
+}
+
 constexpr const char* kCampaign =
     "seed: 5\nrepeats: 3\n"
     "throw: {speed_mps: !uniform [4, 8], launch_s: 0.5}\n"
@@ -51,14 +71,12 @@ TEST(Expand, AThrowHasTheValuesOfItsCellAndSweep) {
 }
 
 TEST(Expand, APilotAmongTheValuesBringsItsConfiguration) {
-  const Scenario campaign = parse(
-      "throw: {}\nsweep: {pilot: [falanga2020, dodgesim, oracle]}\n"
-      "dodger: {position: {max_range_m: 2}}\n");
-  EXPECT_EQ(case_of(campaign, 0).scenario.dodger.position.max_range_m, 2);
-  EXPECT_EQ(case_of(campaign, 1).scenario.dodger.escape.law, "closest_approach");
-  EXPECT_EQ(case_of(campaign, 1).scenario.dodger.position.max_range_m,
-            dodge::preset("dodgesim").position.max_range_m);
-  EXPECT_EQ(case_of(campaign, 2).scenario.dodger.position.max_range_m, 2);
+  const Scenario campaign =
+      parse("throw: {}\nsweep: {pilot: [falanga2020, dodgesim, oracle]}\n");
+  for (const int i : {0, 1, 2}) {
+    EXPECT_EQ(case_of(campaign, i).scenario.dodger.escape.law,
+              dodge::preset(i == 1 ? "dodgesim" : "falanga2020").escape.law);
+  }
 }
 
 TEST(Expand, NamesThePilotsThatFly) {
@@ -106,7 +124,7 @@ TEST(Expand, WithoutGridAndSweepAThrowIsTheScenario) {
 TEST(Expand, TheResolvedScenarioExpandsAlike) {
   const Scenario campaign = parse(std::string(kCampaign) +
                                   "  sensors.events.preset: [ideal, sees1]\n"
-                                  "sensors: {events: {leak_hz: 3}}\n"
+                                  "  sensors.events.leak_hz: [3]\n"
                                   "mission: {heading_deg: 3}\n");
   const Scenario again = parse(to_yaml(campaign));
   EXPECT_EQ(to_yaml(again), to_yaml(campaign));

@@ -59,7 +59,7 @@ constexpr auto kStill = [](int, int, TimeUs) { return 0.2; };
 constexpr auto kScene = [](int, int, TimeUs) { return kCauseScene; };
 
 TEST(Cause, OfEveryEventOfAStillSceneIsTheNoiseThatMadeIt) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.leak_hz = 2;
   EXPECT_EQ(counts(emulate(spec, every(10000, 2000000), kStill, kScene)).size(), 1u);
   EXPECT_GT(counts(emulate(spec, every(10000, 2000000), kStill, kScene))[kCauseLeak], 1000);
@@ -96,7 +96,7 @@ double bar_film(int x, int y, TimeUs t) {
 TEST(Cause, OfWhatAnObjectEntersOrLeavesIsTheObject) {
   const Cause object = kCauseFirstObject + 2;
   const auto told =
-      emulate(ideal_event_camera(), every(500, 24000), bar_film,
+      emulate(event_camera_preset("ideal"), every(500, 24000), bar_film,
               [&](int x, int, TimeUs t) { return in_bar(x, t) ? object : kCauseScene; });
   ASSERT_EQ(counts(told).size(), 2u);
   double of_object = 0;
@@ -116,7 +116,7 @@ TEST(Cause, OfWhatAnObjectEntersOrLeavesIsTheObject) {
 }
 
 TEST(Cause, IsKeptByRegionsToo) {
-  EventCamera camera(ideal_event_camera(), 4, 1, 1, 0, "top", true);
+  EventCamera camera(event_camera_preset("ideal"), 4, 1, 1, 0, "top", true);
   const std::vector<float> dark = {1, 1, 1, 1}, bright = {1, 3, 3, 3};
   const std::vector<Cause> scene = {0, 0, 0, 0}, object = {0, 5, 0, 0};
   std::vector<Event> events;
@@ -143,7 +143,7 @@ TEST(Cause, DoesNotChangeTheEvents) {
 }
 
 TEST(Cause, MustBeGivenWithEveryPictureWhenItIsKept) {
-  EventCamera camera(ideal_event_camera(), 2, 1, 1, 0, "top", true);
+  EventCamera camera(event_camera_preset("ideal"), 2, 1, 1, 0, "top", true);
   const std::vector<float> picture = {1, 1};
   EXPECT_THROW(camera.reset(0, picture.data()), std::invalid_argument);
 }

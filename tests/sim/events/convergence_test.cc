@@ -37,7 +37,7 @@ TEST_P(Convergence, EventsAgreeWithAnEightTimesFinerReference) {
   plane.w_W = GetParam().w_W;
   const auto times = sample_times(plane, SamplingSpec(), 1.7, GetParam().duration_us);
   for (const bool everything : {false, true}) {
-    const EventCameraSpec spec = everything ? EventCameraSpec() : ideal_event_camera();
+    const EventCameraSpec spec = everything ? EventCameraSpec() : event_camera_preset("ideal");
     const auto events = events_of(plane, spec, times);
     const auto reference = events_of(plane, spec, subdivide(times, 8));
     ASSERT_GT(reference.size(), 3000u);
@@ -52,7 +52,7 @@ TEST(Convergence, EightTimesFinerIsAReferenceBecauseTheErrorFallsWithTheSquareOf
   MovingPlane plane;
   plane.w_W = Eigen::Vector3d(0, 0, 5);
   const auto times = sample_times(plane, SamplingSpec(), 1.7, 25000);
-  const auto spec = ideal_event_camera();
+  const auto spec = event_camera_preset("ideal");
   const auto reference = events_of(plane, spec, subdivide(times, 16));
   const double full = std::abs(compare(events_of(plane, spec, times), reference).count);
   const double half =

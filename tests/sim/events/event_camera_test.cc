@@ -66,12 +66,12 @@ void expect_reference(const EventCameraSpec& spec, const Frames& frames) {
 }
 
 TEST_P(Exactness, EventsAreTheCrossingsOfLogLuminance) {
-  expect_reference(ideal_event_camera(),
+  expect_reference(event_camera_preset("ideal"),
                    film(kOddWidth, kOddHeight, every(700, 70000), GetParam().luminance));
 }
 
 TEST_P(Exactness, HoldsWithMismatchAndUnequalThresholds) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.mismatch_sigma = 0.03;
   spec.contrast_threshold_on = 0.15;
   spec.contrast_threshold_off = 0.25;
@@ -79,7 +79,7 @@ TEST_P(Exactness, HoldsWithMismatchAndUnequalThresholds) {
 }
 
 TEST_P(Exactness, HoldsWithRefractoryPeriodsShorterAndLongerThanTheInterval) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   for (const int refractory_us : {1, 150, 700, 1900}) {
     spec.refractory_us = refractory_us;
     expect_reference(spec, film(kOddWidth, kOddHeight, every(700, 70000), GetParam().luminance));
@@ -104,13 +104,13 @@ std::vector<TimeUs> stamps(const std::vector<Event>& events) {
 }
 
 TEST(EventCamera, StampsLieWhereTheThresholdsAreCrossed) {
-  EXPECT_EQ(stamps(single_pixel(ideal_event_camera(), {{0, 0}, {1000, 1.1}, {2000, 0.15}})),
+  EXPECT_EQ(stamps(single_pixel(event_camera_preset("ideal"), {{0, 0}, {1000, 1.1}, {2000, 0.15}})),
             // Up through .2 .4 .6 .8 1.0; then down through .8 .6 .4 .2 at 1000 (1.1 - L)/.95.
             (std::vector<TimeUs>{182, 364, 545, 727, 909, -1316, -1526, -1737, -1947}));
 }
 
 TEST(EventCamera, PixelIsHeldAndRearmedAtTheLuminanceOfThatInstant) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.refractory_us = 300;
   // L = t/1 ms. Event at 200, re-armed at 500 with reference .5, event at 700, re-armed at 1000
   // exactly with the sample there; the way down starts from that reference.
@@ -119,7 +119,7 @@ TEST(EventCamera, PixelIsHeldAndRearmedAtTheLuminanceOfThatInstant) {
 }
 
 TEST(EventCamera, ChangesWithinTheRefractoryPeriodAreLost) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.refractory_us = 1000;
   // After the event at 1000 (1/5) the pixel sees nothing until 1200.
   EXPECT_EQ(stamps(single_pixel(spec, {{0, 0}, {1000, 1}, {1100, 0}, {1200, 1}, {1300, 1.1}})),
@@ -133,7 +133,7 @@ TEST(EventCamera, BrighterIsOnDarkerIsOffAtTheRightPlace) {
     const auto frames = film(kOddWidth, kOddHeight, {0, 1000}, [&](int px, int py, TimeUs t) {
       return px == x && py == y && t > 0 ? end : 1.0;
     });
-    EventCamera camera(ideal_event_camera(), kOddWidth, kOddHeight, 1, 0, "top");
+    EventCamera camera(event_camera_preset("ideal"), kOddWidth, kOddHeight, 1, 0, "top");
     const auto events = emulate(camera, frames);
     ASSERT_FALSE(events.empty());
     for (const Event& event : events) {
@@ -172,7 +172,7 @@ TEST(EventCamera, NoPixelIsEverStuck) {
 }
 
 TEST(EventCamera, SumOfSignedThresholdsIsTheChangeOfTheReference) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.mismatch_sigma = 0.03;
   EventCamera camera(spec, kOddWidth, kOddHeight, 5, 0, "top");
   const auto frames = film(kOddWidth, kOddHeight, every(900, 90000), random_walk);
@@ -254,7 +254,7 @@ TEST(EventCamera, StampsDoNotClumpAtTheSamples) {
     return 1.6 + std::sin(0.3 * x + 0.17 * y + 91 * seconds(t)) * std::cos(0.23 * y - 0.05 * x) +
            0.5 * std::sin(0.1 * x - 0.2 * y + 57 * seconds(t));
   });
-  EventCamera camera(ideal_event_camera(), 64, 48, 5, 0, "top");
+  EventCamera camera(event_camera_preset("ideal"), 64, 48, 5, 0, "top");
   const auto events = emulate(camera, frames);
   ASSERT_GT(events.size(), 50000u);
   std::array<int, 10> histogram{};
@@ -316,7 +316,7 @@ TEST(EventCamera, ThresholdsNeverFallBelowTheirMinimum) {
 }
 
 TEST(EventCamera, RebaseMakesNoEventsAndKeepsThePhaseOfEveryPixel) {
-  EventCamera camera(ideal_event_camera(), kOddWidth, kOddHeight, 5, 0, "top");
+  EventCamera camera(event_camera_preset("ideal"), kOddWidth, kOddHeight, 5, 0, "top");
   const auto frames = film(kOddWidth, kOddHeight, {0, 1000, 2000}, random_walk);
   std::vector<Event> events;
   camera.reset(0, frames[0].luminance.data());

@@ -8,8 +8,8 @@ namespace dodgesim {
 namespace {
 
 TEST(LightBetween, HasStepsOnlyForACameraWithNoise) {
-  EXPECT_EQ(LightBetween(ideal_event_camera()).steps(100000000), 1);
-  EventCameraSpec leaking = ideal_event_camera();
+  EXPECT_EQ(LightBetween(event_camera_preset("ideal")).steps(100000000), 1);
+  EventCameraSpec leaking = event_camera_preset("ideal");
   leaking.leak_hz = 0.1;
   const LightBetween light(leaking);
   EXPECT_EQ(light.steps(1), 1);
@@ -19,7 +19,7 @@ TEST(LightBetween, HasStepsOnlyForACameraWithNoise) {
 }
 
 TEST(LightBetween, MovesTheLogarithmOfEveryPixelLinearly) {
-  const EventCameraSpec spec = ideal_event_camera();
+  const EventCameraSpec spec = event_camera_preset("ideal");
   const std::vector<float> before = {0, 0.5F, 2, 0.3F}, after = {1, 0.1F, 2, 0};
   std::vector<float> between;
   for (const double share : {0.0, 0.25, 0.5, 1.0}) {
@@ -33,7 +33,7 @@ TEST(LightBetween, MovesTheLogarithmOfEveryPixelLinearly) {
 }
 
 TEST(LightBetween, RunsStraightWhereThePixelAnswersLinearly) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.linear_below = 1;
   std::vector<float> between;
   LightBetween(spec).at(0.25, {0.2F}, {0.6F}, between);

@@ -46,7 +46,7 @@ class StepResponse : public ::testing::TestWithParam<TimeUs> {};
 INSTANTIATE_TEST_SUITE_P(Periods, StepResponse, ::testing::Values(50, 1000, 30000));
 
 TEST_P(StepResponse, EventsLieOnTheExponential) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.photoreceptor_hz = 3000;
   for (const auto& [a, b] : {std::pair{0.1, 0.9}, {0.9, 0.1}, {0.02, 0.05}}) {
     const double w = kTwoPi * (100 + 1500 * b);  // at half of 1000 lux
@@ -65,7 +65,7 @@ TEST_P(StepResponse, EventsLieOnTheExponential) {
 }
 
 TEST_P(StepResponse, OfSecondOrderStartsFlat) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.photoreceptor_hz = 3000;
   spec.follower_hz = 400;
   const double w1 = kTwoPi * (100 + 1500 * 0.9), w2 = kTwoPi * 400;
@@ -115,7 +115,7 @@ std::vector<Event> events_every_microsecond(const std::vector<double>& response,
 TEST(LowPass, MakesTheEventsOfAnOutputThatTurnsBetweenSamples) {
   constexpr TimeUs kFrameUs = 10000;
   constexpr double kCutoffHz = 35;
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.photoreceptor_hz = 1e-9;
   spec.photoreceptor_dark_hz = kCutoffHz;
   RandomStream random(4, 0, "films");
@@ -144,7 +144,7 @@ TEST(LowPass, MakesTheEventsOfAnOutputThatTurnsBetweenSamples) {
 
 // The output of two low-passes is followed in straight pieces.
 TEST(LowPass, OfSecondOrderLosesNoPeakThatIsAPerCentBeyondTheThreshold) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.photoreceptor_hz = 1e-9;
   spec.photoreceptor_dark_hz = 50;
   spec.follower_hz = 200;
@@ -170,7 +170,7 @@ TEST(LowPass, OfSecondOrderLosesNoPeakThatIsAPerCentBeyondTheThreshold) {
 }
 
 TEST(LowPass, ATenTimesDarkerSceneAnswersTenTimesSlower) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.photoreceptor_hz = 3000;
   spec.photoreceptor_dark_hz = 0.01;
   const auto at = [&](double lux) {
@@ -183,7 +183,7 @@ TEST(LowPass, ATenTimesDarkerSceneAnswersTenTimesSlower) {
 
 TEST(LowPass, SamplingMoreOftenGivesTheSameEvents) {
   // The light rises steadily by 300/s in log luminance, which the photoreceptor follows with a lag.
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.photoreceptor_hz = 3000;
   spec.follower_hz = 2000;
   const auto run = [&](TimeUs period_us) {
@@ -201,7 +201,7 @@ TEST(LowPass, SamplingMoreOftenGivesTheSameEvents) {
 }
 
 TEST(LowPass, TheFollowerAloneIsALowPassOfFirstOrder) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.follower_hz = 10;
   const double w = kTwoPi * 10, swing = std::log(0.201 / 0.101);
   for (const double light : {1.0, 0.01}) {  // whatever the light
@@ -218,7 +218,7 @@ TEST(LowPass, TheFollowerAloneIsALowPassOfFirstOrder) {
 
 TEST(LowPass, FastFlickerMakesNoEvents) {
   // 5 kHz by a factor of 2 under a cut-off of 250 Hz: a twentieth of the swing of 0.7 is left.
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.photoreceptor_hz = 500;
   spec.photoreceptor_dark_hz = 0.01;
   const auto flicker = [](int, int, TimeUs t) { return t / 100 % 2 == 0 ? 1.0 : 0.5; };
@@ -226,7 +226,7 @@ TEST(LowPass, FastFlickerMakesNoEvents) {
   EventCamera slow(spec, 1, 1, 1, 0, "top");
   const auto settled = emulate(slow, frames);
   EXPECT_LT(settled.size(), 4u);  // while it settles
-  EventCamera fast(ideal_event_camera(), 1, 1, 1, 0, "top");
+  EventCamera fast(event_camera_preset("ideal"), 1, 1, 1, 0, "top");
   EXPECT_GT(emulate(fast, frames).size(), 1000u);
 }
 
@@ -263,7 +263,7 @@ TEST(LowPass, NoPixelIsEverStuckAndOrderHolds) {
 }
 
 TEST(LowPass, RebaseMakesNoEventsAndKeepsWhatIsStillSettling) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.photoreceptor_hz = 3000;
   spec.follower_hz = 1000;
   const auto run = [&](bool rebase) {
@@ -291,7 +291,7 @@ TEST(LowPass, RebaseMakesNoEventsAndKeepsWhatIsStillSettling) {
 // A pixel whose cut-off follows the light: with the light of either end of an interval instead of
 // the mean its stamps would be 0.1 ms off.
 TEST(LowPass, StampsOfFramesAMillisecondApartAreThoseOfFinerOnes) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.photoreceptor_hz = 200;
   spec.photoreceptor_dark_hz = 5;
   constexpr int kPixels = 16;

@@ -30,7 +30,7 @@ std::vector<Event> dark_events(const EventCameraSpec& spec, const std::vector<Ti
 }
 
 EventCameraSpec only_shot_noise() {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.shot_noise_on_hz = 0.235;
   spec.shot_noise_off_hz = 0.200;
   spec.shot_noise_bright_share = 1;  // the same at any light
@@ -38,7 +38,7 @@ EventCameraSpec only_shot_noise() {
 }
 
 EventCameraSpec only_hot_pixels(double fraction, double rate_hz) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.hot_pixel_fraction = fraction;
   spec.hot_pixel_hz = rate_hz;
   return spec;
@@ -280,7 +280,7 @@ TEST(ShotNoise, FallsLinearlyWithTheLightToItsShareAt1000Lux) {
 
 TEST(Leak, MakesOnEventsAtTheSetMeanRateWhateverTheMismatch) {
   for (const double mismatch : {0.0, 0.03}) {
-    EventCameraSpec spec = ideal_event_camera();
+    EventCameraSpec spec = event_camera_preset("ideal");
     spec.mismatch_sigma = mismatch;
     spec.leak_hz = 2;
     const double duration_s = 10;
@@ -316,7 +316,7 @@ TEST(Leak, MakesOnEventsAtTheSetMeanRateWhateverTheMismatch) {
 // Noise resets pixels, the leak those that it has spared for a whole period: a renewal process,
 // whose rates are the same from the first instant on.
 TEST(Leak, IsAsAfterALongRestFromTheStartWhateverTheNoise) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.leak_hz = 1;
   spec.shot_noise_bright_share = 1;
   spec.hot_pixel_hz = 8;
@@ -339,7 +339,7 @@ TEST(Leak, IsAsAfterALongRestFromTheStartWhateverTheNoise) {
 }
 
 TEST(Leak, AddsToARisingSignalAndHoldsUpAFallingOne) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.leak_hz = 10;  // 2 of log luminance in a second
   const auto count = [&](double slope) {
     EventCamera camera(spec, kFieldWidth, kFieldHeight, 1, 0, "top");

@@ -20,7 +20,7 @@ namespace {
 constexpr double kTurnRad = 2 * std::numbers::pi;
 
 EventCameraSpec slow(double photoreceptor_hz, double follower_hz) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.photoreceptor_hz = photoreceptor_hz;
   spec.follower_hz = follower_hz;
   return spec;

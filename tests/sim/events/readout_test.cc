@@ -64,7 +64,7 @@ class Bench {
 };
 
 EventCameraSpec only_arbiter(double max_hz) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.readout_max_hz = max_hz;
   return spec;
 }
@@ -83,7 +83,7 @@ std::vector<Request> poisson(double rate_hz, double duration_s,
 }
 
 TEST(Readout, PassesEventsOnWhereNothingHoldsThemUp) {
-  Bench bench(ideal_event_camera());
+  Bench bench(event_camera_preset("ideal"));
   const auto requests = poisson(1e5, 0.1);
   const auto events = bench.serve(requests, 100000);
   ASSERT_EQ(events.size(), requests.size());
@@ -91,7 +91,7 @@ TEST(Readout, PassesEventsOnWhereNothingHoldsThemUp) {
 }
 
 TEST(Readout, LatencyShiftsAllStamps) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.latency_us = 2345;
   Bench bench(spec);
   const auto events = bench.serve({{1, 0}, {999, 1}, {1000, 2}}, 10000);
@@ -102,7 +102,7 @@ TEST(Readout, LatencyShiftsAllStamps) {
 }
 
 TEST(Readout, JitterHasTheSetMeanAndSpread) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.latency_us = 500;
   spec.jitter_us = 20;
   Bench bench(spec);
@@ -129,7 +129,7 @@ TEST(Readout, JitterHasTheSetMeanAndSpread) {
 }
 
 TEST(Readout, NoEventComesBeforeItsCauseHoweverStrongTheJitter) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.latency_us = 10;
   spec.jitter_us = 1000;
   Bench bench(spec);
@@ -211,7 +211,7 @@ TEST(Readout, UnderOverloadLosesOnlyWhatWaitingPixelsWouldSayAndCountsIt) {
 }
 
 TEST(Readout, StampsAreMultiplesOfTheResolutionNotBeforeTheEvent) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   for (const std::int64_t resolution_us : {2, 7, 1000, 2500}) {
     spec.stamp_resolution_us = resolution_us;
     Bench bench(spec);
@@ -245,7 +245,7 @@ TEST(Readout, GivesTheSameStreamHoweverTheEventsAreSplitIntoCalls) {
 }
 
 TEST(Readout, ResetForgetsWhatWaits) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.readout_max_hz = 1;
   spec.latency_us = 100000;
   Bench bench(spec);

@@ -66,7 +66,7 @@ TEST(Region, EventsAreTheCrossingsOfEachPixelsOwnCurve) {
   for (const auto& luminance : {fast_walk, fast_sine}) {
     const Frames frames = film_with_regions(luminance);
     for (const int refractory_us : {0, 1, 100, 130, 900}) {
-      EventCameraSpec spec = ideal_event_camera();
+      EventCameraSpec spec = event_camera_preset("ideal");
       spec.refractory_us = refractory_us;
       spec.mismatch_sigma = 0.03;
       EventCamera camera(spec, kFrameWidth, kFrameHeight, 3, 0, "top");
@@ -146,7 +146,7 @@ TEST(Region, NoPixelIsEverStuck) {
 }
 
 TEST(Region, SumOfSignedThresholdsIsTheChangeOfTheReference) {
-  EventCameraSpec spec = ideal_event_camera();
+  EventCameraSpec spec = event_camera_preset("ideal");
   spec.mismatch_sigma = 0.03;
   EventCamera camera(spec, kFrameWidth, kFrameHeight, 5, 0, "top");
   const Frames frames = film_with_regions(fast_walk);
@@ -177,7 +177,7 @@ double disk(int x, int y, TimeUs t) {
 
 TEST(Region, AboutAllThatMovesGivesTheEventsOfWholePictures) {
   constexpr int kSide = 40;
-  for (const EventCameraSpec& spec : {ideal_event_camera(), EventCameraSpec()}) {
+  for (const EventCameraSpec& spec : {event_camera_preset("ideal"), EventCameraSpec()}) {
     EventCamera camera(spec, kSide, kSide, 5, 0, "top");
     Frames frames = film(kSide, kSide, every(333, 333 * 120), disk);
     const auto whole = emulate(camera, frames);
@@ -196,7 +196,7 @@ TEST(Region, AboutAllThatMovesGivesTheEventsOfWholePictures) {
 }
 
 TEST(Region, RefusesTimeThatStandsPixelsThatDoNotExistAndLuminanceWithoutALogarithm) {
-  EventCamera camera(ideal_event_camera(), 3, 2, 1, 0, "top");
+  EventCamera camera(event_camera_preset("ideal"), 3, 2, 1, 0, "top");
   const std::array<float, 6> good = {1, 1, 1, 1, 1, 1};
   const std::array<float, 6> bad = {1, std::numeric_limits<float>::quiet_NaN(), 1, 1, 1, 1};
   std::vector<Event> events;

@@ -29,7 +29,7 @@ class RenderedScene {
         renderer_(*model_, {}, kIntrinsics, RenderSpec()) {}
 
   std::vector<Event> events(const MovingPlane& motion, const std::vector<TimeUs>& times) {
-    const EventCameraSpec spec = ideal_event_camera();
+    const EventCameraSpec spec = event_camera_preset("ideal");
     EventCamera camera(spec, kIntrinsics.width, kIntrinsics.height, 1, 0, "top");
     std::vector<Event> events;
     camera.reset(0, look(motion, 0));

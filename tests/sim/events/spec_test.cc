@@ -109,7 +109,7 @@ TEST(EventCameraSpec, ZeroSwitchesEachPartOff) {
   spec.latency_us = 0;
   spec.jitter_us = 0;
   spec.readout_max_hz = 0;
-  const auto ideal = run(ideal_event_camera());
+  const auto ideal = run(event_camera_preset("ideal"));
   EXPECT_EQ(run(spec), ideal);
   spec.hot_pixel_fraction = 1;
   spec.hot_pixel_hz = 0;

@@ -122,7 +122,7 @@ TEST_F(ThrownBall, GivesACameraAtRestTheSameEventsByItsRegionAndByWholePictures)
     const auto wanted = samples(70000);
     EventCameraSpec slow;  // pixels that still settle when the region has moved on
     slow.jitter_us = 0;    // depends on the microsecond
-    for (const EventCameraSpec& spec : {ideal_event_camera(), slow}) {
+    for (const EventCameraSpec& spec : {event_camera_preset("ideal"), slow}) {
       const auto by_region = events(spec, wanted, false);
       EXPECT_GT(regions_, 40);
       const auto by_picture = events(spec, wanted, true);
@@ -144,9 +144,9 @@ TEST_F(ThrownBall, GivesAHoveringCameraTheSameEventsInItsRegion) {
   vehicle_v_W_ = Eigen::Vector3d(0.02, -0.03, 0.02);
   vehicle_w_W_ = Eigen::Vector3d(0.05, -0.1, 0.08);
   const auto wanted = samples(70000);
-  const auto by_region = in_region(events(ideal_event_camera(), wanted, false));
+  const auto by_region = in_region(events(event_camera_preset("ideal"), wanted, false));
   EXPECT_GT(regions_, 40);
-  const auto by_picture = in_region(events(ideal_event_camera(), wanted, true));
+  const auto by_picture = in_region(events(event_camera_preset("ideal"), wanted, true));
   ASSERT_GT(by_picture.size(), 3000u);
   const auto difference = compare(by_region, by_picture);
   EXPECT_LT(std::abs(difference.count), 0.01);
@@ -160,9 +160,9 @@ TEST_F(ThrownBall, ByItsRegionGivesTheEventsOfAFourTimesFinerReference) {
   for (const Sample& sample : wanted) times.push_back(sample.t_us);
   std::vector<Sample> fine;
   for (const TimeUs t : subdivide(times, 4)) fine.push_back({t, Sample::kWholeImage});
-  const auto reference = events(ideal_event_camera(), fine, true);
+  const auto reference = events(event_camera_preset("ideal"), fine, true);
   ASSERT_GT(reference.size(), 3000u);
-  const auto difference = compare(events(ideal_event_camera(), wanted, false), reference);
+  const auto difference = compare(events(event_camera_preset("ideal"), wanted, false), reference);
   // The print on the ball is fine, and moves up to a pixel between samples.
   EXPECT_LT(std::abs(difference.count), 0.03);
   EXPECT_LT(difference.median_us, 100);

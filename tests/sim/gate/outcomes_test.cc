@@ -93,6 +93,17 @@ TEST(Outcomes, ALandingBeforeTheObjectCameIsNoSuccess) {
   }
 }
 
+TEST(Outcomes, WhereNobodyKnowsWhetherItWouldHaveHitThereIsNoDodge) {
+  ThrowResult result = throw_that(0, 'd');
+  result.none = {};
+  result.none.status = "error";
+  result.none.error = "diverged";
+  const auto all = outcomes(tables_of({result}));
+  EXPECT_EQ(all[0].what, "not judged: diverged");
+  EXPECT_TRUE(all[0].counts);
+  EXPECT_FALSE(all[0].success);
+}
+
 TEST(Outcomes, RefuseTablesThatAreNotOfACampaign) {
   const auto refusal = [](const CampaignTables& tables) { return [tables] { outcomes(tables); }; };
   CampaignTables tables = tables_of({throw_that(1, 'd'), throw_that(0, 'd')});

@@ -14,6 +14,7 @@ namespace {
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 // Two throws, one of 4 and one of 8 m/s, for each value of a sweep; all that `hit` says hit.
 LoadedCampaign swept(const std::vector<std::vector<AxisValue>>& sweep,
@@ -78,11 +79,17 @@ TEST(ThresholdClaim, TellsFalseEventsFromMissedOnes) {
   // 1000 events, 200 of a ball; 100 in clusters, 50 of them the ball's.
   a.results[0].truth_rows = {{0, 0, false, {1000, 200, 100, 50}}};
   a.results[1].truth_rows = {{1, 0, true, {1000, 100, 100, 90}}};
-  const std::string tables = threshold_experiment().analyse({a, b}).markdown;
+  const PaperTables analysed = threshold_experiment().analyse({a, b});
+  const std::string& tables = analysed.markdown;
   EXPECT_THAT(tables, HasSubstr("| 25.0 % (25.0 to 25.0) | 90.0 % (90.0 to 90.0) | "
                                 "50.0 % (50.0 to 50.0) | 10.0 % (10.0 to 10.0) |"));
   EXPECT_THAT(tables, HasSubstr("| **0.1** |"));
   EXPECT_THAT(tables, HasSubstr("| 0.2 |"));
+  // One table of numbers for both.
+  EXPECT_THAT(analysed.csv, StartsWith("key,value,dodged,would_have_hit,"));
+  EXPECT_THAT(analysed.csv, HasSubstr("\ndodger.time_image.threshold_a_s,0.1,2,2,,0,2,"
+                                      "0.2500,0.9000,0.5000,0.1000\n"
+                                      "dodger.time_image.threshold_b,0.2,2,2,"));
 }
 
 TEST(ThresholdClaim, TellsTheLeastAndTheGreatestOfTheThrows) {
@@ -181,8 +188,10 @@ TEST(TranslationClaim, KnowsHowFarTheImageMoves) {
   const LoadedCampaign flown =
       swept({{{"mission.speed_mps", "1.5"}}}, [](std::size_t, double) { return true; });
   // 190.7 px, 1.5 m/s, tan 30 degrees, 10 ms, 3 m; the synthetic oracle dodges.
-  EXPECT_THAT(translation_experiment().analyse({flown}).markdown,
+  const PaperTables tables = translation_experiment().analyse({flown});
+  EXPECT_THAT(tables.markdown,
               HasSubstr("| 1.5 | 0.55 | 2 / 2 (0.34 to 1.00) | 0 / 2 (0.00 to 0.66) |"));
+  EXPECT_THAT(tables.csv, HasSubstr("\n1.5,0.55,2,0,2,"));
 }
 
 }  // namespace

@@ -87,7 +87,6 @@ TEST(FixedWidthRule, CoversEveryRateWhenTheThrowsRunOut) {
   }
 }
 
-// All paths end somewhere: without an interval's help the stop points' probabilities add up to 1.
 TEST(FixedWidthRule, WidensItsIntervalWhenTheThrowsRunOut) {
   const FixedWidthRule rule(0.05, 0.95, 60);
   // Pooled with the pseudo counts, 30 of 60 is 1/2.
@@ -95,6 +94,8 @@ TEST(FixedWidthRule, WidensItsIntervalWhenTheThrowsRunOut) {
   EXPECT_GT(rule.interval(30, 60).half_width(), 0.12);
 }
 
+// All paths end somewhere: at rates whose intervals all hold, the probabilities of the stop points
+// add up to 1.
 TEST(FixedWidthRule, CountsAllPaths) {
   const FixedWidthRule rule(0.5, 0.95, 3);
   // Three throws at most, none of which ends the campaign before.

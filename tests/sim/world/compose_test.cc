@@ -306,6 +306,8 @@ TEST_F(OwnModels, AVehicleThatTheMixerWouldTakeForAnotherIsRefused) {
   EXPECT_THAT(with("0 0  0.012\"", "0 0  0.02\""), a_rotor);
   EXPECT_THAT(with("ctrlrange=\"0 9.5\"", "ctrlrange=\"0 3\""), a_rotor);
   EXPECT_THAT(with("ctrlrange=\"0 9.5\"", "ctrlrange=\"5 9.5\""), a_rotor);
+  EXPECT_THAT(with("<freejoint name=\"vehicle\"/>", ""),
+              HasSubstr("the body must have a free joint"));
   EXPECT_THAT(with("<motor name=\"rotor_0\"",
                    "<motor name=\"fifth\" site=\"rotor_0\"/><motor name=\"rotor_0\""),
               HasSubstr("four actuators, its rotors, not 5"));
@@ -318,6 +320,21 @@ TEST_F(OwnModels, AVehicleThatTheMixerWouldTakeForAnotherIsRefused) {
   EXPECT_THAT(with("diaginertia=\"0.0033 0.0040 0.0062\"",
                    "fullinertia=\"0.0033 0.0040 0.0062 0.0003 0 0\""),
               HasSubstr("principal axes"));
+}
+
+// The reference size is 0.1 m.
+TEST_F(OwnModels, AnObjectIsAsLargeAsItsReferenceSizeSays) {
+  const auto with = [&](const std::string& geom) {
+    write_object(object(geom));
+    return world_message();
+  };
+  EXPECT_EQ(with("<geom size='0.05'/>"), "no error");
+  EXPECT_EQ(with("<geom type='capsule' size='0.01' fromto='0 0 -0.03 0 0 0.06'/>"), "no error");
+  EXPECT_THAT(with("<geom size='0.15'/>"),
+              HasSubstr("own.xml: with a size of 0.2 m its geoms reach 0.3 m from its centre of "
+                        "mass, which must be 0.4 to 1.2 times the size"));
+  EXPECT_THAT(with("<geom size='0.035'/>"), HasSubstr("reach 0.07 m"));
+  EXPECT_THAT(with("<geom size='0.05' pos='1 0 0'/>"), HasSubstr("reach 2.1 m"));
 }
 
 TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
