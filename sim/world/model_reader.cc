@@ -21,15 +21,10 @@ constexpr double kLeastReach = 0.4, kMostReach = 1.2;
 // Nearly: how far the parts reach along the edges and diagonals of a cube.
 double farthest_m(const std::vector<Convex>& parts) {
   double farthest_m = 0;
-  for (const Eigen::Vector3d& edge :
-       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(1, -1, 0),
-        Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(1, 1, -1), Eigen::Vector3d(1, -1, 1),
-        Eigen::Vector3d(-1, 1, 1)}) {
-    for (int turn = 0; turn < 3; ++turn) {
-      const Eigen::Vector3d along =
-          Eigen::Vector3d(edge[turn], edge[(turn + 1) % 3], edge[(turn + 2) % 3]).normalized();
-      farthest_m = std::max({farthest_m, reach_m(parts, along), reach_m(parts, -along)});
-    }
+  for (int i = 0; i < 27; ++i) {
+    const Eigen::Vector3d along(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    if (along.isZero()) continue;
+    farthest_m = std::max(farthest_m, reach_m(parts, along.normalized()));
   }
   return farthest_m;
 }
