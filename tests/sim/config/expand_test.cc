@@ -71,8 +71,7 @@ TEST(Expand, AThrowHasTheValuesOfItsCellAndSweep) {
 }
 
 TEST(Expand, APilotAmongTheValuesBringsItsConfiguration) {
-  const Scenario campaign =
-      parse("throw: {}\nsweep: {pilot: [falanga2020, dodgesim, oracle]}\n");
+  const Scenario campaign = parse("throw: {}\nsweep: {pilot: [falanga2020, dodgesim, oracle]}\n");
   for (const int i : {0, 1, 2}) {
     EXPECT_EQ(case_of(campaign, i).scenario.dodger.escape.law,
               dodge::preset(i == 1 ? "dodgesim" : "falanga2020").escape.law);
