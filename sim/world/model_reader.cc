@@ -21,10 +21,14 @@ constexpr double kLeastReach = 0.4, kMostReach = 1.2;
 // Nearly: how far the parts reach along the edges and diagonals of a cube.
 double farthest_m(const std::vector<Convex>& parts) {
   double farthest_m = 0;
-  for (int i = 0; i < 27; ++i) {
-    const Eigen::Vector3d along(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-    if (along.isZero()) continue;
-    farthest_m = std::max(farthest_m, reach_m(parts, along.normalized()));
+  for (const int x : {-1, 0, 1}) {
+    for (const int y : {-1, 0, 1}) {
+      for (const int z : {-1, 0, 1}) {
+        const Eigen::Vector3d along(x, y, z);
+        if (along.isZero()) continue;
+        farthest_m = std::max(farthest_m, reach_m(parts, along.normalized()));
+      }
+    }
   }
   return farthest_m;
 }

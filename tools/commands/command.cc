@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/campaign/journal.h"
 #include "sim/campaign/load_campaign.h"
 #include "sim/campaign/text_table.h"
 

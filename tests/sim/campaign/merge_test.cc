@@ -104,7 +104,7 @@ TEST_F(MergeTest, OfManyMissingThrowsItListsTheFirst) {
 
 TEST_F(MergeTest, SaysWhenAPartIsDamaged) {
   fly_shard("a", 0, 1);
-  const fs::path journal = root_ / "a/results.bin";
+  const std::filesystem::path journal = root_ / "a/results.bin";
   std::string bytes = read(journal);
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
   std::ofstream(journal, std::ios::binary) << bytes;
