@@ -53,10 +53,7 @@ class RecordReader {
  public:
   explicit RecordReader(const std::filesystem::path& path)
       : path_(path), file_(path, std::ios::binary) {
-    if (!file_) {
-      fail(std::string("could not be opened: ") + std::strerror(errno) +
-           "; a campaign is named by the directory that `dodgesim run --out DIR` wrote");
-    }
+    if (!file_) fail_to_open(errno);
     file_.seekg(0, std::ios::end);
     size_ = static_cast<std::uint64_t>(file_.tellg());
   }
@@ -97,6 +94,13 @@ class RecordReader {
   }
 
  private:
+  [[noreturn]] void fail_to_open(int error) const {
+    const bool nothing = error == ENOENT || error == ENOTDIR;
+    fail(std::string("could not be opened: ") + std::strerror(error) +
+         (nothing ? "; a campaign is named by the directory that `dodgesim run --out DIR` wrote"
+                  : ""));
+  }
+
   // Whether this is the header of a frame that ends within `room` bytes from its beginning.
   static bool fits(const RecordHeader& header, std::uint64_t room) {
     return header.mark == mark_of(header.size) && header.size <= kLargestRecord &&
@@ -174,11 +178,9 @@ JournalIndex read_journal(const std::filesystem::path& path) {
   return index;
 }
 
-std::string damage_text(int records) {
-  const bool one = records == 1;
-  return std::to_string(records) + (one ? " record" : " records") + " of results.bin " +
-         (one ? "is" : "are") + " damaged or cut off; --resume flies " +
-         (one ? "its throw" : "their throws") + " again";
+std::string damage_text(const std::string& directories) {
+  return "results.bin of " + directories +
+         " is damaged or cut off, and --resume flies there what was lost";
 }
 
 namespace {

@@ -41,8 +41,8 @@ struct JournalIndex {
 // Throws IoError if the file cannot be read or is no journal.
 JournalIndex read_journal(const std::filesystem::path& path);
 
-// "1 record of results.bin is damaged or cut off; --resume flies its throw again", of one and more.
-std::string damage_text(int records);
+// What to do about directories whose journals have damaged records.
+std::string damage_text(const std::string& directories);
 
 // The result of one record. Throws IoError if the file has changed since.
 ThrowResult read_result(const std::filesystem::path& path, const JournalRecord& record);
@@ -61,7 +61,8 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  // Throws IoError; the result is in the file then as a whole or not at all. That somebody else has
+  // Throws IoError; the result is in the file then as a whole, not at all or, where the file cannot
+  // be cut, damaged. That somebody else has
   // written to the file is an error, too: locks do not hold between hosts on every shared disk.
   void add(const ThrowResult& result);
   void sync();  // returns when all is on the disk; throws IoError

@@ -9,7 +9,8 @@ namespace dodgesim {
 
 LoadedCampaign campaign_of(Scenario scenario, std::string program,
                            std::vector<ThrowResult> results) {
-  LoadedCampaign campaign = {std::move(scenario), std::move(program), std::move(results), {}, 0};
+  LoadedCampaign campaign = {
+      std::move(scenario), std::move(program), std::move(results), {}, false};
   if (!campaign.scenario.stop) return campaign;
   campaign.stop.emplace(campaign.scenario);
   for (const ThrowResult& result : campaign.results) campaign.stop->add(result);
@@ -39,7 +40,7 @@ LoadedCampaign load_campaign(const std::filesystem::path& directory) {
   });
   LoadedCampaign campaign = campaign_of(parse_scenario(index.identity.scenario, kScenarioFile, ""),
                                         index.identity.program, std::move(results));
-  campaign.damaged = index.damaged;
+  campaign.damaged = index.damaged > 0;
   return campaign;
 }
 

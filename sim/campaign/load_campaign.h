@@ -18,7 +18,7 @@ struct LoadedCampaign {
   std::string program;               // version and commit that flew it
   std::vector<ThrowResult> results;  // in throw order, without rows of detections and objects
   std::optional<EarlyStop> stop;     // with the results; empty without the scenario's key stop
-  int damaged = 0;                   // records of its journal that cannot be read
+  bool damaged = false;              // records of its journal cannot be read
 
   // The number of its throws: fewer than the scenario's when stop has ended it.
   int wanted() const { return ended_early() ? *stop->end() : throw_count(scenario); }

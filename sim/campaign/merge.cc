@@ -2,6 +2,7 @@
 #include <map>
 
 #include "sim/base/error.h"
+#include "sim/base/joined.h"
 #include "sim/base/wall_clock.h"
 #include "sim/campaign/campaign.h"
 #include "sim/campaign/campaign_directory.h"
@@ -27,7 +28,7 @@ struct Source {
 struct Sources {
   CampaignIdentity identity;
   std::map<int, Source> throws;
-  int damaged = 0;  // records
+  std::vector<std::string> damaged;  // directories
 };
 
 // Which of two unequal results of a throw counts; nothing if they contradict each other. One that
@@ -41,7 +42,7 @@ const Source* better(const Source& a, const Source& b) {
 void add_directory(const fs::path& directory, bool first, Sources& sources) {
   const JournalIndex index = read_journal(directory / kJournalFile);
   if (first) sources.identity = index.identity;
-  sources.damaged += index.damaged;
+  if (index.damaged > 0) sources.damaged.push_back(directory.string());
   if (index.identity != sources.identity) {
     throw ScenarioError(directory.string() + " holds results " +
                         difference(index.identity, sources.identity) +
@@ -86,7 +87,8 @@ void expect_all(const Scenario& scenario, const Sources& sources) {
   if (missing.empty()) return;
   throw MissingThrows(std::to_string(missing.size()) + " of " + std::to_string(count) +
                       " throws are missing: " + ranges(missing) +
-                      (sources.damaged > 0 ? "; " + damage_text(sources.damaged) : "") + ".");
+                      (sources.damaged.empty() ? "" : "; " + damage_text(joined(sources.damaged))) +
+                      ".");
 }
 
 Sources collect(const std::vector<fs::path>& directories) {

@@ -10,6 +10,7 @@
 #include "sim/campaign/axis.h"
 #include "sim/campaign/report_files.h"
 #include "sim/campaign/statistics_table.h"
+#include "sim/config/pilot.h"
 #include "sim/files/base64.h"
 #include "sim/files/json.h"
 #include "sim/files/markup.h"
@@ -53,15 +54,15 @@ std::uint32_t heat_place(std::optional<std::size_t> at) {
   return at ? static_cast<std::uint32_t>(*at) : std::numeric_limits<std::uint32_t>::max();
 }
 
-// Why a throw's flights failed; empty: none did.
-std::string errors_of(const ThrowResult& r) {
+// Why a throw's flights failed; empty: none did. `pilot` is the flown one.
+std::string errors_of(const ThrowResult& r, const std::string& pilot) {
   std::string text;
   const auto add = [&text](const std::string& what, const FlightResult& flight) {
     if (flight.failed()) text += (text.empty() ? "" : " ") + what + flight.error;
   };
   add("", r.flown);
-  add("The flight of the pilot none failed: ", r.none);
-  add("The flight of the oracle failed: ", r.oracle);
+  if (pilot != kNoPilot) add("The flight of the pilot none failed: ", r.none);
+  if (pilot != kOraclePilot) add("The flight of the oracle failed: ", r.oracle);
   return text;
 }
 
@@ -233,10 +234,14 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
   for (const ThrowResult& result : results) {
     simulated_s += seconds(result.duration_us);
     computing_s += result.wall_s;
-    const std::string error = errors_of(result);
-    if (!error.empty()) errors[std::to_string(result.index)] = error;
   }
   const std::vector<Part> parts = parts_of(campaign);
+  for (const Part& part : parts) {
+    for (const ThrowResult* const result : part.results) {
+      const std::string error = errors_of(*result, part.pilot);
+      if (!error.empty()) errors[std::to_string(result->index)] = error;
+    }
+  }
   Json sections = Json::array();
   for (const Part& part : parts) sections.push_back(section_of(part, axes));
   Json heat = Json::array(), grid_keys = Json::array(), sweep_keys = Json::array();

@@ -45,9 +45,10 @@ struct Tally {
   int would_have_hit = 0;  // of those, hit when nobody dodged, or that flight failed
   int dodged = 0;          // of those that would have hit
   Rate hit_undisturbed;    // by the pilot none, of its flights that did not fail
-  // Also of flights in which nobody threw:
-  int errors = 0;   // flights of this pilot, or of the pilot none, that failed
-  Rate collisions;  // hit or crashed, of all flights of the pilot that did not fail
+  int errors = 0;   // throws of which the flight of this pilot or of none failed, and flights of
+                    // this pilot that failed though nobody threw
+  Rate collisions;  // hit or crashed, of all flights of the pilot that did not fail, thrown at or
+                    // not
   std::optional<SequentialInterval> sequential = {};  // of the success rate, see Rate
 
   void add(const ThrowResult& result, ThrowResult::FlightOf by = &ThrowResult::flown);

@@ -29,7 +29,7 @@ constexpr double kLowest = 0.16, kHighest = 0.84;  // quantiles: a standard devi
 
 constexpr int kThresholdQuantiles = 400, kJitterQuantiles = 200;
 
-// ln(eps + I), or the tangent where I < linear_below; not the one that the camera uses.
+// ln(eps + I), or the tangent where I < linear_below. Written again, independent of the camera.
 double response(const EventCameraSpec& spec, double luminance) {
   const double knee = spec.log_epsilon + spec.linear_below;
   if (luminance >= spec.linear_below) return std::log(spec.log_epsilon + luminance);

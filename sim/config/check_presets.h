@@ -7,8 +7,8 @@
 
 namespace dodgesim {
 
-// Adds a problem for each key of the scenario that would hold with some values of the axis only,
-// because the others take its place.
+// Adds a problem for each key that the scenario gives and that would hold with some values of the
+// axis only, because others bring their own.
 void check_presets(const Scenario& scenario, const VariedKey& axis, ReadContext& context);
 
 }  // namespace dodgesim

@@ -211,18 +211,6 @@ void check_thrust(const Scenario& scenario, ReadContext& context) {
                     {"vehicle_overrides.max_thrust_n", most_n}, "exceed", context);
 }
 
-// An error of calibration between cameras of which one sends nothing.
-void check_lower_camera(const Scenario& scenario, ReadContext& context) {
-  const std::string key = "vehicle_overrides.lower_camera_turn_deg";
-  if (scenario.dodger.position.depth == "stereo" || !perceives(scenario.pilot) ||
-      scenario.vehicle_overrides.lower_camera_turn_deg.isZero(0)) {
-    return;
-  }
-  context.problems.add(context.position_of(key),
-                       key + " is given, but with dodger.position.depth " +
-                           scenario.dodger.position.depth + " the lower camera sends no events.");
-}
-
 void check_keys_together(const Scenario& scenario, ReadContext& context) {
   const MissionSpec& mission = scenario.mission;
   check_mission_key(scenario, "goal", "mission.goal_m", mission.goal_m.has_value(), context);
@@ -236,7 +224,6 @@ void check_keys_together(const Scenario& scenario, ReadContext& context) {
   check_thrust(scenario, context);
   check_speed_limit(scenario, context);
   check_cruise_speed(scenario, context);
-  check_lower_camera(scenario, context);
 }
 
 std::int64_t product(const VariedKeys& axes) {
@@ -320,10 +307,10 @@ void check_scenario(const Scenario& scenario, ReadContext& context) {
   for (const VariedKey& axis : scenario.sweep) check_axis(scenario, axis, false, context);
   check_texts(scenario, context);
   check_stop(scenario, context);
-  context.problems.raise_if_any();
-  if (!check_counts(scenario, context)) return;
   for (const VariedKey& axis : scenario.grid) check_presets(scenario, axis, context);
   for (const VariedKey& axis : scenario.sweep) check_presets(scenario, axis, context);
+  context.problems.raise_if_any();
+  if (!check_counts(scenario, context)) return;
   check_combinations(scenario, context);
 }
 

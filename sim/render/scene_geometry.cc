@@ -125,14 +125,14 @@ std::vector<Vertex>& static_triangles(int texture, bool solid, SceneGeometry& sc
   return scene.static_triangles.back().vertices;
 }
 
-[[noreturn]] void reject(const mjModel& m, int geom, int object) {
+[[noreturn]] void reject(const mjModel& m, int geom) {
   const char* name = mj_id2name(&m, mjOBJ_GEOM, geom);
-  const std::string kind = m.geom_type[geom] == mjGEOM_HFIELD ? "height field" : "plane";
-  throw ScenarioError((name ? "The " + kind + " '" + name + "'" : "A " + kind) + " of " +
-                      (object < 0 ? "the room" : "an object") +
+  throw ScenarioError("The geom " +
+                      (name ? "'" + std::string(name) + "'" : "number " + std::to_string(geom)) +
+                      (m.geom_type[geom] == mjGEOM_HFIELD ? ", a height field," : "") +
                       " cannot be seen by an event camera: only planes of the room, boxes, "
-                      "spheres, ellipsoids, capsules, cylinders and meshes can. Put it in group " +
-                      (object < 0 ? "4 or 5" : "3 or higher") + " to hide it.");
+                      "spheres, ellipsoids, capsules, cylinders and meshes can. Put it in group 4 "
+                      "or 5 to hide it.");
 }
 
 // What static edges are found from.
@@ -173,7 +173,6 @@ void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& p
       }
       return;
     case mjGEOM_PLANE:
-      if (object >= 0) reject(m, geom, object);
       if (size.x() > 0 && size.y() > 0) {
         append_rectangle(size, surface, pose, static_triangles(surface.texture, false, scene));
         faces.faces.push_back(rectangle(size, pose));
@@ -194,7 +193,7 @@ void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& p
       }
       return;
     default:
-      reject(m, geom, object);
+      reject(m, geom);
   }
 }
 

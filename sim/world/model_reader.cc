@@ -213,10 +213,11 @@ void ModelReader::check_reach(int body, double size_m) const {
   const double reach_m = farthest_m(parts);
   if (parts.empty() || (reach_m > kLeastReach * size_m && reach_m < kMostReach * size_m)) return;
   throw ScenarioError(
-      file_ + formatted(": with a size of %.3g m its geoms reach %.3g m from its centre of mass, "
-                        "which must be %.3g to %.3g times the size; reference_size_m is the "
-                        "longest extension of the geoms.",
-                        size_m, reach_m, kLeastReach, kMostReach));
+      file_ +
+      formatted(": with a size of %.3g m its geoms that collide reach %.3g m from its centre "
+                "of mass, but must reach %.3g to %.3g m: reference_size_m is the longest "
+                "extension of the model.",
+                size_m, reach_m, kLeastReach * size_m, kMostReach * size_m));
 }
 
 ObjectPhysics ModelReader::object(const std::string& prefix, double size_m) const {

@@ -51,8 +51,8 @@ class ModelReader {
   // Of a model that is overridden already; mass_scale: by how much its mass was.
   VehicleParameters vehicle(double mass_scale) const;
 
-  // `prefix`: what the names of the object begin with. Its geoms must fit its size `size_m`, as its
-  // longest extension.
+  // `prefix`: what the names of the object begin with. Its geoms that collide must fit its
+  // size `size_m`, as its longest extension.
   ObjectPhysics object(const std::string& prefix, double size_m) const;
 
  private:

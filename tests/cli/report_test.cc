@@ -88,8 +88,9 @@ TEST_F(ReportCommandTest, ADamagedRecordIsMissedAloud) {
   std::ofstream(root_ / "damaged/results.bin", std::ios::binary) << bytes;
   const Outcome table = dodgesim("table " + path("damaged"));
   EXPECT_EQ(table.exit_code, 3);
-  EXPECT_THAT(table.output, HasSubstr("damaged has 3 of 4 throws only: 1 record of results.bin is "
-                                      "damaged or cut off; --resume flies its throw again.\n"));
+  EXPECT_THAT(table.output,
+              HasSubstr("damaged has 3 of 4 throws only; results.bin of " + path("damaged") +
+                        " is damaged or cut off, and --resume flies there what was lost.\n"));
 }
 
 TEST_F(ReportCommandTest, NothingIsWrittenOverACampaign) {

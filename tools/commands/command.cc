@@ -109,7 +109,7 @@ int completeness(const std::string& directory, const LoadedCampaign& campaign) {
   const std::string all = count_text(throw_count(campaign.scenario), "throw");
   if (!campaign.complete()) {
     std::cerr << directory << " has " << campaign.results.size() << " of " << all << " only"
-              << (campaign.damaged > 0 ? ": " + damage_text(campaign.damaged) : "") << ".\n";
+              << (campaign.damaged ? "; " + damage_text(directory) : "") << ".\n";
     return kIncomplete;
   }
   if (campaign.ended_early()) {

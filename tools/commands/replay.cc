@@ -120,12 +120,13 @@ class FlightProgress : public FlightObserver {
   explicit FlightProgress(TimeUs duration_us)
       : progress_(duration_us / kUsPerMs, ::isatty(STDERR_FILENO) == 1, "ms of flight") {}
   void on_tick(const World& world) override {
-    progress_.show(std::max<TimeUs>(1, world.snapshot().t_us / kUsPerMs));
+    // By then what the first pictures cost weighs little.
+    if (world.snapshot().t_us >= kFirstUs) progress_.show(world.snapshot().t_us / kUsPerMs);
   }
   void finish() { progress_.finish(); }
 
  private:
-  static constexpr TimeUs kUsPerMs = 1000;
+  static constexpr TimeUs kUsPerMs = 1000, kFirstUs = 50 * kUsPerMs;
   Progress progress_;
 };
 
@@ -210,10 +211,14 @@ class Onlookers {
 
   FlightObserver* observer() { return &observers_; }
 
+  // Before anything else is written to the terminal.
+  void end_progress() {
+    if (progress_) progress_->finish();
+  }
+
   // Completes the files and says what they are; false if something cannot be shown. Of a flight
   // that failed there is only the recording, which shows how.
   bool finish(const ThrowResult& result) {
-    if (progress_) progress_->finish();
     if (mcap_) {
       mcap_->finish(result);
       std::cout << "Recording for Foxglove or Lichtblick: " << arguments_.mcap << "\n";
@@ -299,9 +304,11 @@ int replay(const ReplayArguments& arguments) {
       recorded_result(directory, index, arguments.throw_index);
 
   watch_stop_signals();
+  const bool length_known = recorded && recorded->flown.ok();
   Onlookers onlookers(scenario, arguments,
-                      recorded ? std::optional(recorded->duration_us) : std::nullopt);
+                      length_known ? std::optional(recorded->duration_us) : std::nullopt);
   const ThrowResult result = fly_throw(campaign, arguments.throw_index, onlookers.observer());
+  onlookers.end_progress();
   if (result.flown.failed()) {
     std::cerr << "Throw " << arguments.throw_index << " fails: " << result.flown.error << "\n";
   }

@@ -107,11 +107,11 @@ int run(const RunArguments& arguments) {
   const std::string part =
       summary.flown < summary.wanted ? std::to_string(summary.flown) + " of " : "";
   std::printf(
-      "%s%s in %s; real-time factor of the closed loop on one core: %.3g\nResults: %s\n"
+      "%s%s in %s; real-time factor of the closed loop on one core: %.*f\nResults: %s\n"
       "Report, for any browser: %s\n",
       part.c_str(), count_text(summary.wanted, "throw").c_str(),
-      duration_text(summary.wall_s).c_str(), summary.real_time_factor, options.out.c_str(),
-      (options.out / kReportFile).c_str());
+      duration_text(summary.wall_s).c_str(), summary.real_time_factor < 0.1 ? 4 : 2,
+      summary.real_time_factor, options.out.c_str(), (options.out / kReportFile).c_str());
   if (summary.memory.first_mb > 0) {
     std::printf("Memory of a worker: %.0f MB after its first throw, %.0f MB after its last\n",
                 summary.memory.first_mb, summary.memory.last_mb);

@@ -109,8 +109,9 @@ TEST_F(MergeTest, SaysWhenAPartIsDamaged) {
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
   std::ofstream(journal, std::ios::binary) << bytes;
   EXPECT_THAT(refusal<MissingThrows>({"a"}),
-              ::testing::EndsWith("; 1 record of results.bin is damaged or cut off; --resume flies "
-                                  "its throw again."));
+              ::testing::EndsWith("; results.bin of " + (root_ / "a").string() +
+                                  " is damaged or cut off, and --resume flies there what was "
+                                  "lost."));
 }
 
 TEST_F(MergeTest, CanBeAskedWhetherAllIsThere) {

@@ -158,6 +158,9 @@ TEST(ReportPage, SaysOfAThrowThatNobodyCanJudgeWhy) {
   one.results[0].none = failed("It diverged.");
   const auto data = data_of(report_html(one, "out/x"));
   EXPECT_EQ(data["errors"]["0"], "The flight of the pilot none failed: It diverged.");
+  one.scenario.pilot = "none";
+  one.results[0].flown = one.results[0].none;
+  EXPECT_EQ(data_of(report_html(one, "out/x"))["errors"]["0"], "It diverged.");
   const auto flags = [&](std::initializer_list<const char*> names) {
     std::string bytes(2, '\0');
     for (const char* name : names) {

@@ -342,23 +342,6 @@ const BadScenario kBadScenarios[] = {
     {"VehicleSlowerThanItsPilot", "controller:\n  evading_speed_limit_mps: 3\n",
      "bad.yaml:2:28: controller.evading_speed_limit_mps is 3, but must not be less than "
      "dodger.velocity_limit.max_speed_mps, which is 5."},
-    {"CameraTurnedThatSendsNothing",
-     "vehicle_overrides: {lower_camera_turn_deg: [0.1, 0, 0]}\n"
-     "dodger: {position: {depth: mono}}\n",
-     "bad.yaml:1:44: vehicle_overrides.lower_camera_turn_deg is given, but with "
-     "dodger.position.depth mono the lower camera sends no events."},
-    {"SweptCameraAndAKeyOfIt",
-     "sensors: {events: {leak_hz: 3}}\nsweep: {sensors.events.preset: [ideal, sees1]}\n",
-     "bad.yaml:1:29: sensors.events.leak_hz is 3, but other values of sensors.events.preset take "
-     "its place; give it in the sweep, too, for all of them: sensors.events.leak_hz: [3]."},
-    {"CameraInTheGridAndAKeyOfIt",
-     "throw: {}\nsensors: {events: {preset: ideal, leak_hz: 3}}\n"
-     "grid: {sensors.events.preset: [ideal, noisy]}\n",
-     "bad.yaml:2:44: sensors.events.leak_hz is 3, but other values of"},
-    {"SweptPilotAndAKeyOfItsOwn",
-     "dodger: {time_image: {threshold_b: 0.9}}\nsweep: {pilot: [falanga2020, dodgesim]}\n",
-     "bad.yaml:1:36: dodger.time_image.threshold_b is 0.9, but other values of pilot take its "
-     "place; give it in the sweep, too, for all of them: dodger.time_image.threshold_b: [0.9]."},
     {"SweptToTooSlowARangeSensor", "sweep: {sensors.range.rate_hz: [200, 10]}\n", "bad.yaml:1:"},
 };
 

@@ -331,8 +331,8 @@ TEST_F(OwnModels, AnObjectIsAsLargeAsItsReferenceSizeSays) {
   EXPECT_EQ(with("<geom size='0.05'/>"), "no error");
   EXPECT_EQ(with("<geom type='capsule' size='0.01' fromto='0 0 -0.03 0 0 0.06'/>"), "no error");
   EXPECT_THAT(with("<geom size='0.15'/>"),
-              HasSubstr("own.xml: with a size of 0.2 m its geoms reach 0.3 m from its centre of "
-                        "mass, which must be 0.4 to 1.2 times the size"));
+              HasSubstr("own.xml: with a size of 0.2 m its geoms that collide reach 0.3 m from its "
+                        "centre of mass, but must reach 0.08 to 0.24 m"));
   EXPECT_THAT(with("<geom size='0.035'/>"), HasSubstr("reach 0.07 m"));
   EXPECT_THAT(with("<geom size='0.05' pos='1 0 0'/>"), HasSubstr("reach 2.1 m"));
 }
