@@ -62,8 +62,8 @@ class Journal {
   Journal& operator=(const Journal&) = delete;
 
   // Throws IoError; the result is in the file then as a whole, not at all or, where the file cannot
-  // be cut, damaged. That somebody else has
-  // written to the file is an error, too: locks do not hold between hosts on every shared disk.
+  // be cut, damaged. That somebody else has written to the file is an error, too: locks do not hold
+  // between hosts on every shared disk.
   void add(const ThrowResult& result);
   void sync();  // returns when all is on the disk; throws IoError
 

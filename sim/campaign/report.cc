@@ -10,7 +10,6 @@
 #include "sim/campaign/axis.h"
 #include "sim/campaign/report_files.h"
 #include "sim/campaign/statistics_table.h"
-#include "sim/config/pilot.h"
 #include "sim/files/base64.h"
 #include "sim/files/json.h"
 #include "sim/files/markup.h"
@@ -57,12 +56,11 @@ std::uint32_t heat_place(std::optional<std::size_t> at) {
 // Why a throw's flights failed; empty: none did. `pilot` is the flown one.
 std::string errors_of(const ThrowResult& r, const std::string& pilot) {
   std::string text;
-  const auto add = [&text](const std::string& what, const FlightResult& flight) {
-    if (flight.failed()) text += (text.empty() ? "" : " ") + what + flight.error;
-  };
-  add("", r.flown);
-  if (pilot != kNoPilot) add("The flight of the pilot none failed: ", r.none);
-  if (pilot != kOraclePilot) add("The flight of the oracle failed: ", r.oracle);
+  for (const auto& [flight, who] : failed_flights(r, pilot)) {
+    if (!text.empty()) text += " ";
+    if (flight != &r.flown) text += "The flight of the pilot " + who + " failed: ";
+    text += flight->error;
+  }
   return text;
 }
 

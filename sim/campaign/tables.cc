@@ -7,7 +7,6 @@
 #include "sim/campaign/statistics_table.h"
 #include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
-#include "sim/config/pilot.h"
 #include "sim/files/markup.h"
 #include "sim/outcome/collision_cause.h"
 
@@ -179,11 +178,7 @@ std::string errors_of(const Part& part) {
   std::string errors;
   int failed = 0;
   for (const ThrowResult* result : part.results) {
-    const std::pair<const FlightResult*, std::string> flights[] = {
-        {&result->flown, part.pilot}, {&result->none, kNoPilot}, {&result->oracle, kOraclePilot}};
-    for (const auto& [flight, who] : flights) {
-      const bool again = flight != &result->flown && who == part.pilot;
-      if (!flight->failed() || again) continue;
+    for (const auto& [flight, who] : failed_flights(*result, part.pilot)) {
       ++failed;
       errors += "- throw " + std::to_string(result->index) + ", pilot " + who + ": " +
                 flight->error + "\n";

@@ -90,6 +90,16 @@ std::optional<QuantileEstimate> Measured::quantile(double share) const {
   return estimate_quantile(sorted, share);
 }
 
+std::vector<FailedFlight> failed_flights(const ThrowResult& result, const std::string& pilot) {
+  std::vector<FailedFlight> failed;
+  if (result.flown.failed()) failed.push_back({&result.flown, pilot});
+  if (result.none.failed() && pilot != kNoPilot) failed.push_back({&result.none, kNoPilot});
+  if (result.oracle.failed() && pilot != kOraclePilot) {
+    failed.push_back({&result.oracle, kOraclePilot});
+  }
+  return failed;
+}
+
 std::vector<Part> parts_of(const std::vector<ThrowResult>& results, const std::string& pilot) {
   std::map<int, Part> parts;
   for (const ThrowResult& result : results) {

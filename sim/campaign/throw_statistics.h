@@ -110,6 +110,14 @@ inline constexpr NamedSample kSamples[] = {
     {"image_to_detection_s", &ThrowStatistics::image_to_detection_s},
     {"detection_to_command_s", &ThrowStatistics::detection_to_command_s}};
 
+// A flight that failed, and who flew it.
+struct FailedFlight {
+  const FlightResult* flight;
+  std::string pilot;
+};
+// Of a throw; `pilot` is the flown one, whose flight counts once if it is none or the oracle.
+std::vector<FailedFlight> failed_flights(const ThrowResult& result, const std::string& pilot);
+
 using Results = std::vector<const ThrowResult*>;
 
 // The throws of one value of the sweep, those that may be pooled: other values of the sweep meet

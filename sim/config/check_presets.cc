@@ -1,9 +1,7 @@
 #include "sim/config/check_presets.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "sim/config/pilot.h"
 
@@ -11,17 +9,53 @@ namespace dodgesim {
 
 namespace {
 
-struct SweptPreset {
-  std::string group;  // of keys that it brings
-  std::string name;   // of the scenario's own
-  std::string (*of)(const std::string& value);
+// A key whose value decides on the defaults of a group of keys.
+struct Preset {
+  std::string key, group;
+
+  bool same(const std::string& a, const std::string& b) const {
+    return key == "pilot" ? dodger_preset(a) == dodger_preset(b) : a == b;
+  }
+  bool has(const std::string& of_group) const {
+    return of_group.starts_with(group + ".") && of_group != key;
+  }
 };
 
-std::optional<SweptPreset> preset_of(const Scenario& scenario, const std::string& key) {
-  if (key == "pilot") return SweptPreset{"dodger", dodger_preset(scenario.pilot), dodger_preset};
-  if (key != "sensors.events.preset") return std::nullopt;
-  return SweptPreset{"sensors.events", scenario.sensors.events.preset,
-                     [](const std::string& value) { return value; }};
+const Preset kPilot = {"pilot", "dodger"};
+const Preset kCamera = {"sensors.events.preset", "sensors.events"};
+
+// Of a dotted key; empty if it is not there.
+std::string text_at(const YamlNode& root, const std::string& key) {
+  const YamlNode* node = &root;
+  for (std::size_t begin = 0; begin <= key.size();) {
+    const std::size_t end = std::min(key.find('.', begin), key.size());
+    const std::string part = key.substr(begin, end - begin);
+    const auto named = [&part](const YamlNode::Key& k) { return k.name == part; };
+    const auto found = std::find_if(node->keys.begin(), node->keys.end(), named);
+    if (found == node->keys.end()) return "";
+    node = &node->items[static_cast<std::size_t>(found - node->keys.begin())];
+    begin = end + 1;
+  }
+  return node->text;
+}
+
+// As a resolved scenario does, which says nothing of what anybody wanted.
+bool gives_all_keys(const Preset& preset, const ReadContext& context) {
+  return std::all_of(context.all_keys.begin(), context.all_keys.end(), [&](const auto& key) {
+    return !preset.has(key) || context.where.contains(key);
+  });
+}
+
+void check_set_preset(const Preset& preset, const YamlNode& file, const YamlNode& root,
+                      ReadContext& context) {
+  const std::string before = text_at(file, preset.key), now = text_at(root, preset.key);
+  if (before.empty() || preset.same(now, before) || !gives_all_keys(preset, context)) return;
+  const std::string change =
+      now.empty() ? " is left out instead of " : " is " + now + " instead of ";
+  context.problems.add(context.position_of(now.empty() ? preset.group : preset.key),
+                       preset.key + change + before +
+                           " by its name only: the file sets all keys of " + preset.group +
+                           " itself. Put --set " + preset.group + "=~ in front to take them away.");
 }
 
 bool varies(const Scenario& scenario, const std::string& key) {
@@ -30,37 +64,39 @@ bool varies(const Scenario& scenario, const std::string& key) {
          std::any_of(scenario.sweep.begin(), scenario.sweep.end(), is_key);
 }
 
-// The keys with a value of their own that the scenario gives of a group; none if it gives all, as
-// a resolved scenario does, which says nothing of what anybody wanted.
-std::vector<std::string> given_keys(const std::string& group, const std::string& but,
-                                    const ReadContext& context) {
-  std::vector<std::string> given;
-  bool all = true;
-  for (const std::string& key : context.all_keys) {
-    if (!key.starts_with(group + ".") || key == but) continue;
-    all = all && context.where.contains(key);
+void check_varied_preset(const Preset& preset, const std::string& own, const Scenario& scenario,
+                         const VariedKey& axis, ReadContext& context) {
+  const auto other =
+      std::find_if(axis.values.begin(), axis.values.end(),
+                   [&](const YamlNode& value) { return !preset.same(value.text, own); });
+  if (other == axis.values.end() || gives_all_keys(preset, context)) return;
+  for (const auto& [key, at] : context.where) {
     const auto below = context.where.lower_bound(key + ".");
     const bool is_group = below != context.where.end() && below->first.starts_with(key + ".");
-    if (context.where.contains(key) && !is_group) given.push_back(key);
+    if (!preset.has(key) || is_group || varies(scenario, key)) continue;
+    context.problems.add(at, key + " is given, but " + preset.key + " " + other->text +
+                                 " brings its own; to hold for all values of " + preset.key +
+                                 " it must stand in the sweep, too, as a list of one value.");
   }
-  return all ? std::vector<std::string>() : given;
 }
 
 }  // namespace
 
-void check_presets(const Scenario& scenario, const VariedKey& axis, ReadContext& context) {
-  const std::optional<SweptPreset> preset = preset_of(scenario, axis.key);
-  if (!preset) return;
-  const auto other =
-      std::find_if(axis.values.begin(), axis.values.end(),
-                   [&](const YamlNode& value) { return preset->of(value.text) != preset->name; });
-  if (other == axis.values.end()) return;
-  for (const std::string& key : given_keys(preset->group, axis.key, context)) {
-    if (varies(scenario, key)) continue;
-    context.problems.add(context.position_of(key),
-                         key + " is given, but " + axis.key + " " + other->text +
-                             " brings its own; to hold for all values of " + axis.key +
-                             " it must stand in the sweep, too, as a list of one value.");
+void check_set_presets(const YamlNode& file, const YamlNode& root, ReadContext& context) {
+  for (const Preset* const preset : {&kPilot, &kCamera}) {
+    check_set_preset(*preset, file, root, context);
+  }
+}
+
+void check_varied_presets(const Scenario& scenario, ReadContext& context) {
+  for (const VariedKeys* const axes : {&scenario.grid, &scenario.sweep}) {
+    for (const VariedKey& axis : *axes) {
+      if (axis.key == kPilot.key) {
+        check_varied_preset(kPilot, scenario.pilot, scenario, axis, context);
+      } else if (axis.key == kCamera.key) {
+        check_varied_preset(kCamera, scenario.sensors.events.preset, scenario, axis, context);
+      }
+    }
   }
 }
 

@@ -1,5 +1,4 @@
-// Presets among the values of a grid or sweep: pilot brings all keys of dodger,
-// sensors.events.preset those of the camera.
+// Presets: pilot decides on all keys of dodger, sensors.events.preset on those of the camera.
 #pragma once
 
 #include "sim/config/reader.h"
@@ -7,8 +6,12 @@
 
 namespace dodgesim {
 
-// Adds a problem for each key that the scenario gives and that would hold with some values of the
-// axis only, because others bring their own.
-void check_presets(const Scenario& scenario, const VariedKey& axis, ReadContext& context);
+// Where a file gives all keys of a group, as a resolved scenario does, another preset in `root`,
+// which has the settings of the command line over `file`, would be one by its name only: a problem.
+void check_set_presets(const YamlNode& file, const YamlNode& root, ReadContext& context);
+
+// Adds a problem for each key that the scenario gives and that would hold with some values of its
+// grid or sweep only, because others bring their own.
+void check_varied_presets(const Scenario& scenario, ReadContext& context);
 
 }  // namespace dodgesim

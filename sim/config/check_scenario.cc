@@ -307,8 +307,7 @@ void check_scenario(const Scenario& scenario, ReadContext& context) {
   for (const VariedKey& axis : scenario.sweep) check_axis(scenario, axis, false, context);
   check_texts(scenario, context);
   check_stop(scenario, context);
-  for (const VariedKey& axis : scenario.grid) check_presets(scenario, axis, context);
-  for (const VariedKey& axis : scenario.sweep) check_presets(scenario, axis, context);
+  check_varied_presets(scenario, context);
   context.problems.raise_if_any();
   if (!check_counts(scenario, context)) return;
   check_combinations(scenario, context);

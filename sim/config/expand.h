@@ -50,7 +50,7 @@ std::string pilots_of(const Scenario& scenario);
 
 // The scenario with some keys set to other values, as if they stood in its file; what is wrong with
 // them is added to the problems of `context`. A preset among the values takes the place of all keys
-// that belong to it; check_presets.h refuses a scenario that gives some of these.
+// that belong to it; check_presets.h refuses a scenario that gives some of them.
 using Assignments = std::vector<std::pair<std::string, const YamlNode*>>;
 Scenario with_values(Scenario scenario, const Assignments& values, ReadContext& context);
 

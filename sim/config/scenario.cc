@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "sim/config/check_presets.h"
 #include "sim/config/check_scenario.h"
 #include "sim/config/reader.h"
 #include "sim/config/writer.h"
@@ -18,48 +19,6 @@ bool may_vary(const ParameterDoc& doc) {
                                      "repeats", "grid", "sweep",       "throws"};
   return !doc.is_group() &&
          std::find(std::begin(kSingle), std::end(kSingle), doc.path) == std::end(kSingle);
-}
-
-// A key whose value decides on the defaults of a group of keys.
-struct Preset {
-  const char *key, *group;
-};
-constexpr Preset kPresets[] = {{"pilot", "dodger"}, {"sensors.events.preset", "sensors.events"}};
-
-// Of a dotted key; empty if it is not there.
-std::string text_at(const YamlNode& root, const std::string& key) {
-  const YamlNode* node = &root;
-  for (std::size_t begin = 0; begin <= key.size();) {
-    const std::size_t end = std::min(key.find('.', begin), key.size());
-    const std::string part = key.substr(begin, end - begin);
-    const auto named = [&part](const YamlNode::Key& k) { return k.name == part; };
-    const auto found = std::find_if(node->keys.begin(), node->keys.end(), named);
-    if (found == node->keys.end()) return "";
-    node = &node->items[static_cast<std::size_t>(found - node->keys.begin())];
-    begin = end + 1;
-  }
-  return node->text;
-}
-
-// Where a file gives all keys of the group, as a resolved scenario does, another preset on the
-// command line would be one by its name only.
-void check_preset(const Preset& preset, const YamlNode& file, const YamlNode& root,
-                  ReadContext& context) {
-  const std::string before = text_at(file, preset.key), now = text_at(root, preset.key);
-  if (before.empty() || now == before) return;
-  const std::string group = preset.group;
-  if (group == "dodger" && dodger_preset(now) == dodger_preset(before)) return;
-  for (const std::string& key : context.all_keys) {
-    const bool of_group = key.starts_with(group + ".") && key != preset.key;
-    if (of_group && !context.where.contains(key)) return;
-  }
-  const auto place = context.where.find(now.empty() ? group : std::string(preset.key));
-  const std::string change =
-      now.empty() ? " is left out instead of " : " is " + now + " instead of ";
-  context.problems.add(place == context.where.end() ? Position{} : place->second,
-                       std::string(preset.key) + change + before +
-                           " by its name only: the file sets all keys of " + group +
-                           " itself. Put --set " + group + "=~ in front to take them away.");
 }
 
 // A campaign keeps its scenario with every value spelled out, and must be able to read it again.
@@ -86,7 +45,7 @@ Scenario read(const std::string& text, const std::string& file, const std::strin
   if (!settings.empty()) {
     Problems known(file);
     const YamlNode alone = scenario_tree(text, file, {}, known);
-    for (const Preset& preset : kPresets) check_preset(preset, alone, root, context);
+    check_set_presets(alone, root, context);
   }
   context.problems.raise_if_any();
   if (scenario.name.empty()) scenario.name = std::filesystem::path(file).stem().string();

@@ -9,10 +9,6 @@ namespace dodgesim {
 
 namespace {
 
-bool collides(const mjModel& model, int geom) {
-  return model.geom_contype[geom] != 0 || model.geom_conaffinity[geom] != 0;
-}
-
 // Distance from a point in the geom's frame to a box that encloses the geom.
 double box_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& half_size) {
   return (p.cwiseAbs() - half_size).cwiseMax(0).norm();

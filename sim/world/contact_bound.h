@@ -9,6 +9,11 @@
 
 namespace dodgesim {
 
+// Whether the geom can touch anything, in the model as it is now.
+inline bool collides(const mjModel& model, int geom) {
+  return model.geom_contype[geom] != 0 || model.geom_conaffinity[geom] != 0;
+}
+
 class ContactBound {
  public:
   // `moving`: the bodies that move, each with a free joint of its own. Only the geoms that can

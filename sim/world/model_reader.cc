@@ -7,6 +7,7 @@
 #include "sim/base/formatted.h"
 #include "sim/base/gravity.h"
 #include "sim/world/compose.h"
+#include "sim/world/contact_bound.h"
 #include "sim/world/convex.h"
 #include "sim/world/mujoco_eigen.h"
 
@@ -207,7 +208,7 @@ void ModelReader::check_reach(int body, double size_m) const {
   std::vector<Convex> parts;
   const int first = model_.body_geomadr[body];
   for (int g = first; g < first + model_.body_geomnum[body]; ++g) {
-    if (model_.geom_contype[g] == 0 && model_.geom_conaffinity[g] == 0) continue;
+    if (!collides(model_, g)) continue;
     parts.push_back(Convex::from_geom(model_, g, file_));
   }
   const double reach_m = farthest_m(parts);
