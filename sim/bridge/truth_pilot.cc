@@ -6,9 +6,11 @@ namespace dodgesim {
 
 namespace {
 
-// A field that goes on pushing at what has passed drives the vehicle into a wall.
-bool flies_away(const BodyState& object, const BodyState& vehicle) {
-  return (object.p_W - vehicle.p_W).dot(object.v_W) > 0;
+// A field that goes on pushing at what has passed drives the vehicle into a wall. What flies ahead
+// of a vehicle that is faster has not passed.
+bool has_passed(const BodyState& object, const BodyState& vehicle) {
+  const Eigen::Vector3d offset_W = object.p_W - vehicle.p_W;
+  return offset_W.dot(object.v_W) > 0 && offset_W.dot(object.v_W - vehicle.v_W) > 0;
 }
 
 }  // namespace
@@ -34,7 +36,7 @@ void TruthPilot::see(const Snapshot& truth) {
   for (std::size_t i = 0; i < truth.objects.size(); ++i) {
     const int id = static_cast<int>(i);
     if (!sees(truth, i)) continue;
-    if (flies_away(truth.objects[i], truth.vehicle)) {
+    if (has_passed(truth.objects[i], truth.vehicle)) {
       std::erase_if(obstacles_, [&](const auto& o) { return o.obstacle.id == id; });
       continue;
     }

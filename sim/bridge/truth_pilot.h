@@ -1,6 +1,6 @@
 // Pilots that need no perception. `oracle` knows the true state of every object in its range at the
 // last tick of which an event could tell when its cycle begins: with the default delays 1.25 ms
-// before, as an event takes 1.1 ms. It forgets those that move away from it. `none` sees nothing
+// before, as an event takes 1.1 ms. It forgets those that have passed it. `none` sees nothing
 // and only flies to the goal. Both use the flight core's avoidance and fly through the same delays,
 // controller and motors as the paper's pilot.
 #pragma once

@@ -264,6 +264,16 @@ TEST(TruthPilot, AnObjectThatIsOutrunIsNotForgotten) {
   EXPECT_EQ(p->obstacles().size(), 1u);
 }
 
+TEST(TruthPilot, AnObjectThatTheVehicleCatchesUpWithIsNotForgotten) {
+  const auto p = pilot(setup());
+  Snapshot truth = scene(0, {from_camera(1, 0.1, 0)});
+  truth.objects[0].v_W = Eigen::Vector3d(3, 0, 0);
+  truth.vehicle.v_W = Eigen::Vector3d(5, 0, 0);
+  p->observe(truth);
+  p->update(kDelayUs);
+  EXPECT_EQ(p->obstacles().size(), 1u);
+}
+
 TEST(TruthPilot, AnObjectOutOfViewIsNotKnownToFlyAway) {
   TruthPilot::Setup s = setup();
   s.oracle.field_of_view = true;
