@@ -2,6 +2,7 @@
 
 #include "sim/check/conservation.h"
 #include "sim/check/convergence.h"
+#include "sim/check/far_frames.h"
 #include "sim/check/noise_rates.h"
 #include "sim/check/readout_burst.h"
 #include "sim/check/refractory.h"
@@ -19,6 +20,7 @@ std::vector<std::function<Check()>> sensor_checks(const EventCameraSpec& camera,
       [=] { return judge(measure_stamps(camera, seed)); },
       [=] { return judge(measure_ramp(camera, seed), camera); },
       [=] { return judge(measure_convergence(camera, seed)); },
+      [=] { return judge(measure_far_frames(camera, seed)); },
       [=] { return judge(measure_step_response(camera, seed), camera); },
       [=] { return judge(measure_noise(camera, seed), camera); },
       [=] { return judge(measure_burst(camera, seed), camera); },

@@ -27,7 +27,8 @@ constexpr double kSpreadSigma = 1;  // the same for the spread as kMedianSigma f
 constexpr double kStepSigmas = 3;
 constexpr double kLowest = 0.16, kHighest = 0.84;  // quantiles: a standard deviation about the mean
 
-constexpr int kThresholdQuantiles = 400, kJitterQuantiles = 200;
+// Of these 203, 0.16, 0.5 and 0.84 are in the middle of one.
+constexpr int kThresholdQuantiles = 400, kJitterQuantiles = 203;
 
 // ln(eps + I), or the tangent where I < linear_below. Written again, independent of the camera.
 double response(const EventCameraSpec& spec, double luminance) {
@@ -121,14 +122,15 @@ void judge_level(const StepAnswer& answer, const EventCameraSpec& expected, Chec
   const double spread_us = spread(expected_us);
   const auto count = static_cast<double>(std::max<std::size_t>(1, answer.latencies_us.size()));
   const double sigma = kStepSigmas / std::sqrt(count);
-  // Where jitter would come before the light, half of its distribution lies at one point.
-  const double chance_us = sigma * kMedianSigma * std::max(spread_us, expected.jitter_us);
+  // Where jitter would come before the light, half of its distribution lies at one point, and what
+  // is left spreads by less than its standard deviation.
+  const double chance_us = sigma * std::max(spread_us, expected.jitter_us);
   const double late_us =
       std::max(0.0, expected_median_us - static_cast<double>(expected.latency_us));
   check.within(name + ".median", median_us, expected_median_us,
-               kStepRelativeLimit * late_us + kAbsoluteLimitUs + chance_us, "us", 1);
+               kStepRelativeLimit * late_us + kAbsoluteLimitUs + kMedianSigma * chance_us, "us", 1);
   check.within(name + ".spread", spread(answer.latencies_us), spread_us,
-               (kSpreadLimit + sigma * kSpreadSigma) * spread_us + kAbsoluteLimitUs, "us", 1);
+               kSpreadLimit * spread_us + kAbsoluteLimitUs + kSpreadSigma * chance_us, "us", 1);
   measured.x.push_back(answer.lux);
   measured.y.push_back(median_us);
   measured.spread.push_back(spread(answer.latencies_us));

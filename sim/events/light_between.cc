@@ -1,16 +1,67 @@
 #include "sim/events/light_between.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dodgesim {
 
+namespace {
+
+constexpr double kBrightLux = 1000;  // at which the rates of noise and bandwidth are given
+constexpr double kMostChanges = 100;
+
+// By which factor a rate grows or falls in the pixel where it changes most.
+template <class Rate>
+double greatest_factor(const std::vector<float>& before, const std::vector<float>& after,
+                       const Rate& rate) {
+  float least = 1, most = 1;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const float factor = rate(after[i]) / rate(before[i]);
+    least = std::min(least, factor);
+    most = std::max(most, factor);
+  }
+  return std::max<double>(most, 1 / least);
+}
+
+}  // namespace
+
 LightBetween::LightBetween(const EventCameraSpec& spec)
     : response_(spec.log_epsilon, spec.linear_below),
-      noisy_(spec.leak_hz > 0 || spec.shot_noise_on_hz > 0 || spec.shot_noise_off_hz > 0 ||
-             spec.hot_pixel_fraction > 0) {}
+      bandwidth_changes_(spec.photoreceptor_hz > 0),
+      dark_luminance_(0),
+      bright_luminance_(static_cast<float>(kBrightLux / spec.illuminance_lux)),
+      bright_loss_(static_cast<float>(1 - spec.shot_noise_bright_share)) {
+  const bool shot_noise = spec.shot_noise_on_hz > 0 || spec.shot_noise_off_hz > 0;
+  noisy_ = spec.leak_hz > 0 || shot_noise || spec.hot_pixel_fraction > 0;
+  shot_noise_changes_ = shot_noise && spec.shot_noise_bright_share < 1;
+  if (bandwidth_changes_) {
+    dark_luminance_ =
+        static_cast<float>(spec.photoreceptor_dark_hz / spec.photoreceptor_hz) * bright_luminance_;
+  }
+}
 
-std::int64_t LightBetween::steps(TimeUs interval_us) const {
-  return noisy_ ? (interval_us + kLongestStepUs - 1) / kLongestStepUs : 1;
+std::int64_t LightBetween::steps(TimeUs interval_us, const std::vector<float>& before,
+                                 const std::vector<float>& after) const {
+  const std::int64_t in_time = noisy_ ? (interval_us + kLongestStepUs - 1) / kLongestStepUs : 1;
+  const double changes = std::log(greatest_change(before, after)) / std::log(kMostChange);
+  const auto in_light = static_cast<std::int64_t>(std::ceil(std::min(changes, kMostChanges)));
+  return std::clamp<std::int64_t>(std::max(in_time, in_light), 1, interval_us);
+}
+
+double LightBetween::greatest_change(const std::vector<float>& before,
+                                     const std::vector<float>& after) const {
+  double change = 1;
+  if (bandwidth_changes_) {
+    change = greatest_factor(before, after,
+                             [this](float luminance) { return dark_luminance_ + luminance; });
+  }
+  if (shot_noise_changes_) {
+    const auto share = [this](float luminance) {
+      return 1 - bright_loss_ * std::min(1.0F, luminance / bright_luminance_);
+    };
+    change = std::max(change, greatest_factor(before, after, share));
+  }
+  return change;
 }
 
 void LightBetween::at(double share, const std::vector<float>& before,

@@ -10,17 +10,23 @@
 
 namespace dodgesim {
 
-// The time between two pictures in steps. A camera with noise makes events all the time, however
-// little there is to see: whoever shows it pictures that are far apart shows it these in between,
-// so that memory need not hold more than the events of a step.
+// The time between two pictures in steps: whoever shows a camera pictures that are far apart shows
+// it these in between.
+//
+// A camera with noise makes events all the time, however little there is to see: steps of no more
+// than kLongestStepUs, so that memory need not hold more than the events of a step. Bandwidth and
+// shot noise, which depend on the light, are the same for all of a step: as many steps as it takes
+// for neither to change by more than the factor kMostChange from one to the next, in any pixel.
 class LightBetween {
  public:
   static constexpr TimeUs kLongestStepUs = 50000;
+  static constexpr double kMostChange = 1.2;
 
   explicit LightBetween(const EventCameraSpec& spec);
 
-  // Steps of a time, of about the same length; without noise one.
-  std::int64_t steps(TimeUs interval_us) const;
+  // Steps of the time from one picture to the next, of about the same length, at least 1 us.
+  std::int64_t steps(TimeUs interval_us, const std::vector<float>& before,
+                     const std::vector<float>& after) const;
 
   // The luminance of every pixel after a share, from 0 to 1, of the time from one picture to the
   // next: its response runs linearly. Where nothing changes it stays what it is.
@@ -28,8 +34,13 @@ class LightBetween {
           std::vector<float>& between) const;
 
  private:
+  double greatest_change(const std::vector<float>& before, const std::vector<float>& after) const;
+
   Response response_;
   bool noisy_;
+  bool bandwidth_changes_, shot_noise_changes_;
+  float dark_luminance_;  // which would give the bandwidth that there is in the dark
+  float bright_luminance_, bright_loss_;  // of shot noise
 };
 
 }  // namespace dodgesim

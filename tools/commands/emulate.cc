@@ -49,9 +49,11 @@ EVENTS:
 t of .npy and .txt is of the clock of T.npy. The recording ends with the last frame: what latency
 or the readout would stamp later is not in it. The file appears when it is whole.
 
-Frames have up to 4096 rows and columns, and are at most 1073 s apart. A camera with leak or noise
-sees at least a picture every 50 ms, along the straight line of L between two frames. Memory holds
-two frames and the events up to the next picture, however long the video is. The speeds printed
+Frames have up to 4096 rows and columns, and are at most 1073 s apart. Between two frames
+a camera is shown pictures along the straight line of L: one with leak or noise at least every
+50 ms, and as many as it takes for bandwidth and shot noise, which depend on the light, to change
+by no more than a fifth from one to the next. Memory holds two frames and the events up to the
+next picture, however long the video is. The speeds printed
 are of the emulation alone, beside cv::log of the same frames in the same run, on one thread; with
 --causes none are printed.
 
@@ -124,7 +126,7 @@ void emulate(FrameReader& video, const LightBetween& light, Emulation& emulation
     std::swap(before, luminance);
     before_us = t_us;
     if (!video.next(t_us, luminance)) break;
-    const std::int64_t steps = light.steps(t_us - before_us);
+    const std::int64_t steps = light.steps(t_us - before_us, before, luminance);
     for (std::int64_t k = 1; k < steps; ++k) {
       light.at(static_cast<double>(k) / static_cast<double>(steps), before, luminance, between);
       emulation.show(before_us + (t_us - before_us) * k / steps, between, true);
@@ -217,7 +219,7 @@ void add_emulate_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("--clip", arguments->clip,
                    "Number of the video among those of one camera: other noise, the same pixels")
-      ->check(whole_number_between(0, UINT64_MAX))
+      ->check(whole_number_between(0, UINT32_MAX))
       ->capture_default_str();
   command->add_flag(
       "--causes", arguments->causes,

@@ -1,0 +1,90 @@
+#include "sim/check/far_frames.h"
+
+#include <cmath>
+#include <string>
+
+#include "sim/base/random.h"
+#include "sim/check/film.h"
+#include "sim/events/event_camera.h"
+#include "sim/events/light_between.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr int kFrameWidth = 40, kFrameHeight = 30;
+constexpr TimeUs kIntervalsUs[] = {1000, 33333};
+constexpr int kFrames = 4;
+constexpr TimeUs kRestUs = 500000;  // after the last frame, for slow pixels
+constexpr double kDarkest = -4.5;   // ln of the light, which is at most 1
+constexpr std::int64_t kFineSteps = 500;
+constexpr double kLeastOfFrames = 500;
+
+// Any light between the darkest and 1, for each pixel of each frame.
+std::vector<float> random_frame(int number, std::uint64_t seed) {
+  const RandomStream light(seed, static_cast<std::uint64_t>(number), "far frames");
+  std::vector<float> frame(static_cast<std::size_t>(kFrameWidth) * kFrameHeight);
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    frame[i] = static_cast<float>(std::exp(kDarkest * unit_interval(light.block(i)[0])));
+  }
+  return frame;
+}
+
+// fine_steps: how many steps there are from frame to frame; 0: as many as light_between.h says.
+std::vector<Event> film(const EventCameraSpec& spec, TimeUs interval_us, std::int64_t fine_steps,
+                        std::uint64_t seed) {
+  EventCamera camera(spec, kFrameWidth, kFrameHeight, seed, 0, "check");
+  const LightBetween light(spec);
+  std::vector<float> before = random_frame(0, seed), between;
+  std::vector<Event> events;
+  camera.reset(0, before.data());
+  TimeUs t_us = 0;
+  for (int i = 1; i < kFrames; ++i, t_us += interval_us) {
+    const std::vector<float> after = random_frame(i, seed);
+    const std::int64_t steps =
+        fine_steps > 0 ? fine_steps : light.steps(interval_us, before, after);
+    for (std::int64_t k = 1; k < steps; ++k) {
+      light.at(static_cast<double>(k) / static_cast<double>(steps), before, after, between);
+      camera.update(t_us + interval_us * k / steps, between.data(), events);
+    }
+    camera.update(t_us + interval_us, after.data(), events);
+    before = after;
+  }
+  camera.update(t_us + kRestUs, before.data(), events);
+  return events;
+}
+
+}  // namespace
+
+std::vector<FarFrames> measure_far_frames(const EventCameraSpec& camera, std::uint64_t seed) {
+  const EventCameraSpec spec = without_noise(camera);
+  std::vector<FarFrames> intervals;
+  for (const TimeUs interval_us : kIntervalsUs) {
+    const auto reference = film(spec, interval_us, kFineSteps, seed);
+    intervals.push_back({interval_us, compare(film(spec, interval_us, 0, seed), reference)});
+  }
+  return intervals;
+}
+
+Check judge(const std::vector<FarFrames>& intervals) {
+  Check check{"Frames far apart",
+              "Four frames of random light, from 0.011 to 1 in each pixel, as far apart as those "
+              "of a fast camera and of a video. The events of dodgesim emulate, against the same "
+              "camera that sees 500 pictures from frame to frame, along the same straight line of "
+              "the response. Noise and jitter are off.",
+              {},
+              {}};
+  for (const FarFrames& frames : intervals) {
+    const std::string name = "frames." + std::to_string(frames.interval_us) + "us";
+    const EventDifference& d = frames.difference;
+    if (d.reference_events < kLeastOfFrames) {
+      check.off(name, "the film makes fewer than 500 events");
+      continue;
+    }
+    check.within(name + ".count", d.count_ratio, 1, kSamplingCountLimit, "of reference", 4);
+    check.between(name + ".stamps", d.median_us, 0, kSamplingStampLimitUs, "us", 1);
+  }
+  return check;
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,32 @@
+// Frames far apart give the events of the light between them, or the check fails.
+#include "sim/check/far_frames.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/sim/check/outcomes.h"
+
+namespace dodgesim {
+namespace {
+
+TEST(FarFramesCheck, FailsForOtherEventsThanThoseOfTheLightBetween) {
+  const std::vector<FarFrames> good = measure_far_frames(event_camera_preset("sees1"), 1);
+  ASSERT_EQ(good.size(), 2u);
+  EXPECT_TRUE(failures(judge(good)).empty());
+  std::vector<FarFrames> broken = good;
+  broken[0].difference.count_ratio = 0.98;
+  EXPECT_EQ(failures(judge(broken)), Names{"frames.1000us.count"});
+  broken = good;
+  broken[1].difference.median_us = 60;
+  EXPECT_EQ(failures(judge(broken)), Names{"frames.33333us.stamps"});
+}
+
+TEST(FarFramesCheck, SaysSoWhereThereIsNothingToSee) {
+  EventCameraSpec blind = event_camera_preset("ideal");
+  blind.dead_pixel_fraction = 1;
+  for (const CheckLine& line : judge(measure_far_frames(blind, 1)).lines) {
+    EXPECT_EQ(line.outcome, Outcome::kOff);
+  }
+}
+
+}  // namespace
+}  // namespace dodgesim
