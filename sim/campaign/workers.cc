@@ -116,10 +116,12 @@ void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
 
 // The life of a worker: tasks in, results out, until the campaign closes the socket.
 [[noreturn]] void serve(int fd, const WorkerTasks& tasks) {
+  const pid_t worker = ::getpid();
   Task task;
   while (read_all(fd, &task, sizeof(task))) {
     MessageHeader header;
     const std::string body = fly_one(tasks, task, header);
+    if (::getpid() != worker) break;  // a pilot has made a second process of this one
     header.size = static_cast<std::uint32_t>(body.size());
     header.resident_mb = resident_mb();
     if (!send_all(fd, bytes_of(header)) || !send_all(fd, body)) break;

@@ -99,6 +99,18 @@ TEST_F(CampaignTest, AccessToMemoryThatIsNotThereCostsItsThrowOnly) {
   EXPECT_THAT(summary.results[6].flown.error, HasSubstr("The worker process "));
 }
 
+TEST_F(CampaignTest, AThrowThatForksIsFlownOnce) {
+  const CampaignSummary alone =
+      run_campaign(scenario_, options("alone"), [&](int i) { return fly(i); });
+  const CampaignSummary forked = run_campaign(scenario_, options("forked"), [&](int index) {
+    if (index == 2 || index == 5) ::fork();
+    return fly(index);
+  });
+  EXPECT_EQ(forked.results.size(), 12u);
+  EXPECT_EQ(forked.errors, 0);
+  EXPECT_EQ(forked.table, alone.table);
+}
+
 TEST_F(CampaignTest, EvenWhenEveryThrowCrashesTheCampaignEnds) {
   const CampaignSummary summary =
       run_campaign(scenario_, options("all", 2), [&](int) -> ThrowResult { ::_exit(1); });
