@@ -45,8 +45,9 @@ std::string to_markdown(const StatisticsTable& table, bool with_dodged = true);
 std::string to_latex(const StatisticsTable& table);
 
 // A row for each row and pilot, with everything: rates with the ends of their 95 % intervals,
-// samples with count, quantiles q10, q50, q90 and the ends of the median's 95 % interval.
-// What is not known is an empty cell.
+// samples with count, quantiles q10, q50, q90 and the ends of the median's 95 % interval. `rate` is
+// dodged / would_have_hit; would_have_hit_rate is of the throws whose flight without a dodge did
+// not fail. What is not known is an empty cell.
 std::string to_csv(const StatisticsTable& table);
 
 // The same as an array of objects; what is not known is null.

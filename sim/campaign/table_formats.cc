@@ -121,8 +121,8 @@ class CsvRow {
   void count(const std::string& name, std::int64_t value) { add(name, std::to_string(value)); }
   void rate(const std::string& name, const Rate& rate) {
     add(name, cell_of(rate.value()));
-    add(name + "_lo", cell_of(rate.interval().lo));
-    add(name + "_hi", cell_of(rate.interval().hi));
+    add(name + "_lo", rate.stopped ? "" : cell_of(rate.interval().lo));
+    add(name + "_hi", rate.stopped ? "" : cell_of(rate.interval().hi));
   }
   void sample(const std::string& name, const Measured& sample) {
     count(name + "_n", static_cast<std::int64_t>(sample.count()));
@@ -159,6 +159,13 @@ std::vector<std::size_t> named_pilots(const StatisticsTable& table,
   return pilots;
 }
 
+// Of the pilot none, of the throws that are known to have hit it.
+Rate dodged_by(const PilotStatistics& of) {
+  Rate rate = of.tally.success();
+  if (of.pilot == kNoPilot) rate.of = of.tally.hit_undisturbed.count;
+  return rate;
+}
+
 // What only the flown pilot has is empty for the others.
 CsvRow csv_row_of(const StatisticsTable& table, const StatisticsTable::Row& row,
                   const PilotStatistics& of) {
@@ -173,11 +180,12 @@ CsvRow csv_row_of(const StatisticsTable& table, const StatisticsTable::Row& row,
   }
   csv.text("pilot", of.pilot);
   csv.count("throws", of.tally.throws);
-  csv.count("would_have_hit",
-            of.pilot == kNoPilot ? of.tally.hit_undisturbed.count : of.tally.would_have_hit);
-  csv.count("dodged", of.tally.dodged);
-  csv.rate("rate", of.tally.success());
-  csv.text("rate_interval", of.tally.success().interval_name());
+  const Rate dodged = dodged_by(of);
+  csv.count("would_have_hit", dodged.of);
+  csv.count("dodged", dodged.count);
+  csv.rate("rate", dodged);
+  csv.text("rate_interval", dodged.interval_name());
+  csv.rate("would_have_hit_rate", of.tally.hit_undisturbed);
   csv.count("errors", of.tally.errors);
   csv.count("flights", of.tally.collisions.of);
   csv.count("collisions", of.tally.collisions.count);
@@ -200,8 +208,8 @@ Json json_of(const Rate& rate) {
   return {{"count", rate.count},
           {"of", rate.of},
           {"rate", json_number(rate.value())},
-          {"lo", rate.interval().lo},
-          {"hi", rate.interval().hi},
+          {"lo", rate.stopped ? Json(nullptr) : Json(rate.interval().lo)},
+          {"hi", rate.stopped ? Json(nullptr) : Json(rate.interval().hi)},
           {"interval", rate.interval_name()}};
 }
 
@@ -224,7 +232,8 @@ Json json_of(const StatisticsTable& table, const StatisticsTable::Row& row) {
     const PilotStatistics& of = row.statistics.pilots[pilot];
     json["pilots"].push_back({{"pilot", of.pilot},
                               {"throws", of.tally.throws},
-                              {"dodged", json_of(of.tally.success())},
+                              {"would_have_hit", json_of(of.tally.hit_undisturbed)},
+                              {"dodged", json_of(dodged_by(of))},
                               {"collisions", json_of(of.tally.collisions)},
                               {"errors", of.tally.errors},
                               {"clearance_m", json_of(of.clearance_m)}});

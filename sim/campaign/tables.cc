@@ -175,18 +175,29 @@ class MarkdownWriter {
 };
 
 std::string errors_of(const Part& part) {
-  std::string errors;
-  int failed = 0;
+  std::string errors, of_nobody;
+  int failed = 0, not_flown = 0;
   for (const ThrowResult* result : part.results) {
+    const std::string name = "- throw " + std::to_string(result->index);
+    if (result->nobody_could_fly()) {
+      ++not_flown;
+      of_nobody += name + ": " + result->flown.error + "\n";
+      continue;
+    }
     for (const auto& [flight, who] : failed_flights(*result, part.pilot)) {
       ++failed;
-      errors += "- throw " + std::to_string(result->index) + ", pilot " + who + ": " +
-                flight->error + "\n";
+      errors += name + ", pilot " + who + ": " + flight->error + "\n";
     }
   }
-  if (failed == 0) return "";
-  return "## Errors\n\n" + count_text(failed, "flight") + " failed, which is no success:\n\n" +
-         errors + "\n";
+  std::string text;
+  if (not_flown > 0) {
+    text += count_text(not_flown, "throw") +
+            " could not be flown, whoever the pilot, which no rate counts:\n\n" + of_nobody + "\n";
+  }
+  if (failed > 0) {
+    text += count_text(failed, "flight") + " failed, which is no success:\n\n" + errors + "\n";
+  }
+  return text.empty() ? "" : "## Errors\n\n" + text;
 }
 
 std::string landings_of(const Part& part) {

@@ -54,6 +54,7 @@ std::optional<double> Rate::value() const {
 }
 
 std::string Rate::interval_name() const {
+  if (stopped) return "none";
   if (!sequential) return "Wilson 95 %";
   return formatted("sequential %.4g %%", 100 * sequential->confidence);
 }
@@ -61,6 +62,7 @@ std::string Rate::interval_name() const {
 std::string rate_text(const Rate& rate) {
   std::string text = std::to_string(rate.count) + " / " + std::to_string(rate.of);
   if (rate.of == 0) return text;
+  if (rate.stopped) return text + " (" + fixed_text(*rate.value(), 3) + ")";
   const Interval interval = rate.interval();
   return text + " (" + fixed_text(*rate.value(), 3) + ", " + fixed_text(interval.lo, 3) + " to " +
          fixed_text(interval.hi, 3) + (rate.sequential ? ", " + rate.interval_name() : "") + ")";
@@ -74,6 +76,10 @@ std::string tally_text(const Tally& tally, bool none) {
 
 void Tally::add(const ThrowResult& result, ThrowResult::FlightOf by) {
   const FlightResult &flight = result.*by, &none = result.none;
+  if (result.nobody_could_fly()) {
+    if (by == &ThrowResult::flown) ++errors;
+    return;
+  }
   if (flight.failed() || none.failed()) ++errors;
   if (flight.ok()) collisions.add(!flight.unharmed());
   if (flight.status == "not flown") return;
@@ -93,6 +99,7 @@ std::optional<QuantileEstimate> Measured::quantile(double share) const {
 std::vector<FailedFlight> failed_flights(const ThrowResult& result, const std::string& pilot) {
   std::vector<FailedFlight> failed;
   if (result.flown.failed()) failed.push_back({&result.flown, pilot});
+  if (result.nobody_could_fly()) return failed;
   if (result.none.failed() && pilot != kNoPilot) failed.push_back({&result.none, kNoPilot});
   if (result.oracle.failed() && pilot != kOraclePilot) {
     failed.push_back({&result.oracle, kOraclePilot});
@@ -140,6 +147,7 @@ ThrowStatistics statistics_of(const Results& results, const std::string& pilot) 
 ThrowStatistics statistics_of(const Part& part) {
   ThrowStatistics sum = statistics_of(part.results, part.pilot);
   sum.pilots[0].tally.sequential = part.sequential;
+  sum.pilots[0].tally.collisions.stopped = part.sequential.has_value();
   return sum;
 }
 

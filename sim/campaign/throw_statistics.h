@@ -1,6 +1,6 @@
 // What is counted and measured over throws. "Dodged" is ThrowResult::dodged(). A throw that the
 // pilot gave up on, or whose flight failed with an error, never counts as a success and stays in
-// the denominator.
+// the denominator. One that nobody could fly is in no rate of any pilot, and an error.
 #pragma once
 
 #include <array>
@@ -25,6 +25,8 @@ struct Rate {
   std::int64_t count = 0;
   std::int64_t of = 0;
   std::optional<SequentialInterval> sequential = {};  // in place of Wilson's
+  // Another rate decided when to stop counting, and depends on this one: no interval is known.
+  bool stopped = false;
 
   void add(bool success) {
     ++of;
@@ -32,11 +34,12 @@ struct Rate {
   }
   std::optional<double> value() const;  // empty when nothing was counted
   Interval interval() const { return sequential ? sequential->interval : wilson(count, of); }
-  std::string interval_name() const;  // "Wilson 95 %" or "sequential 95 %"
+  std::string interval_name() const;  // "Wilson 95 %", "sequential 95 %" or "none"
 };
 
 // "25 / 34 (0.735, 0.569 to 0.854)"; "0 / 0" without trials. An interval other than Wilson's is
-// named: "25 / 34 (0.735, 0.569 to 0.854, sequential 95 %)".
+// named: "25 / 34 (0.735, 0.569 to 0.854, sequential 95 %)". Where none is known, there is none:
+// "25 / 34 (0.735)".
 std::string rate_text(const Rate& rate);
 
 // Counts over some throws, for one pilot.
@@ -45,8 +48,10 @@ struct Tally {
   int would_have_hit = 0;  // of those, hit when nobody dodged, or that flight failed
   int dodged = 0;          // of those that would have hit
   Rate hit_undisturbed;    // by the pilot none, of its flights that did not fail
-  int errors = 0;   // throws of which the flight of this pilot or of none failed, and flights of
-                    // this pilot that failed though nobody threw
+  // Throws of which the flight of this pilot or of none failed, and flights of this pilot that
+  // failed though nobody threw. Throws that nobody could fly are among those of the flown pilot
+  // alone.
+  int errors = 0;
   Rate collisions;  // hit or crashed, of all flights of the pilot that did not fail, thrown at or
                     // not
   std::optional<SequentialInterval> sequential = {};  // of the success rate, see Rate
@@ -115,7 +120,8 @@ struct FailedFlight {
   const FlightResult* flight;
   std::string pilot;
 };
-// Of a throw; `pilot` is the flown one, whose flight counts once if it is none or the oracle.
+// Of a throw; `pilot` is the flown one, whose flight counts once if it is none or the oracle. Where
+// nobody could fly, the flown pilot's alone tells why.
 std::vector<FailedFlight> failed_flights(const ThrowResult& result, const std::string& pilot);
 
 using Results = std::vector<const ThrowResult*>;

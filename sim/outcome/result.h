@@ -248,6 +248,11 @@ struct ThrowResult : DrawnThrow {
 
   bool thrown() const { return !object.empty(); }
   bool lost() const { return flown.lost(); }
+  // Its failure is no pilot's: it could not be launched, or its flight failed with every pilot,
+  // also with none.
+  bool nobody_could_fly() const {
+    return thrown() && flown.failed() && !lost() && !none.ok() && !oracle.ok();
+  }
   // The flown pilot gave up before the object came that would have hit: whatever becomes of the
   // throw, it is not dodged.
   bool gave_up() const { return landing_us && (!none.hit_us || *landing_us < *none.hit_us); }

@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "sim/campaign/statistics_table.h"
+#include "sim/config/numbers.h"
 #include "sim/files/json.h"
 #include "tests/sim/campaign/fake_throws.h"
 
@@ -28,6 +30,13 @@ std::vector<std::string> lines(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> out;
   for (std::string line; std::getline(stream, line);) out.push_back(line);
+  return out;
+}
+
+std::vector<std::string> cells(const std::string& row) {
+  std::istringstream stream(row);
+  std::vector<std::string> out;
+  for (std::string cell; std::getline(stream, cell, ',');) out.push_back(cell);
   return out;
 }
 
@@ -58,7 +67,8 @@ TEST(TableFormats, CsvHasEqualColumnsAndEmptyCellsForTheUnknown) {
   ASSERT_EQ(rows.size(), 1 + 3 * 2u);
   EXPECT_THAT(rows[0],
               ::testing::StartsWith("object,size_m,pilot,throws,would_have_hit,dodged,rate,"
-                                    "rate_lo,rate_hi,rate_interval,errors,flights,collisions,"));
+                                    "rate_lo,rate_hi,rate_interval,would_have_hit_rate,"
+                                    "would_have_hit_rate_lo,would_have_hit_rate_hi,errors,"));
   const auto commas = std::count(rows[0].begin(), rows[0].end(), ',');
   for (std::size_t i = 3; i < rows.size(); ++i) {
     EXPECT_EQ(std::count(rows[i].begin(), rows[i].end(), ','), commas) << rows[i];
@@ -76,6 +86,38 @@ TEST(TableFormats, JsonIsValidAndHasNullForTheUnknown) {
   EXPECT_TRUE(json[1]["time_to_contact_s"]["q50"].is_null());
   EXPECT_TRUE(json[1]["pilots"][0]["clearance_m"]["q50"]["hi"].is_null());  // unbounded
   EXPECT_EQ(json[2]["causes"]["seen late"], 1);
+}
+
+// Of two throws that none flew, one would have hit; of a third its flight failed.
+TEST(TableFormats, TheRowOfThePilotNoneSaysHowManyWouldHaveHit) {
+  std::vector<ThrowResult> results = {ball(0, 0.1, 2, 4), ball(1, 0.1, 2, 4), ball(2, 0.1, 2, 4)};
+  for (ThrowResult& result : results) result.flown = flown(false);
+  results[0].none = flown(true);
+  results[1].none = flown(false);
+  results[2].none = failed("diverged");
+  const StatisticsTable grouped = group_by(parts_of(results, "falanga2020"), {});
+  const Interval share = wilson(1, 2), undodged = wilson(0, 1);
+  const auto json = parse_json(to_json(grouped))[0]["pilots"][1];
+  EXPECT_EQ(json["pilot"], "none");
+  EXPECT_EQ(json["would_have_hit"]["count"], 1);
+  EXPECT_EQ(json["would_have_hit"]["of"], 2);
+  EXPECT_EQ(json["would_have_hit"]["hi"], share.hi);
+  EXPECT_EQ(json["dodged"]["of"], 1);
+  EXPECT_EQ(json["dodged"]["hi"], undodged.hi);
+  const std::vector<std::string> rows = lines(to_csv(grouped));
+  ASSERT_EQ(rows.size(), 3u);
+  const auto cell = [&](const std::string& name) {
+    const std::vector<std::string> names = cells(rows[0]);
+    const auto at = std::find(names.begin(), names.end(), name);
+    return at == names.end() ? "no column " + name
+                             : cells(rows[2])[static_cast<std::size_t>(at - names.begin())];
+  };
+  EXPECT_EQ(cell("pilot"), "none");
+  EXPECT_EQ(cell("would_have_hit"), "1");
+  EXPECT_EQ(cell("dodged"), "0");
+  EXPECT_EQ(cell("rate_hi"), to_text(undodged.hi));
+  EXPECT_EQ(cell("would_have_hit_rate"), "0.5");
+  EXPECT_EQ(cell("would_have_hit_rate_lo"), to_text(share.lo));
 }
 
 TEST(TableFormats, LatexIsEscaped) {

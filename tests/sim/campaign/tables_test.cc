@@ -87,9 +87,9 @@ All throws. Median (10 % to 90 % quantile), count.
 Of 1 throw that would have missed, falanga2020 evaded 1 and was hit by 0.
 
 )");
-  EXPECT_THAT(made.csv, ::testing::StartsWith(
-                            "size_m,distance_m,speed_mps,pilot,throws,"
-                            "would_have_hit,dodged,rate,rate_lo,rate_hi,rate_interval,errors,"));
+  EXPECT_THAT(made.csv,
+              ::testing::StartsWith("size_m,distance_m,speed_mps,pilot,throws,"
+                                    "would_have_hit,dodged,rate,rate_lo,rate_hi,rate_interval,"));
   EXPECT_THAT(made.csv, HasSubstr("\n0.1,2,all,falanga2020,2,1,1,1,"));
   EXPECT_THAT(made.csv, HasSubstr("\nall,all,all,falanga2020,3,2,1,0.5,"));
   EXPECT_THAT(made.csv, HasSubstr("\nall,all,4,none,3,2,0,0,"));
@@ -163,11 +163,22 @@ TEST(Tables, AnOraclesErrorIsNotShownTwice) {
   EXPECT_THAT(markdown, HasSubstr("1 flight failed"));
 }
 
-TEST(Tables, AThrowThatWasNeverLaunchedWouldNotHaveHit) {
+TEST(Tables, AThrowThatNobodyCouldFlyIsNamedOnceAndInNoRate) {
   const FlightResult broken = failed("It starts inside another.");
-  const Tables made = tables({throw_with(0, broken, broken, FlightResult{})});
-  EXPECT_THAT(made.markdown, HasSubstr("| all | none: would have hit | 0 / 0, 1 error |"));
-  EXPECT_THAT(made.csv, HasSubstr("none,1,0,0,"));
+  const Tables made = tables({throw_with(0, broken, broken, broken),
+                              throw_with(1, broken, FlightResult{}, FlightResult{}),
+                              throw_with(2, flown(false), flown(true), flown(true))});
+  EXPECT_THAT(made.markdown, HasSubstr("Dodged: 1 / 1 ("));
+  EXPECT_THAT(made.markdown, HasSubstr("| all | falanga2020 | 1 / 1 (1.000, 0.207 to 1.000), 2 "
+                                       "errors |"));
+  EXPECT_THAT(made.markdown, HasSubstr("| all | oracle | 0 / 1 (0.000, 0.000 to 0.793) |"));
+  EXPECT_THAT(made.markdown,
+              HasSubstr("| all | none: would have hit | 1 / 1 (1.000, 0.207 to 1.000) |"));
+  EXPECT_THAT(made.markdown,
+              HasSubstr("## Errors\n\n2 throws could not be flown, whoever the pilot, which no "
+                        "rate counts:\n\n- throw 0: It starts inside another.\n- throw 1: It "
+                        "starts inside another.\n"));
+  EXPECT_THAT(made.csv, HasSubstr("all,all,all,none,1,1,0,"));
 }
 
 TEST(Tables, ShowTheNameAsItIs) {
@@ -229,7 +240,7 @@ TEST(Tables, AFlightOfThePilotNoneFailsOnceOnly) {
   const FlightResult diverged = failed("diverged");
   ThrowResult result = throw_with(0, diverged, diverged, FlightResult{});
   const Tables made = tables({result}, "none");
-  EXPECT_THAT(made.markdown, HasSubstr("1 flight failed"));
+  EXPECT_THAT(made.markdown, HasSubstr("1 throw could not be flown"));
   EXPECT_THAT(made.markdown, HasSubstr("1 error |"));
   const std::string row = "\nall,all,all,none,";
   EXPECT_THAT(made.csv, HasSubstr(row));

@@ -53,6 +53,45 @@ TEST(Tally, AnErrorNeverCountsAsASuccess) {
   EXPECT_EQ(rate_text(sum.shown(true)), rate_text({1, 2}));  // of what is known
 }
 
+// One denominator for all pilots.
+TEST(Tally, AThrowThatNobodyCouldFlyIsAnErrorAndInNoRate) {
+  ThrowResult impossible = ball(0, 0.2, 3, 6), diverged = ball(1, 0.2, 3, 6);
+  impossible.flown = failed("behind a wall");
+  diverged.flown = diverged.none = diverged.oracle = failed("inside the floor");
+  for (const ThrowResult& result : {impossible, diverged}) {
+    EXPECT_TRUE(result.nobody_could_fly());
+    Tally pilot, oracle, none;
+    pilot.add(result);
+    oracle.add(result, &ThrowResult::oracle);
+    none.add(result, &ThrowResult::none);
+    EXPECT_EQ(pilot.errors, 1);
+    for (const Tally& sum : {oracle, none}) EXPECT_EQ(sum.errors, 0);
+    for (const Tally& sum : {pilot, oracle, none}) {
+      EXPECT_EQ(sum.throws, 0);
+      EXPECT_EQ(sum.would_have_hit, 0);
+      EXPECT_EQ(sum.collisions.of, 0);
+    }
+    EXPECT_EQ(failed_flights(result, "falanga2020").size(), 1u);
+  }
+}
+
+TEST(Tally, AThrowThatOnlyThePilotFailedCountsAgainstIt) {
+  ThrowResult crashed = ball(0, 0.2, 3, 6), lost = crashed, quiet;
+  crashed.flown = failed("the plugin threw an exception");
+  crashed.none = flown(true);
+  lost.flown = failed("out of memory");
+  lost.flown.status = "lost";
+  quiet.flown = failed("diverged");
+  for (const ThrowResult& result : {crashed, lost}) {
+    EXPECT_FALSE(result.nobody_could_fly());
+    Tally sum;
+    sum.add(result);
+    EXPECT_EQ(sum.would_have_hit, 1);
+    EXPECT_EQ(sum.errors, 1);
+  }
+  EXPECT_FALSE(quiet.nobody_could_fly());
+}
+
 TEST(Tally, CollisionsAreCountedOverAllFlightsThatDidNotFail) {
   Tally sum;
   sum.add(result_of(flown(true), flown(false)));  // would have missed, walked into
