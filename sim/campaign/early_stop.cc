@@ -1,5 +1,7 @@
 #include "sim/campaign/early_stop.h"
 
+#include <algorithm>
+
 #include "sim/base/formatted.h"
 #include "sim/config/expand.h"
 
@@ -7,7 +9,8 @@ namespace dodgesim {
 
 EarlyStop::EarlyStop(const Scenario& scenario)
     : spec_(scenario.stop.value()),
-      rule_(spec_.half_width, spec_.confidence, throw_count(scenario)) {}
+      planned_(throw_count(scenario)),
+      rule_(spec_.half_width, spec_.confidence, planned_) {}
 
 void EarlyStop::add(const ThrowResult& result) {
   if (end_) return;
@@ -17,26 +20,37 @@ void EarlyStop::add(const ThrowResult& result) {
     sum_.would_have_hit += first->second.would_have_hit;
     sum_.dodged += first->second.dodged;
     ++next_;
-    if (!rule_.done(sum_.dodged, sum_.would_have_hit)) continue;
+    if (all_flown() || !rule_.done(sum_.dodged, sum_.would_have_hit)) continue;
     end_ = next_;
     waiting_.clear();
-    return;
+    break;
   }
+  interval_ = find_interval();
 }
 
-SequentialInterval EarlyStop::interval() const {
-  return {end_ ? rule_.interval(sum_.dodged, sum_.would_have_hit)
-               : confidence_sequence(sum_.dodged, sum_.would_have_hit, spec_.confidence),
-          spec_.confidence};
+// Which throws would have hit does not depend on the pilot: nobody dodges there.
+Interval EarlyStop::find_interval() const {
+  const int dodged = sum_.dodged, trials = sum_.would_have_hit;
+  if (trials == 0) return {0, 1};
+  if (end_) return rule_.interval(dodged, trials);
+  if (all_flown()) return rule_.run_out(trials).interval(dodged, trials);
+  return confidence_sequence(dodged, trials, spec_.confidence);
 }
 
 std::string EarlyStop::text() const {
-  const Interval interval = this->interval().interval;
-  return formatted(
-      "%s after %d throws: %d of %d dodged, %.4g %% interval %.3f to %.3f (valid though the "
-      "results decided when to stop; asked for: +- %g).",
-      end_ ? "Ended by stop" : "Not ended by stop", next_, sum_.dodged, sum_.would_have_hit,
-      100 * spec_.confidence, interval.lo, interval.hi, spec_.half_width);
+  const int dodged = sum_.dodged, trials = sum_.would_have_hit;
+  const std::string counts = formatted("%d of %d dodged, %.4g %% interval %.3f to %.3f", dodged,
+                                       trials, 100 * spec_.confidence, interval_.lo, interval_.hi);
+  const std::string asked = formatted("asked for: +- %g).", spec_.half_width);
+  if (end_ || !all_flown()) {
+    return formatted("%s after %d throws: ", end_ ? "Ended by stop" : "Not ended by stop", next_) +
+           counts + " (valid though the results decided when to stop; " + asked;
+  }
+  const double rate = trials > 0 ? static_cast<double>(dodged) / trials : 0.5;
+  return formatted("All %d throws flown: ", next_) + counts +
+         formatted(" (valid though the results could have stopped it; known to +- %.3f, ",
+                   std::max(interval_.hi - rate, rate - interval_.lo)) +
+         asked;
 }
 
 }  // namespace dodgesim

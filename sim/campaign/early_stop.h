@@ -21,24 +21,29 @@ class EarlyStop {
 
   void add(const ThrowResult& result);
 
-  // After how many throws the campaign ends; empty: not yet.
+  // After how many throws, fewer than the scenario's, the campaign ends; empty: not yet.
   std::optional<int> end() const { return end_; }
 
   // Of the success rate over the throws so far or, after the end, over those before it. It holds
-  // although the campaign chose when to stop.
-  SequentialInterval interval() const;
+  // although the campaign chose when to stop; of a campaign under way it is much wider.
+  SequentialInterval interval() const { return {interval_, spec_.confidence}; }
 
   // Of the throws so far or, after the end, of those before it: dodged of those that would have
   // hit, with that interval. One sentence.
   std::string text() const;
 
  private:
+  bool all_flown() const { return next_ == planned_; }
+  Interval find_interval() const;
+
   StopSpec spec_;
+  int planned_;  // throws of the scenario
   FixedWidthRule rule_;
   std::map<int, Tally> waiting_;  // throws that came before an earlier one
   int next_ = 0;                  // number of the throw that is counted next
   Tally sum_;
   std::optional<int> end_;
+  Interval interval_{0, 1};
 };
 
 }  // namespace dodgesim

@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::int64_t kPseudoCounts = 4;  // of either outcome: keeps an early streak from stopping
 
+constexpr double kGrowth = 1.1;  // of z, until the coverage is good
+
 constexpr double kBeside = 1e-11;  // a rate beside another: more than rounding
 
 // Standard deviation of one outcome, as estimated with the pseudo counts.
@@ -26,20 +28,38 @@ double outcome_sd(std::int64_t successes, std::int64_t trials) {
 }  // namespace
 
 FixedWidthRule::FixedWidthRule(double half_width, double confidence, std::int64_t max_trials)
-    : half_width_(half_width), asked_max_trials_(max_trials) {
+    : half_width_(half_width), confidence_(confidence), asked_max_trials_(max_trials) {
   check_confidence(confidence);
   if (!(half_width >= kLeastHalfWidth && half_width <= kMostHalfWidth)) {
     throw std::invalid_argument("The half width of a stopping rule must lie in [0.005, 0.5].");
   }
   if (max_trials < 1) throw std::invalid_argument("A stopping rule needs at least one throw.");
-  constexpr double kGrowth = 1.1;
-  constexpr int kHalvings = 8;
   const double nominal = normal_quantile(0.5 + 0.5 * confidence);
+  choose_z(nominal / kGrowth, nominal, [this](double z) { set_z(z); });
+}
+
+FixedWidthRule FixedWidthRule::run_out(std::int64_t trials) const {
+  if (trials < 1) throw std::invalid_argument("A stopping rule needs at least one throw.");
+  FixedWidthRule rule = *this;
+  if (trials >= max_trials_) return rule;
+  rule.max_trials_ = trials;
+  rule.find_stop_points();
+  if (rule.least_coverage() >= confidence_) return rule;
+  // Campaigns that stop before miss the rate no more often than this rule's: some z is enough.
+  rule.choose_z(z_, z_ * kGrowth, [&rule](double z) {
+    rule.last_z_ = z;
+    rule.find_stop_points();
+  });
+  return rule;
+}
+
+template <class Set>
+void FixedWidthRule::choose_z(double too_small, double enough, Set set) {
+  constexpr int kHalvings = 8;
   // Coverage need not rise steadily with z: `enough` always is a z whose coverage was found good.
-  double too_small = nominal / kGrowth, enough = nominal;
   const auto covers = [&](double z) {
-    set_z(z);
-    return least_coverage() >= confidence;
+    set(z);
+    return least_coverage() >= confidence_;
   };
   while (!covers(enough)) {
     too_small = enough;
@@ -49,14 +69,16 @@ FixedWidthRule::FixedWidthRule(double half_width, double confidence, std::int64_
     const double z = 0.5 * (too_small + enough);
     (covers(z) ? enough : too_small) = z;
   }
-  set_z(enough);
+  set(enough);
+}
+
+bool FixedWidthRule::narrow(std::int64_t successes, std::int64_t trials) const {
+  return z_ * outcome_sd(successes, trials) <= half_width_ * std::sqrt(static_cast<double>(trials));
 }
 
 bool FixedWidthRule::done(std::int64_t successes, std::int64_t trials) const {
   check_counts(successes, trials);
-  if (trials == 0) return false;
-  return trials >= max_trials_ ||
-         z_ * outcome_sd(successes, trials) <= half_width_ * std::sqrt(static_cast<double>(trials));
+  return trials > 0 && (trials >= max_trials_ || narrow(successes, trials));
 }
 
 Interval FixedWidthRule::interval(std::int64_t successes, std::int64_t trials) const {
@@ -64,12 +86,14 @@ Interval FixedWidthRule::interval(std::int64_t successes, std::int64_t trials) c
   if (trials == 0) return {0, 1};
   const auto n = static_cast<double>(trials);
   const double rate = static_cast<double>(successes) / n;
-  const double half = std::max(half_width_, z_ * outcome_sd(successes, trials) / std::sqrt(n));
+  const double half = narrow(successes, trials)
+                          ? half_width_
+                          : last_z_ * outcome_sd(successes, trials) / std::sqrt(n);
   return {std::max(0.0, rate - half), std::min(1.0, rate + half)};
 }
 
 void FixedWidthRule::set_z(double z) {
-  z_ = z;
+  z_ = last_z_ = z;
   // At this number of throws the largest deviation, 0.5, is known well enough.
   const double enough = std::ceil(std::pow(0.5 * z / half_width_, 2));
   max_trials_ = std::min(asked_max_trials_, static_cast<std::int64_t>(std::max(1.0, enough)));

@@ -35,6 +35,13 @@ class FixedWidthRule {
   // Whether the campaign ends with these counts.
   bool done(std::int64_t successes, std::int64_t trials) const;
 
+  // The same rule for a campaign whose throws have run out after fewer trials than max_trials,
+  // because some throws were no trials (a ball that would have missed). It stops as this rule does,
+  // but at `trials` in any case, and its interval there is as wide as the coverage needs: which
+  // throws are trials must not depend on their success. Throws std::invalid_argument when
+  // trials < 1.
+  FixedWidthRule run_out(std::int64_t trials) const;
+
   // Holds with the confidence at the counts with which done() first became true, and is no
   // statement before: use confidence_sequence() for a look at a campaign under way.
   Interval interval(std::int64_t successes, std::int64_t trials) const;
@@ -58,12 +65,18 @@ class FixedWidthRule {
     double probability(double p) const;
   };
 
+  // Sets a z with set(z) whose coverage is good enough, not much larger than the least: between
+  // `too_small` and `enough`, or beyond.
+  template <class Set>
+  void choose_z(double too_small, double enough, Set set);
   void set_z(double z);
+  bool narrow(std::int64_t successes, std::int64_t trials) const;
   void find_stop_points();
 
-  double half_width_;
+  double half_width_, confidence_;
   std::int64_t asked_max_trials_;
-  double z_ = 0;
+  double z_ = 0;       // of the stop
+  double last_z_ = 0;  // of the interval where the throws run out
   std::int64_t max_trials_ = 0;
   std::vector<StopPoint> stop_points_;  // by the rising middle of their intervals
   double widest_ = 0;                   // half width of all intervals

@@ -71,6 +71,43 @@ TEST(EarlyStop, StatesAWiderIntervalWhenItHasNotCome) {
   EXPECT_THAT(stop.text(), HasSubstr("Not ended by stop after 20 throws: 14 of 18 dodged"));
 }
 
+// The rule's own interval, though not every throw would have hit: not that of a campaign under way.
+TEST(EarlyStop, WhereAllThrowsAreFlownTheIntervalIsTheRules) {
+  EarlyStop stop(stopping(0.05, 60));
+  for (int i = 0; i < 60; ++i) stop.add(nth_throw(i));
+  EXPECT_FALSE(stop.end());
+  const FixedWidthRule rule = FixedWidthRule(0.05, 0.95, 60).run_out(54);
+  const Interval interval = stop.interval().interval, expected = rule.interval(42, 54);
+  EXPECT_EQ(interval.lo, expected.lo);
+  EXPECT_EQ(interval.hi, expected.hi);
+  EXPECT_LT(interval.half_width(), 0.75 * confidence_sequence(42, 54).half_width());
+  EXPECT_THAT(stop.text(), HasSubstr("All 60 throws flown: 42 of 54 dodged, 95 % interval 0."));
+  EXPECT_THAT(stop.text(), HasSubstr("; known to +- 0.1"));
+  EXPECT_THAT(stop.text(), HasSubstr(", asked for: +- 0.05)."));
+}
+
+TEST(EarlyStop, OfThrowsThatAllWouldHaveHitIsNotEndedByTheLastOne) {
+  EarlyStop stop(stopping(0.05, 40));
+  for (int i = 0; i < 40; ++i) {
+    ThrowResult result = nth_throw(i);
+    result.none = flown(true);
+    stop.add(result);
+  }
+  EXPECT_FALSE(stop.end());
+  EXPECT_THAT(stop.text(), ::testing::StartsWith("All 40 throws flown: "));
+}
+
+TEST(EarlyStop, WhereNothingWouldHaveHitNothingIsKnown) {
+  EarlyStop stop(stopping(0.1, 5));
+  for (int i = 0; i < 5; ++i) {
+    ThrowResult result = nth_throw(i);
+    result.none = flown(false);
+    stop.add(result);
+  }
+  EXPECT_EQ(stop.interval().interval.lo, 0);
+  EXPECT_EQ(stop.interval().interval.hi, 1);
+}
+
 class EarlyStopCampaignTest : public CampaignTest {
  protected:
   EarlyStopCampaignTest() { scenario_ = stopping(0.2, 200); }
@@ -108,6 +145,11 @@ TEST_F(EarlyStopCampaignTest, IsCompleteForWhoReadsItAndStatesTheIntervalThatHol
   EXPECT_THAT(table, HasSubstr("Dodged: " + rate_text(headline)));
   EXPECT_THAT(rate_text(headline), ::testing::EndsWith(", sequential 95 %)"));
   EXPECT_THAT(read(root_ / "out/table.csv"), HasSubstr(",sequential 95 %,"));
+  // The pilot's hits are what it did not dodge: Wilson's interval would not hold for them either.
+  const Rate collisions = statistics_of(parts_of(campaign).front()).flown().tally.collisions;
+  EXPECT_EQ(collisions.interval_name(), "none");
+  EXPECT_THAT(table, HasSubstr("| all | " + rate_text(collisions) + " |"));
+  EXPECT_THAT(rate_text(collisions), ::testing::MatchesRegex("[0-9]+ / [0-9]+ [(]0[.][0-9]+[)]"));
   const StatisticsTable grouped = group_by(parts_of(campaign), {});
   EXPECT_THAT(to_json(grouped), HasSubstr("\"interval\": \"sequential 95 %\""));
   EXPECT_THAT(to_latex(grouped), HasSubstr("sequential 95 \\%)"));

@@ -94,6 +94,30 @@ TEST(FixedWidthRule, WidensItsIntervalWhenTheThrowsRunOut) {
   EXPECT_GT(rule.interval(30, 60).half_width(), 0.12);
 }
 
+// The throws planned are 60, of which fewer were trials: the campaign stopped, or went on, by the
+// rule of 60.
+TEST(FixedWidthRule, CoversEveryRateWhenThrowsWereNoTrials) {
+  for (const std::int64_t planned : {60, 400}) {
+    const FixedWidthRule rule(0.05, 0.95, planned);
+    for (const std::int64_t trials : {1, 2, 7, 20, 58, 60, 150, 300}) {
+      if (trials > planned) continue;
+      const FixedWidthRule shorter = rule.run_out(trials);
+      EXPECT_EQ(shorter.max_trials(), trials);
+      for (std::int64_t n = 1; n < trials; ++n) {
+        for (std::int64_t s = 0; s <= n; ++s) EXPECT_EQ(shorter.done(s, n), rule.done(s, n));
+      }
+      EXPECT_TRUE(shorter.done(trials / 2, trials));
+      double least = 1;
+      for (int i = 0; i <= 1000; ++i) least = std::min(least, shorter.coverage(i / 1000.0));
+      EXPECT_GE(least, 0.95) << planned << " " << trials;
+    }
+  }
+  const FixedWidthRule rule(0.05, 0.95, 60);
+  EXPECT_NEAR(rule.run_out(58).interval(34, 58).half_width(), 0.13, 0.01);
+  EXPECT_EQ(rule.run_out(100).max_trials(), 60);
+  EXPECT_THROW(static_cast<void>(rule.run_out(0)), std::invalid_argument);
+}
+
 // All paths end somewhere: at rates whose intervals all hold, the probabilities of the stop points
 // add up to 1.
 TEST(FixedWidthRule, CountsAllPaths) {
