@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <span>
+#include <utility>
 
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
@@ -13,20 +14,28 @@ namespace dodgesim {
 
 namespace {
 
-using ByNumber = std::map<int, const ThrowOutcome*>;
+// By sweep value and number within it.
+class ByStream {
+ public:
+  explicit ByStream(const std::vector<ThrowOutcome>& throws) {
+    for (const ThrowOutcome& t : throws) throws_[{t.sweep, t.stream}] = &t;
+  }
+  // The throw with the same numbers; null if there is none.
+  const ThrowOutcome* like(const ThrowOutcome& t) const {
+    const auto at = throws_.find({t.sweep, t.stream});
+    return at == throws_.end() ? nullptr : at->second;
+  }
 
-ByNumber sorted(const std::vector<ThrowOutcome>& throws) {
-  ByNumber by_number;
-  for (const ThrowOutcome& t : throws) by_number[t.number] = &t;
-  return by_number;
-}
+ private:
+  std::map<std::pair<int, std::int64_t>, const ThrowOutcome*> throws_;
+};
 
-bool same_throws(const std::vector<ThrowOutcome>& first, const ByNumber& second) {
+bool can_be_paired(const std::vector<ThrowOutcome>& first, const ByStream& second) {
   bool any = false;
   for (const ThrowOutcome& a : first) {
-    const auto b = second.find(a.number);
-    if (b == second.end()) continue;
-    if (!same_throw(a, *b->second)) return false;
+    const ThrowOutcome* const b = second.like(a);
+    if (b == nullptr) continue;
+    if (!same_random_numbers(a, *b)) return false;
     any = true;
   }
   return any;
@@ -44,11 +53,14 @@ Proportion proportion(const std::vector<ThrowOutcome>& throws) {
 
 void add_pair(const ThrowOutcome& a, const ThrowOutcome& b, Comparison& sum) {
   ++sum.throws;
+  for (const std::string& name : differing_draws(a, b)) {
+    if (std::ranges::count(sum.differing, name) == 0) sum.differing.push_back(name);
+  }
   if (a.counts != b.counts) sum.counts_differ.push_back(a.number);
   if (!a.counts || !b.counts) return;
   sum.counts.add(a.success, b.success);
   if (a.success == b.success) return;
-  (a.success ? sum.lost : sum.gained).push_back({a.number, a.label, a.what, b.what});
+  (a.success ? sum.lost : sum.gained).push_back({a.number, b.number, a.label, a.what, b.what});
 }
 
 std::string rate_line(const std::string& name, const Proportion& rate) {
@@ -63,6 +75,12 @@ std::string rate_line(const std::string& name, const Proportion& rate) {
 std::string left_out(const std::vector<int>& throws, const std::string& why) {
   if (throws.empty()) return "";
   return "Left out, because " + why + ": throws " + list_of(throws) + "\n";
+}
+
+std::string pairs_text(const std::vector<std::string>& differing) {
+  if (differing.empty()) return "of the same throws";
+  return "of throws with the same random numbers (" + list_of(differing) +
+         (differing.size() == 1 ? " differs)" : " differ)");
 }
 
 std::string text_of(const std::vector<AxisValue>& settings) {
@@ -91,25 +109,24 @@ void expect_same_settings(const std::vector<ThrowOutcome>& first,
 
 Comparison compare(const std::vector<ThrowOutcome>& first,
                    const std::vector<ThrowOutcome>& second) {
-  const ByNumber by_number = sorted(second);
+  const ByStream of_first(first), of_second(second);
   Comparison sum;
-  sum.paired = same_throws(first, by_number);
+  sum.paired = can_be_paired(first, of_second);
   if (!sum.paired) {
     sum.first = proportion(first);
     sum.second = proportion(second);
     return sum;
   }
   for (const ThrowOutcome& a : first) {
-    const auto b = by_number.find(a.number);
-    if (b != by_number.end()) {
-      add_pair(a, *b->second, sum);
+    const ThrowOutcome* const b = of_second.like(a);
+    if (b != nullptr) {
+      add_pair(a, *b, sum);
     } else {
-      sum.unmatched.push_back(a.number);
+      sum.only_first.push_back(a.number);
     }
   }
-  const ByNumber of_first = sorted(first);
   for (const ThrowOutcome& b : second) {
-    if (of_first.count(b.number) == 0) sum.unmatched.push_back(b.number);
+    if (of_first.like(b) == nullptr) sum.only_second.push_back(b.number);
   }
   const PairedCounts& n = sum.counts;
   sum.first = {n.both + n.only_first, n.total()};
@@ -127,9 +144,11 @@ std::string comparison_text(const Comparison& comparison, const std::string& fir
   text += formatted("Difference: %+.3f (95 %%: %+.3f to %+.3f), p = %.3g, ", difference,
                     interval.lo, interval.hi, p);
   if (!c.paired) return text + "of different throws (Boschloo's test, Newcombe's interval)\n";
-  text += formatted("of the same throws: %zu lost, %zu gained (McNemar's test, Tango's interval)\n",
-                    c.lost.size(), c.gained.size());
-  return text + left_out(c.unmatched, "only one campaign has them") +
+  text += pairs_text(c.differing);
+  text += formatted(": %zu lost, %zu gained (McNemar's test, Tango's interval)\n", c.lost.size(),
+                    c.gained.size());
+  return text + left_out(c.only_first, "only " + first + " has them") +
+         left_out(c.only_second, "only " + second + " has them") +
          left_out(c.counts_differ, "they would have hit in one campaign only");
 }
 

@@ -13,19 +13,21 @@ namespace dodgesim {
 
 // A throw that succeeded in one campaign only.
 struct ChangedThrow {
-  int number = 0;
+  int number = 0, number_after = 0;  // another one where other repeats shift those of a sweep value
   std::string label;
   std::string before, after;  // ThrowOutcome::what
 };
 
 struct Comparison {
-  bool paired = false;       // all throws that both have are the same throws
-  int throws = 0;            // in both, by their numbers
+  bool paired = false;  // all throws that both have share their random numbers
+  int throws = 0;       // in both, by their numbers within the sweep value
+  // When paired, what was drawn otherwise (differing_draws()); empty: they are the same throws.
+  std::vector<std::string> differing;
   Proportion first, second;  // successes of the throws that count; paired: in both campaigns
   PairedCounts counts;       // when paired
   // When paired, numbers of the throws that cannot be compared and are in no count: those that only
   // one campaign has, and those that would have hit in only one.
-  std::vector<int> unmatched, counts_differ;
+  std::vector<int> only_first, only_second, counts_differ;
   std::vector<ChangedThrow> lost, gained;  // when paired
 };
 
@@ -35,7 +37,9 @@ void expect_same_settings(const std::vector<ThrowOutcome>& first,
                           const std::vector<ThrowOutcome>& second, const std::string& first_name,
                           const std::string& second_name);
 
-// Throws that both have are paired if all of them are the same throws (same_throw()).
+// Throws with the same number within the same sweep value are pairs if all of these share their
+// random numbers (same_random_numbers()): a pair's outcomes may depend on each other, but not on
+// those of other pairs.
 Comparison compare(const std::vector<ThrowOutcome>& first, const std::vector<ThrowOutcome>& second);
 
 // The comparison in words: rates, difference with its interval, p-value. `first` and `second` name

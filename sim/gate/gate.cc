@@ -50,16 +50,20 @@ std::optional<std::int64_t> losses_that_fail(const PairedCounts& counts, const G
 // No throw may escape the comparison. A throw that grazes may hit on one kind of machine only.
 GateCheck throws_are_the_same(const Comparison& comparison, bool same_machine) {
   const std::string name = "same throws";
-  if (!comparison.paired) return {name, Result::kFailed, "these are not the baseline's throws"};
+  if (!comparison.paired || !comparison.differing.empty()) {
+    return {name, Result::kFailed, "these are not the baseline's throws"};
+  }
   std::string reason;
   const auto add = [&reason](const std::string& what, const std::vector<int>& throws) {
     if (throws.empty()) return;
     reason += (reason.empty() ? "throws " : "; throws ") + what + ": " + list_of(throws);
   };
-  add("of the baseline or of this campaign only", comparison.unmatched);
+  add("of the baseline only", comparison.only_first);
+  add("of this campaign only", comparison.only_second);
   add("that would have hit in the baseline or now, but not both", comparison.counts_differ);
   if (reason.empty()) return {name, Result::kPassed, ""};
-  if (comparison.unmatched.empty() && !same_machine) return {name, Result::kPassed, reason};
+  const bool all_there = comparison.only_first.empty() && comparison.only_second.empty();
+  if (all_there && !same_machine) return {name, Result::kPassed, reason};
   return {name, Result::kFailed, reason + " (if this is meant, --update makes a new baseline)"};
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -96,7 +98,9 @@ bool flew(const CsvTable& table, std::size_t row, const char* status) {
 void judge(const CsvTable& table, std::size_t row, ThrowOutcome& out) {
   const bool thrown = !out.draw.empty();
   const bool judged = flew(table, row, "none_status");  // it is known whether it would hit
-  out.counts = !thrown || !judged || table.boolean(row, "none_hit");
+  out.nobody_could_fly = thrown && table.at(row, "flown_status") == "error" && !judged &&
+                         !flew(table, row, "oracle_status");
+  out.counts = !out.nobody_could_fly && (!thrown || !judged || table.boolean(row, "none_hit"));
   if (!flew(table, row, "flown_status")) {
     out.what = "error: " + table.at(row, "flown_error");
   } else if (table.boolean(row, "flown_hit")) {
@@ -120,9 +124,25 @@ bool same_number(double a, double b) {
   return std::abs(a - b) <= kTolerance * std::max({1.0, std::abs(a), std::abs(b)});
 }
 
-bool same_object(const DrawnObject& a, const DrawnObject& b) {
-  return a.kind == b.kind && std::equal(a.numbers.begin(), a.numbers.end(), b.numbers.begin(),
-                                        b.numbers.end(), same_number);
+// How many throws a value of the sweep has. A table without its manifest is taken for whole: the
+// first throw of sweep value 1 tells.
+std::int64_t throws_per_sweep_value(const CampaignTables& campaign) {
+  constexpr std::uint64_t kMost = std::numeric_limits<int>::max();
+  const std::uint64_t planned = campaign.planned.value_or(0);
+  const std::uint64_t values = campaign.sweep_values.value_or(0);
+  if (planned > 0 && planned <= kMost && values > 0) {
+    return static_cast<std::int64_t>(planned / values);
+  }
+  const CsvTable& throws = campaign.throws;
+  for (std::size_t row = 0; throws.has("sweep") && row < throws.rows(); ++row) {
+    const int sweep = throws.integer(row, "sweep");
+    if (sweep > 0) return throws.integer(row, "throw") / sweep;
+  }
+  return 0;
+}
+
+bool same_seed(const ThrowOutcome& a, const ThrowOutcome& b) {
+  return !a.seed || !b.seed || *a.seed == *b.seed;
 }
 
 // A number of the campaign. What the manifest does not say is not known.
@@ -158,6 +178,7 @@ CampaignTables read_tables(const fs::path& directory) {
   const Json manifest = manifest_or_nothing(path);
   tables.seed = find_number(manifest, "seed");
   tables.planned = find_number(manifest, "throws");
+  tables.sweep_values = find_number(manifest, "sweep_values");
   return tables;
 }
 
@@ -170,6 +191,7 @@ bool is_drawn(const std::string& column) {
 std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign) {
   const CsvTable& throws = campaign.throws;
   Draws draws(campaign);
+  const std::int64_t per_sweep_value = throws_per_sweep_value(campaign);
   std::vector<ThrowOutcome> all;
   for (std::size_t row = 0; row < throws.rows(); ++row) {
     ThrowOutcome out;
@@ -180,6 +202,7 @@ std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign) {
     }
     if (throws.has("cell")) out.cell = throws.integer(row, "cell");
     if (throws.has("sweep")) out.sweep = throws.integer(row, "sweep");
+    out.stream = out.number - out.sweep * per_sweep_value;
     out.settings = settings_of(throws, row);
     out.label = label_of(throws, row);
     out.draw = draws.of_throw(row, out.number);
@@ -190,9 +213,29 @@ std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign) {
   return all;
 }
 
+std::vector<std::string> differing_draws(const ThrowOutcome& a, const ThrowOutcome& b) {
+  if (a.draw.size() != b.draw.size()) return {"number of objects"};
+  std::set<std::size_t> differing;  // columns of kDrawnNumbers
+  bool other_kind = false;
+  for (std::size_t i = 0; i < a.draw.size(); ++i) {
+    other_kind = other_kind || a.draw[i].kind != b.draw[i].kind;
+    for (std::size_t k = 0; k < std::size(kDrawnNumbers); ++k) {
+      if (!same_number(a.draw[i].numbers[k], b.draw[i].numbers[k])) differing.insert(k);
+    }
+  }
+  std::vector<std::string> names;
+  if (other_kind) names.emplace_back("object");
+  for (const std::size_t k : differing) names.emplace_back(kDrawnNumbers[k]);
+  return names;
+}
+
 bool same_throw(const ThrowOutcome& a, const ThrowOutcome& b) {
-  if (a.seed && b.seed && *a.seed != *b.seed) return false;
-  return std::equal(a.draw.begin(), a.draw.end(), b.draw.begin(), b.draw.end(), same_object);
+  return same_seed(a, b) && differing_draws(a, b).empty();
+}
+
+bool same_random_numbers(const ThrowOutcome& a, const ThrowOutcome& b) {
+  if (a.cell != b.cell) return false;
+  return a.seed && b.seed ? *a.seed == *b.seed : differing_draws(a, b).empty();
 }
 
 }  // namespace dodgesim

@@ -202,12 +202,34 @@ TEST_F(GateCommandTest, CompareSaysWhichThrowsItLeavesOut) {
   ASSERT_EQ(dodgesim(run + path("two") + " --throws 2").exit_code, 0);
   const Outcome outcome = dodgesim("compare " + path("three") + " " + path("two"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("of the same throws"),
-                                    HasSubstr("because only one campaign has them: throws 2\n")));
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("of the same throws"),
+                    HasSubstr("because only " + path("three") + " has them: throws 2\n")));
   fs::remove(path("two") + "/throws.csv");  // as long as it is flown
   const Outcome unfinished = dodgesim("compare " + path("three") + " " + path("two"));
   EXPECT_EQ(unfinished.exit_code, 4);
   EXPECT_THAT(unfinished.output, HasSubstr(path("two") + " is not finished, "));
+}
+
+TEST_F(GateCommandTest, ComparePairsTheThrowsOfASweepWhateverTheRepeats) {
+  const std::string sweep = "sweep " + path("s.yaml") + " --over delays.compute_us=0,3500 --out ";
+  ASSERT_EQ(dodgesim(sweep + path("three")).exit_code, 0);
+  ASSERT_EQ(dodgesim(sweep + path("four") + " --throws 4").exit_code, 0);
+  const std::string text = dodgesim("compare " + path("three") + " " + path("four")).output;
+  EXPECT_THAT(text, Not(HasSubstr("of different throws")));
+  EXPECT_THAT(text, HasSubstr("because only " + path("four") + " has them: throws 3\n"));
+  EXPECT_THAT(text, HasSubstr("because only " + path("four") + " has them: throws 7\n"));
+}
+
+TEST_F(GateCommandTest, ComparePairsThrowsOfOneSeedAndSaysWhatDiffers) {
+  write("one.yaml",
+        "seed: 3\nrepeats: 3\npilot: none\nfly_oracle: false\nafter_s: 0.1\n"
+        "throw: {launch_s: 0.1, speed_mps: !uniform [5, 8]}\n");
+  const std::string run = "run " + path("one.yaml") + " --out ";
+  ASSERT_EQ(dodgesim(run + path("small")).exit_code, 0);
+  ASSERT_EQ(dodgesim(run + path("large") + " --set throw.size_m=0.3").exit_code, 0);
+  EXPECT_THAT(dodgesim("compare " + path("small") + " " + path("large")).output,
+              HasSubstr("of throws with the same random numbers (size_m differs): 0 lost"));
 }
 
 TEST_F(GateCommandTest, CompareSaysWhichCampaignEndedByItsResults) {
@@ -238,7 +260,7 @@ TEST_F(GateCommandTest, CompareSaysWhatCouldNotBeFlown) {
         "throw: {distance_m: 2, size_m: 0.3, launch_height_m: 0.1, launch_s: 0.1}\n");
   dodgesim("run " + path("floor.yaml") + " --out " + path("floor"));
   EXPECT_THAT(dodgesim("compare " + path("floor") + " " + path("floor")).output,
-              HasSubstr("In " + path("floor") + " 2 throws could not be flown and count as not"));
+              HasSubstr("In " + path("floor") + " 2 throws could not be flown, whoever the pilot"));
 }
 
 }  // namespace

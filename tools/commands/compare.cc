@@ -28,8 +28,10 @@ void print_changes(const std::string& heading, const std::vector<ChangedThrow>& 
   if (changes.empty()) return;
   std::cout << heading << ":\n";
   for (const ChangedThrow& change : changes) {
-    std::cout << "  throw " << change.number << " (" << change.label << "): " << change.before
-              << ", then " << change.after << "\n";
+    std::cout << "  throw " << change.number;
+    if (change.number_after != change.number) std::cout << ", then " << change.number_after;
+    std::cout << " (" << change.label << "): " << change.before << ", then " << change.after
+              << "\n";
   }
 }
 
@@ -84,13 +86,19 @@ std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& d
       std::cerr << "Its own rate ended it (stop); p and intervals take its length for planned.\n";
     }
   }
-  const int failed = failed_throws(tables.throws);
+  std::vector<ThrowOutcome> all = outcomes(tables);
+  const auto of_nobody = std::ranges::count_if(all, &ThrowOutcome::nobody_could_fly);
+  if (of_nobody > 0) {
+    std::cerr << "In " << directory.string() << " " << count_text(of_nobody, "throw")
+              << " could not be flown, whoever the pilot: left out.\n";
+  }
+  const auto failed = failed_throws(tables.throws) - of_nobody;
   if (failed > 0) {
     std::cerr << "In " << directory.string() << " " << count_text(failed, "throw")
               << " could not be flown and count as not dodged.\n";
   }
   std::map<int, std::vector<ThrowOutcome>> parts;
-  for (ThrowOutcome& outcome : outcomes(tables)) {
+  for (ThrowOutcome& outcome : all) {
     const int sweep = outcome.sweep;
     parts[sweep].push_back(std::move(outcome));
   }
@@ -174,8 +182,10 @@ void add_compare_command(CLI::App& program, int& exit_code) {
       "Success is to dodge a throw that would have hit or, where nobody throws, neither to evade "
       "nor\n"
       "to land or crash.\n"
-      "Campaigns of the same seed and throws are compared throw by throw (McNemar's exact test),\n"
-      "others of the same grid and sweep as independent samples (Boschloo's exact test).\n"
+      "Campaigns of one seed are compared throw by throw (McNemar's exact test), also where a key "
+      "of\n"
+      "throw differs: the random numbers are the same. Campaigns of other seeds and of the same\n"
+      "grid and sweep are independent samples (Boschloo's exact test).\n"
       "Intervals are of 95 %.\n\n"
       "Example:\n"
       "  dodgesim run s.yaml --out paper\n"

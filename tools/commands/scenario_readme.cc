@@ -55,7 +55,8 @@ A number under `throw` may be a distribution, from which every throw draws a val
 
 `aim_offset_m` and `spin_radps` take a list, one number or distribution for each component, or a
 single one. `object` takes a name or a `!choice` of names. A throw's draws depend only on `seed`, the
-number of the throw and the key: changing one key leaves the draws of all others as they were.
+number of the throw and the key: changing one key leaves the draws of all others as they were, and
+`dodgesim compare` pairs the throws of one seed and grid whatever other keys differ.
 
 ## Grids
 
@@ -183,6 +184,9 @@ What is easily misread:
 
 - A flight whose status is not `ok` has 0 for hit and crashed, which says nothing. `none` and `oracle`
   are `not flown` when nobody threw or the throw was impossible, `oracle` also with `fly_oracle: false`.
+- A throw counts for no pilot if `flown_status` is `error`, and neither `none_status` nor
+  `oracle_status` is `ok`: nobody could fly it. If only some flights failed, it stays in the
+  denominator, and is not dodged.
 - A throw is dodged if `none_status` and `flown_status` are `ok`, `none_hit` is 1, `flown_hit` and
   `flown_crashed` are 0, and `landing_us` is empty or not before `none_hit_us`.
 - A flight ends at the first hit, crash or touch-down. Of several objects only the first to touch has

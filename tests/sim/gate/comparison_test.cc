@@ -64,10 +64,59 @@ TEST(Comparison, TakesTheCommonPartOfCampaignsOfDifferentLength) {
   EXPECT_TRUE(c.paired);
   EXPECT_EQ(c.throws, 2);
   EXPECT_EQ(c.counts.only_first, 1);
-  EXPECT_THAT(c.unmatched, ElementsAre(2, 3));
-  EXPECT_THAT(compared("dh", "dddd").unmatched, ElementsAre(2, 3));
+  EXPECT_THAT(c.only_first, ElementsAre(2, 3));
+  EXPECT_THAT(compared("dh", "dddd").only_second, ElementsAre(2, 3));
   EXPECT_THAT(comparison_text(c, "a", "b"),
-              HasSubstr("Left out, because only one campaign has them: throws 2, 3\n"));
+              HasSubstr("Left out, because only a has them: throws 2, 3\n"));
+}
+
+// As sweeps of two values with so many throws each: those of value 1 are numbered from there.
+std::vector<ThrowOutcome> swept(const std::string& value_0, const std::string& value_1) {
+  std::vector<ThrowResult> results;
+  for (std::size_t i = 0; i < value_0.size() + value_1.size(); ++i) {
+    const bool second = i >= value_0.size();
+    const std::size_t stream = second ? i - value_0.size() : i;
+    results.push_back(throw_that(static_cast<int>(stream), (second ? value_1 : value_0)[stream]));
+    results.back().index = static_cast<int>(i);
+    results.back().sweep = second ? 1 : 0;
+  }
+  CampaignTables tables = tables_of(results);
+  tables.seed = 3;
+  return outcomes(tables);
+}
+
+TEST(Comparison, PairsTheThrowsOfASweepWhateverTheRepeats) {
+  const Comparison c = compare(swept("dd", "dh"), swept("ddh", "hhd"));
+  EXPECT_TRUE(c.paired);
+  EXPECT_EQ(c.throws, 4);
+  EXPECT_THAT(c.differing, ::testing::IsEmpty());
+  EXPECT_THAT(c.only_second, ElementsAre(2, 5));
+  ASSERT_EQ(c.lost.size(), 1U);
+  EXPECT_EQ(c.lost[0].number, 2);
+  EXPECT_EQ(c.lost[0].number_after, 3);
+}
+
+TEST(Comparison, DoesNotPairThrowsOfDifferentCells) {
+  auto first = swept("dddd", ""), second = first;
+  for (ThrowOutcome& t : first) t.cell = t.number % 2;
+  for (ThrowOutcome& t : second) t.cell = t.number % 3;
+  EXPECT_FALSE(compare(first, second).paired);
+  EXPECT_TRUE(compare(first, first).paired);
+}
+
+TEST(Comparison, PairsThrowsOfOneSeedThatWereDrawnOtherwise) {
+  auto first = swept("dddddd", ""), second = swept("dhhhhh", "");
+  for (ThrowOutcome& t : second) t.draw[0].numbers[1] += 0.5;
+  const Comparison c = compare(first, second);
+  EXPECT_TRUE(c.paired);
+  EXPECT_THAT(c.differing, ElementsAre("speed_mps"));
+  EXPECT_THAT(comparison_text(c, "a", "b"),
+              HasSubstr("p = 0.0625, of throws with the same random numbers (speed_mps differs): "
+                        "5 lost, 0 gained (McNemar's test"));
+  for (ThrowOutcome& t : second) t.seed = 4;
+  EXPECT_FALSE(compare(first, second).paired);
+  for (ThrowOutcome& t : second) t.seed.reset();
+  EXPECT_FALSE(compare(first, second).paired) << "nothing says that the numbers are the same";
 }
 
 TEST(Comparison, OfDifferentThrowsIsUnpaired) {

@@ -146,6 +146,37 @@ TEST(SameThrow, DependsOnEverythingThatWasDrawn) {
   }
 }
 
+TEST(Outcomes, CountThrowsWithinTheirSweepValue) {
+  std::vector<ThrowResult> results;
+  for (const int number : {1, 4, 7, 10}) {  // shard 1 of 3 of three sweep values with four throws
+    results.push_back(throw_that(number, 'd'));
+    results.back().sweep = number / 4;
+  }
+  CampaignTables tables = tables_of(results);
+  tables.planned = 12;
+  tables.sweep_values = 3;
+  const auto all = outcomes(tables);
+  ASSERT_EQ(all.size(), 4U);
+  EXPECT_EQ(all[0].stream, 1);
+  EXPECT_EQ(all[1].stream, 0);
+  EXPECT_EQ(all[2].stream, 3);
+  EXPECT_EQ(all[3].stream, 2);
+}
+
+TEST(DifferingDraws, NameWhatDiffers) {
+  const auto differing = [](const ThrowResult& a, const ThrowResult& b) {
+    return differing_draws(outcomes(tables_of({a})).at(0), outcomes(tables_of({b})).at(0));
+  };
+  ThrowResult other = throw_that(0, 'd');
+  other.object = "box";
+  other.launch_height_m += 1;
+  other.size_m += 1;
+  EXPECT_THAT(differing(throw_that(0, 'd'), other),
+              ::testing::ElementsAre("object", "size_m", "launch_height_m"));
+  EXPECT_THAT(differing(throw_that(0, 'd'), throw_of_two(0)),
+              ::testing::ElementsAre("number of objects"));
+}
+
 TEST(SameThrow, DependsOnEveryObject) {
   EXPECT_TRUE(same(throw_of_two(0), throw_of_two(0)));
   ThrowResult other = throw_of_two(0);
