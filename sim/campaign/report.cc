@@ -24,13 +24,19 @@ static_assert(std::endian::native == std::endian::little, "The page reads its nu
 constexpr std::uint8_t kNone = 255;
 
 // What is true of a throw, as bits of the column "flags".
-constexpr const char* kFlags[] = {"thrown",      "failed", "hit",         "crashed", "none_hit",
-                                  "oracle_flew", "evaded", "false_alarm", "gave_up", "unjudged"};
+constexpr const char* kFlags[] = {"thrown",   "failed",          "hit",         "crashed",
+                                  "none_hit", "evaded",          "false_alarm", "gave_up",
+                                  "unjudged", "nobody_could_fly"};
+
+// Of ThrowStatistics::pilots: what a pilot is in the campaign, whatever its name.
+constexpr const char* kRoles[] = {"flown", "oracle", "none"};
 
 unsigned flags_of(const ThrowResult& r) {
   const bool unjudged = r.thrown() && !r.none.ok();  // nobody knows whether it would have hit
-  const bool set[] = {r.thrown(),    r.flown.failed(), r.flown.hit,   r.flown.crashed, r.none.hit,
-                      r.oracle.ok(), r.evaded,         r.false_alarm, r.gave_up(),     unjudged};
+  const bool set[] = {
+      r.thrown(), r.flown.failed(), r.flown.hit, r.flown.crashed, r.none.hit,
+      r.evaded,   r.false_alarm,    r.gave_up(), unjudged,        r.nobody_could_fly()};
+  static_assert(std::size(set) == std::size(kFlags));
   unsigned flags = 0;
   for (std::size_t i = 0; i < std::size(set); ++i) flags |= set[i] ? 1U << i : 0U;
   return flags;
@@ -210,7 +216,8 @@ Json section_of(const Part& part, const ReportAxes& axes) {
       speeds.push_back(pilot_rate(find_row(by_speed, {speed}), k));
     }
     for (const Values& cell : axes.cells) cells.push_back(pilot_rate(find_row(by_cell, cell), k));
-    pilots.push_back({{"name", all.pilots[k].pilot},
+    pilots.push_back({{"role", kRoles[k]},
+                      {"name", all.pilots[k].pilot},
                       {"total", pilot_rate(&by_heat.rows.back(), k)},
                       {"heat", std::move(heat)},
                       {"by_speed", std::move(speeds)},
@@ -252,7 +259,6 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
   for (std::size_t i = 0; i < std::size(kFlags); ++i) flags[kFlags[i]] = 1U << i;
   return {{"title", scenario.name},
           {"description", scenario.description},
-          {"pilot", scenario.pilot},
           {"seed", std::to_string(scenario.seed)},
           {"program", "dodgesim " + campaign.program},
           {"wanted", campaign.wanted()},

@@ -173,6 +173,49 @@ TEST_F(ReportCommandTest, ASweepHasACurveWithItsBandForEachCellOfTheGrid) {
   EXPECT_THAT(twice.output, HasSubstr("--by names speed_mps twice."));
 }
 
+// Text of the page between two others, without its marks.
+std::string text_between(const std::string& dom, const std::string& start, const std::string& end) {
+  const std::size_t from = dom.find(start);
+  if (from == std::string::npos) return "no " + start;
+  std::string text;
+  bool mark = false;
+  for (const char c : dom.substr(from, dom.find(end, from) - from)) {
+    if (c == '<') text += mark ? "" : "|";
+    mark = (mark || c == '<') && c != '>';
+    if (!mark && c != '>') text += c;
+  }
+  return text;
+}
+
+TEST_F(ReportCommandTest, RatesAreNamedByWhatThePilotIsForNotByItsName) {
+  const Outcome none =
+      dodgesim("run " + path("s.yaml") + " -j 1 --set pilot=none --out " + path("none"));
+  ASSERT_EQ(none.exit_code, 0) << none.output;
+  const std::string of_none = browse(path("none/report.html")).output;
+  EXPECT_THAT(of_none, Not(HasSubstr(":CONSOLE:"))) << of_none.substr(0, 4000);
+  EXPECT_THAT(text_between(of_none, "id=\"figures\"", "</header>"),
+              ::testing::ContainsRegex("dodged by none.*would have hit.*detected"));
+
+  dodgesim("sweep " + path("s.yaml") + " -j 1 --throws 3 --out " + path("pilots") +
+           " --set fly_oracle=true --over pilot=none,oracle");
+  const std::string swept = browse(path("pilots/report.html")).output;
+  EXPECT_THAT(swept, Not(HasSubstr(":CONSOLE:"))) << swept.substr(0, 4000);
+  const std::string table = text_between(swept, "id=\"sweep-table\"", "</section>");
+  EXPECT_THAT(table, ::testing::ContainsRegex("dodged by the pilot of the sweep.*"
+                                              "dodged by oracle.*would have hit"));
+  // The oracle's row: what it dodged, nobody beside it, and how many would have hit.
+  EXPECT_THAT(table, ::testing::ContainsRegex("[|]oracle[|]+[01][.][0-9]+ [^|]*[|]+[01][.]"));
+}
+
+TEST_F(ReportCommandTest, ErrorsAreNamed) {
+  dodgesim("run " + path("s.yaml") + " -j 1 --set throw.bearing_deg=180 --out " + path("wall"));
+  const std::string dom = browse(path("wall/report.html")).output;
+  EXPECT_THAT(dom, Not(HasSubstr(":CONSOLE:"))) << dom.substr(0, 4000);
+  const std::string errors = text_between(dom, "id=\"errors\"", "</section>");
+  EXPECT_THAT(errors, HasSubstr("Throws that no pilot could fly, which no rate counts: 4."));
+  EXPECT_THAT(errors, HasSubstr("Throw 3| The throw starts at ("));
+}
+
 TEST_F(ReportCommandTest, ASweepOverNamesSaysThatThereIsNoCurve) {
   dodgesim("sweep " + path("s.yaml") + " -j 1 --throws 2 --out " + path("names") +
            " --over throw.object=ball,box");

@@ -24,6 +24,7 @@ const kNone = 255;
 const has = (i, flag) => (throws.flags[i] & data.flags[flag]) !== 0;
 
 function outcomeOf(i) {
+  if (has(i, 'nobody_could_fly')) return 'not flown';
   if (has(i, 'failed')) return 'failed';
   if (has(i, 'hit')) return 'hit';
   if (has(i, 'crashed')) return 'crashed';
@@ -39,6 +40,11 @@ const state = {section: 0, pilot: 0, cell: null, filter: 'all', page: 0, chosen:
 const section = () => data.sections[state.section];
 const indices = () => Array.from({length: count}, (_, i) => i)
     .filter((i) => throws.sweep[i] === section().sweep);
+
+// What a rate of a pilot counts: of the reference none, the throws that would have hit.
+const rateName = ({role, name}) => (role === 'none' ? 'would have hit' : `dodged by ${name}`);
+const pilotName = ({role, name}) => (role === 'none' ? 'none: would have hit' : name);
+const pilotOf = (part, role) => part.pilots.find((p) => p.role === role);
 
 function make(tag, properties = {}, ...children) {
   const element = Object.assign(document.createElement(tag), properties);

@@ -5,7 +5,8 @@ function fillHead() {
   byId('title').textContent = data.title;
   byId('description').textContent = data.description;
   byId('stop').textContent = data.stop;
-  const facts = [['Pilot', data.pilot], ['Throws', `${count} of ${data.wanted}`],
+  const pilots = new Set(data.sections.map((s) => pilotOf(s, 'flown').name));
+  const facts = [['Pilot', [...pilots].join(', ')], ['Throws', `${count} of ${data.wanted}`],
                  ['Seed', data.seed], ['Program', data.program]];
   for (const [term, value] of facts) {
     byId('provenance').append(make('dt', {textContent: term}), make('dd', {textContent: value}));
@@ -23,8 +24,7 @@ function chooseSection(k) {
 }
 
 function fillFigures() {
-  const figures = section().pilots.map((p) => [
-    p.name === 'none' ? 'would have hit' : `dodged by ${p.name}`, p.total]);
+  const figures = section().pilots.map((p) => [rateName(p), p.total]);
   figures.push(['detected, of those in view', section().detected],
                ['false alarms', section().false_alarms]);
   byId('figures').replaceChildren(...figures.map(([name, rate]) => make('div',
@@ -39,9 +39,9 @@ function fillHistograms() {
   const mine = indices();
   const dangerous = mine.filter((i) => has(i, 'none_hit'));
   const values = (name, of = mine) => of.map((i) => throws[name][i]);
-  const pilot = section().pilots[0].name;
+  const pilot = pilotOf(section(), 'flown').name;
   const clearances = [{name: pilot, values: values('clearance', dangerous)}];
-  if (mine.some((i) => has(i, 'oracle_flew'))) {
+  if (pilotOf(section(), 'oracle')) {
     clearances.push({name: 'oracle', values: values('oracle_clearance', dangerous)});
   }
   byId('clearance').replaceChildren(histogram({
@@ -83,6 +83,25 @@ function fillCauses() {
     return make('div', {className: 'bar-row'}, all, make('b', {textContent: of.length}),
                 make('div', {className: 'track'}, fill), make('div', {className: 'throws'}, ...some));
   }));
+}
+
+// Why throws or flights failed.
+function fillErrors() {
+  const wrong = indices().filter((i) => data.errors[throws.number[i]]);
+  byId('errors-section').hidden = !wrong.length;
+  const nobodys = wrong.filter((i) => has(i, 'nobody_could_fly')).length;
+  const counts = [];
+  if (nobodys) counts.push(`Throws that no pilot could fly, which no rate counts: ${nobodys}.`);
+  if (wrong.length > nobodys) {
+    counts.push(`Throws with a flight that failed, which is no success: ${wrong.length - nobodys}.`);
+  }
+  const some = wrong.slice(0, 12).map((i) => {
+    const button = make('button', {type: 'button', textContent: `Throw ${throws.number[i]}`});
+    button.addEventListener('click', () => open(i, true));
+    return make('p', {}, button, ` ${data.errors[throws.number[i]]}`);
+  });
+  if (wrong.length > some.length) some.push(make('p', {className: 'muted', textContent: '...'}));
+  byId('errors').replaceChildren(make('p', {textContent: counts.join(' ')}), ...some);
 }
 
 // The list of throws.
@@ -154,6 +173,7 @@ function fillSection() {
   fillSpeed();
   fillHistograms();
   fillCauses();
+  fillErrors();
   fillFilters();
   fillList();
 }

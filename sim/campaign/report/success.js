@@ -17,7 +17,7 @@ function valueText(key, value) {
 function fillHeat() {
   const pilots = section().pilots;
   byId('pilots').replaceChildren(...pilots.map((pilot, k) => {
-    const button = make('button', {type: 'button', textContent: pilot.name});
+    const button = make('button', {type: 'button', textContent: pilotName(pilot)});
     button.setAttribute('aria-pressed', k === state.pilot);
     button.addEventListener('click', () => {
       state.pilot = k;
@@ -39,12 +39,12 @@ function fillHeat() {
   }));
 }
 
-// A line for each of `rows`: [{values, rates, label, press}].
-function rateTable(keys, pilots, rows) {
-  const head = [...keys, ...pilots.map((name) => (name === 'none' ? 'would have hit' :
-                                                                    `dodged by ${name}`))];
+// A line for each of `rows`: [{values, rates, label, press}], with no rate of who did not
+// fly. `names`: of the rates.
+function rateTable(keys, names, rows) {
+  const head = [...keys, ...names];
   const cells = (row) => [...row.values.map((text) => make('td', {textContent: text})),
-                          ...row.rates.map((rate) => make('td', {textContent: rateText(rate)}))];
+                          ...row.rates.map((rate) => make('td', {textContent: rate ? rateText(rate) : ''}))];
   return make('table', {},
       make('thead', {}, make('tr', {}, ...head.map((text) => make('th', {textContent: text,
                                                                          scope: 'col'})))),
@@ -68,12 +68,12 @@ function fillCells() {
   if (!data.cells.keys.length) return;
   byId('cells-section').hidden = false;
   const pilots = section().pilots;
-  byId('cells').replaceChildren(rateTable(data.cells.keys, pilots.map((p) => p.name),
+  byId('cells').replaceChildren(rateTable(data.cells.keys, pilots.map(rateName),
       cellRows(section()).map((row) => ({...row, rates: pilots.map(row.rate)}))));
 }
 
 function fillSpeed() {
-  const pilots = section().pilots.filter((p) => p.name !== 'none' || section().pilots.length === 1);
+  const pilots = section().pilots.filter((p) => p.role !== 'none');
   const {values, middles} = data.speed;
   byId('speed').replaceChildren(
       !values.length ? empty('Nobody threw.') :
@@ -106,10 +106,8 @@ function sweepLines(x) {
 function sweepCharts(x) {
   const key = data.sweep_keys[x];
   const chart = (series) => rateCurves({series, xLabel: key, label: `Rate of dodged throws over ${key}`});
-  const swept = data.sections.some((s) => s.pilots[0].name !== data.sections[0].pilots[0].name);
-  const pilots = [{name: swept ? 'pilot of the sweep' : data.sections[0].pilots[0].name,
-                   of: (s) => s.pilots[0]},
-                  {name: 'oracle', of: (s) => s.pilots.slice(1).find((p) => p.name === 'oracle')}]
+  const pilots = [{name: flownName(), of: (s) => pilotOf(s, 'flown')},
+                  {name: 'oracle', of: (s) => pilotOf(s, 'oracle')}]
       .filter((pilot) => data.sections.some(pilot.of));
   const points = (pilot, sections, rate) => sections.filter(pilot.of)
       .map((s) => [Number(s.values[x]), rate(pilot.of(s))]);
@@ -126,6 +124,12 @@ function sweepCharts(x) {
 }
 const kMostLines = 8;
 
+// Who flew; a key may sweep the pilots.
+function flownName() {
+  const names = new Set(data.sections.map((s) => pilotOf(s, 'flown').name));
+  return names.size > 1 ? 'the pilot of the sweep' : [...names][0];
+}
+
 function fillSweep() {
   if (data.sections.length < 2) return;
   byId('sweep-section').hidden = false;
@@ -133,18 +137,19 @@ function fillSweep() {
       data.sections.every((s) => Number.isFinite(Number(s.values[k]))));
   byId('sweep-curve').replaceChildren(...(x < 0 ? [empty('No key of the sweep is a number: no curve.')] :
                                                   sweepCharts(x)));
-  // The flown pilot first, whoever that is in a part: a key may sweep the pilots.
-  const names = data.sections[0].pilots.map((p) => p.name);
-  const flewAs = (part, name, k) => (k ? part.pilots.find((p) => p.name === name) : part.pilots[0]);
+  const roles = ['flown', 'oracle', 'none']
+      .filter((role) => data.sections.some((s) => pilotOf(s, role)));
   const rows = data.sections.flatMap((part, k) => {
     const inside = data.cells.keys.length ? cellRows(part) :
         [{values: [], rate: (pilot) => pilot.total, press: () => chooseSection(k)}];
-    const pilots = names.map((name, j) => flewAs(part, name, j));
+    const pilots = roles.map((role) => pilotOf(part, role));
     return inside.map((row) => ({
       ...row, label: [part.label, row.label].filter(Boolean).join(', '),
       values: [...part.values, ...row.values],
-      rates: pilots.map((pilot) => (pilot ? row.rate(pilot) : [0, 0, 0, 1]))}));
+      rates: pilots.map((pilot) => pilot && row.rate(pilot))}));
   });
   byId('sweep-table').replaceChildren(
-      rateTable([...data.sweep_keys, ...data.cells.keys], names, rows));
+      rateTable([...data.sweep_keys, ...data.cells.keys],
+                roles.map((role) => rateName({role, name: role === 'flown' ? flownName() : role})),
+                rows));
 }

@@ -117,6 +117,24 @@ TEST(ReportPage, ChartsShowTheCountsOfTheTables) {
   EXPECT_EQ(would_have_hit, 48);
 }
 
+TEST(ReportPage, TellsPilotsApartByTheirRoleWhateverTheirNames) {
+  LoadedCampaign swept = campaign(20);
+  for (ThrowResult& result : swept.results) {
+    result.sweep = result.index / 10;
+    result.sweep_values = {{"pilot", result.sweep == 0 ? "none" : "oracle"}};
+  }
+  const auto sections = data_of(report_html(swept, "out/x"))["sections"];
+  const auto pilots = [&](int k) {
+    std::string text;
+    for (const auto& pilot : sections[k]["pilots"]) {
+      text += pilot["role"].get<std::string>() + " " + pilot["name"].get<std::string>() + ", ";
+    }
+    return text;
+  };
+  EXPECT_EQ(pilots(0), "flown none, oracle oracle, none none, ");
+  EXPECT_EQ(pilots(1), "flown oracle, none none, ");
+}
+
 TEST(ReportPage, ValuesOfASweepHaveChartsOfTheirOwn) {
   LoadedCampaign swept = campaign(20);
   for (ThrowResult& result : swept.results) {
@@ -170,7 +188,10 @@ TEST(ReportPage, SaysOfAThrowThatNobodyCanJudgeWhy) {
     }
     return base64(bytes);
   };
-  EXPECT_EQ(data["columns"]["flags"]["values"], flags({"thrown", "unjudged", "oracle_flew"}));
+  EXPECT_EQ(data["columns"]["flags"]["values"], flags({"thrown", "unjudged"}));
+  one.results[0].oracle = failed("It diverged.");
+  EXPECT_EQ(data_of(report_html(one, "out/x"))["columns"]["flags"]["values"],
+            flags({"thrown", "failed", "unjudged", "nobody_could_fly"}));
 }
 
 TEST(ReportPage, OfNoThrowsAndOfQuietFlightsIsAPage) {
