@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "sim/base/error.h"
@@ -12,7 +13,8 @@ namespace dodgesim {
 
 namespace {
 
-constexpr std::size_t kMostSingleValues = 6;  // more become bins
+constexpr std::size_t kMostSingleValues = 6;    // more become bins
+constexpr std::size_t kMostWrittenValues = 12;  // likewise, of those that come again and again
 
 struct NumericKey {
   const char* name;
@@ -26,8 +28,23 @@ constexpr std::array<NumericKey, 5> kNumericKeys = {
      {"bearing_deg", &ThrowResult::bearing_deg, 10},
      {"launch_height_m", &ThrowResult::launch_height_m, 0.5}}};
 
-// A value that somebody wrote, rather than one drawn from a continuous distribution.
+// A value that somebody wrote, rather than one drawn from a continuous distribution, is round or
+// comes again.
 bool is_round(double value) { return std::abs(value - std::round(value * 1e3) / 1e3) < 1e-12; }
+
+// Whether all values are written ones: it is the same one everywhere, or each comes again. Within a
+// value of the sweep, as the others meet the same throws.
+bool are_written(const std::vector<ThrowResult>& results, double ThrowResult::*key) {
+  std::map<int, std::map<double, int>> counts;
+  std::set<double> distinct, again;
+  for (const ThrowResult& result : results) {
+    if (!result.thrown()) continue;
+    distinct.insert(result.*key);
+    if (++counts[result.sweep][result.*key] > 1) again.insert(result.*key);
+    if (distinct.size() > kMostWrittenValues) return false;
+  }
+  return distinct.size() == 1 || again.size() == distinct.size();
+}
 
 std::string names_of_keys(const std::vector<ThrowResult>& results) {
   std::string names;
@@ -56,12 +73,12 @@ std::string Bin::text() const {
   return lo == hi ? to_text(lo) : to_text(lo) + " to " + to_text(hi);
 }
 
-std::vector<Bin> make_bins(const std::vector<double>& values, double width) {
+std::vector<Bin> make_bins(const std::vector<double>& values, double width, bool written) {
   const std::set<double> distinct(values.begin(), values.end());
   std::vector<Bin> bins;
   if (distinct.empty()) return bins;
   const bool all_round = std::all_of(distinct.begin(), distinct.end(), is_round);
-  if (distinct.size() <= kMostSingleValues && all_round) {
+  if (written || (distinct.size() <= kMostSingleValues && all_round)) {
     for (const double value : distinct) bins.push_back({value, value});
     return bins;
   }
@@ -130,7 +147,7 @@ void Axis::set_numeric(const std::vector<ThrowResult>& results, double ThrowResu
   for (const ThrowResult& result : results) {
     if (result.thrown()) values.push_back(result.*key);
   }
-  const std::vector<Bin> bins = make_bins(values, width);
+  const std::vector<Bin> bins = make_bins(values, width, are_written(results, key));
   for (const Bin& bin : bins) {
     values_.push_back(bin.text());
     middles_.push_back(0.5 * (bin.lo + bin.hi));

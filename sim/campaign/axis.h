@@ -18,9 +18,10 @@ struct Bin {
   std::string text() const;  // "0.1" or "2 to 3"
 };
 
-// A value each where there are few different ones with at most three decimals, else bins of the
-// given width that start at multiples of it. In increasing order; empty for no values.
-std::vector<Bin> make_bins(const std::vector<double>& values, double width);
+// A value each where there are few different ones with at most three decimals, or where they are
+// `written`; else bins of the given width that start at multiples of it. In increasing order; empty
+// for no values.
+std::vector<Bin> make_bins(const std::vector<double>& values, double width, bool written = false);
 
 // A property of throws with the few values, or bins of values, that it has in a campaign.
 class Axis {

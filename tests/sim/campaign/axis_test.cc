@@ -73,6 +73,27 @@ TEST(Axis, GivesEveryThrowItsPlace) {
   EXPECT_FALSE(size.of(results[2]));
 }
 
+TEST(Axis, NeverPutsValuesTogetherThatComeAgain) {
+  std::vector<ThrowResult> results;
+  for (int i = 0; i < 8; ++i) {
+    results.push_back(ball(i, i % 3 == 0 ? 0.067 : 0.0735, 3.0005, 4.1 + 0.01 * i * i));
+    results.back().launch_height_m = 1 + 1.0 / (3 + i % 2);
+  }
+  EXPECT_THAT(Axis("size_m", results).values(), ElementsAre("0.067", "0.0735"));
+  EXPECT_THAT(Axis("distance_m", results).values(), ElementsAre("3.0005"));
+  EXPECT_THAT(Axis("speed_mps", results).values(), ElementsAre("4 to 5"));
+  EXPECT_EQ(Axis("launch_height_m", results).values().size(), 2u);
+}
+
+TEST(Axis, TakesWhatASweepFliesAgainForDrawn) {
+  std::vector<ThrowResult> results;
+  for (int i = 0; i < 6; ++i) {
+    results.push_back(ball(i, 0.1, 3, 4 + 0.12345 * (i % 3)));
+    results.back().sweep = i / 3;
+  }
+  EXPECT_THAT(Axis("speed_mps", results).values(), ElementsAre("4 to 5"));
+}
+
 TEST(Axis, OfBinsHasTheirMiddles) {
   std::vector<ThrowResult> results;
   for (int i = 0; i < 10; ++i) results.push_back(ball(i, 0.1, 3, 4.05 + 0.2 * i));
