@@ -12,7 +12,8 @@ struct OracleSpec {
   template <class Visitor>
   void visit(Visitor& v) {
     v("range_cap_m", range_cap_m, 0, 100,
-      "Objects farther than this from the reference camera are not seen; 0 for no cap.");
+      "Objects farther than this from the reference camera are not seen; 0 for no cap. Without one "
+      "the oracle is no upper bound in a room: far objects, or several, drive it into the walls.");
     v("field_of_view", field_of_view,
       "See an object only while its centre is inside the image of the reference camera.");
   }

@@ -118,8 +118,10 @@ struct ThrowSpec {
     v.model("object", object, "objects", "What is thrown.");
     v("size_m", size_m, 0.01, 1, "Its longest extension; a ball's diameter.");
     v("speed_mps", speed_mps, 0.5, 30,
-      "Mean closing speed over the ground: the object reaches the aim point distance_m / speed_mps "
-      "after its launch. A ball that meets the room on its way, such as a slow lob the ceiling, "
+      "The object's own mean speed over the ground: it reaches the aim point distance_m / "
+      "speed_mps "
+      "after its launch. On a vehicle that flies towards it, it closes faster by the vehicle's "
+      "speed. A ball that meets the room on its way, such as a slow lob the ceiling, "
       "counts as one that would have missed.");
     v("distance_m", distance_m, 0.5, 20,
       "Distance over the ground from the launch to the aim point, where the vehicle will be on "
@@ -231,7 +233,8 @@ struct Scenario {
     v.text("plugin_parameters", plugin_parameters,
            "Text that is handed to the pilot plugin as it is.");
     v("fly_oracle", fly_oracle,
-      "Fly every throw with the pilot oracle too, which bounds what perception can cost.");
+      "Fly every throw with the pilot oracle too, which bounds what perception can cost; in a room "
+      "only with oracle.range_cap_m.");
     v.model("room", room, "rooms", "The world around the vehicle.");
     v.model("vehicle", vehicle, "vehicles", "The quadrotor.");
     v("vehicle_overrides", vehicle_overrides, "What is different from the vehicle's model.");
