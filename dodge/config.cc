@@ -12,6 +12,10 @@ namespace dodge {
 namespace {
 
 constexpr double kRectifiedTolerance = 1e-3;  // [rad] and relative to the baseline
+constexpr double kLeastBaselineM = 1e-3;
+constexpr double kRotationTolerance = 1e-3;  // of R^T R; a calibration may be rounded
+constexpr double kLongestFocalPx = 1e6;
+constexpr double kWidestBearing = 1e3;  // of the axis' unit: 89.9 degrees
 
 [[noreturn]] void fail(const std::string& sentence) { throw std::invalid_argument(sentence); }
 
@@ -39,34 +43,67 @@ void check_less(const Parameter& smaller, const Parameter& larger) {
   if (smaller.value >= larger.value) refuse_order(smaller, "be less than", larger);
 }
 
-void check_camera(const CameraModel& camera) {
-  if (camera.width < 1 || camera.height < 1 || !(camera.fx > 0) || !(camera.fy > 0)) {
-    fail("A camera must have a positive size and positive focal lengths.");
+bool is_rotation(const Eigen::Matrix3d& R) {
+  return (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() <= kRotationTolerance &&
+         R.determinant() > 0;
+}
+
+void check_camera(const CameraModel& camera, const std::string& name) {
+  const Eigen::Array<double, 9, 1> intrinsics{camera.fx, camera.fy, camera.cx, camera.cy, camera.k1,
+                                              camera.k2, camera.p1, camera.p2, camera.k3};
+  if (!intrinsics.allFinite() || !camera.X_BC.matrix().allFinite()) {
+    fail(name + " has a calibration with values that are not finite.");
+  }
+  if (camera.width < 1 || camera.height < 1 || camera.fx <= 0 || camera.fy <= 0) {
+    fail(name + " must have a positive size and positive focal lengths.");
+  }
+  if (camera.fx > kLongestFocalPx || camera.fy > kLongestFocalPx) {
+    fail(name + " has a focal length of more than a million pixels.");
+  }
+  if (!is_rotation(camera.X_BC.linear())) {
+    fail(name + " has a pose X_BC whose linear part is no rotation: it scales, shears or mirrors.");
   }
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
-      if (camera.bearing({x, y}).allFinite()) continue;
-      fail("A camera's distortion has no inverse at pixel (" + std::to_string(x) + ", " +
-           std::to_string(y) + "): no line of sight is seen there.");
+      const double off_axis = camera.bearing({x, y}).norm();
+      if (off_axis <= kWidestBearing) continue;
+      const std::string pixel = "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ")";
+      if (off_axis > kWidestBearing) {
+        fail(name + " would look at right angles to its axis at " + pixel + ".");
+      }
+      fail(name + " has a distortion that has no inverse at " + pixel +
+           ": no line of sight is seen there.");
     }
   }
 }
 
-// Stereo takes the disparity along the image's columns: same intrinsics, same orientation, the
-// second camera straight below the first.
+// Stereo takes the disparity along the image's columns: same size, same intrinsics, same
+// orientation, the second camera straight below the first.
 void check_rectified(const CameraModel& top, const CameraModel& bottom) {
+  if (top.width != bottom.width || top.height != bottom.height) {
+    fail("Stereo needs two cameras of the same image size, but the first has " +
+         std::to_string(top.width) + " x " + std::to_string(top.height) +
+         " pixels and the second " + std::to_string(bottom.width) + " x " +
+         std::to_string(bottom.height) + ".");
+  }
   if (top.fx != bottom.fx || top.fy != bottom.fy || top.cx != bottom.cx || top.cy != bottom.cy) {
     fail("Stereo needs two cameras of the same intrinsics (rectified).");
   }
   const Eigen::Isometry3d X_TopBottom = top.X_BC.inverse() * bottom.X_BC;
   const Eigen::Vector3d baseline = X_TopBottom.translation();
   const double turn = Eigen::AngleAxisd(X_TopBottom.linear()).angle();
-  if (std::abs(turn) > kRectifiedTolerance) {
+  if (!(std::abs(turn) <= kRectifiedTolerance)) {
     fail("Stereo needs two cameras of the same orientation (rectified).");
   }
-  if (baseline.y() <= 0 ||
-      std::hypot(baseline.x(), baseline.z()) > kRectifiedTolerance * baseline.norm()) {
+  if (!(baseline.y() > 0) ||
+      !(std::hypot(baseline.x(), baseline.z()) <= kRectifiedTolerance * baseline.norm())) {
     fail("Stereo needs the second camera straight below the first, along the images' columns.");
+  }
+  if (!(baseline.y() >= kLeastBaselineM)) {
+    std::ostringstream sentence;
+    sentence << "Stereo needs two cameras at least " << kLeastBaselineM << " m apart, but they are "
+             << baseline.y() << " m apart.";
+    fail(sentence.str());
   }
 }
 
@@ -94,12 +131,15 @@ void validate(const Config& config) {
                  {"landing.descent_mps", config.landing.descent_mps});
   }
 
+  if (!config.p_BR.allFinite()) fail("The range sensor's place p_BR is not finite.");
   const std::size_t needed = config.position.depth == "stereo" ? 2 : 1;
   if (config.cameras.size() < needed) {
     fail("Depth by " + config.position.depth + " needs " + std::to_string(needed) +
          " camera(s), but the configuration has " + std::to_string(config.cameras.size()) + ".");
   }
-  for (const CameraModel& camera : config.cameras) check_camera(camera);
+  for (std::size_t i = 0; i < config.cameras.size(); ++i) {
+    check_camera(config.cameras[i], "Camera " + std::to_string(i));
+  }
   if (needed == 2) check_rectified(config.cameras[0], config.cameras[1]);
 }
 

@@ -23,9 +23,12 @@
 namespace dodge {
 
 // The defaults are the pilot of Falanga et al. 2020, with what its paper does not say filled in:
-// the disparity by correlation and joined rectangles (DepthConfig), detections that confirm an
-// obstacle (AssociationConfig), (30) made a unit vector and an escape where (29) and (30) vanish
-// (RepulsiveConfig), a limit of the speed (VelocityLimitConfig).
+// events warped to the window's end (EgoMotionConfig), rho averaged before the cut
+// (TimeImageConfig), clusters of few pixels or events or of a long shape left out (ClusterConfig),
+// the disparity by correlation, joined rectangles, and what correlates too little or is of no
+// credible size left out (DepthConfig), detections that confirm an obstacle (AssociationConfig),
+// (30) made a unit vector and an escape where (29) and (30) vanish (RepulsiveConfig), a limit of
+// the speed (VelocityLimitConfig).
 struct Config {
   // Set by whatever carries the core; not parameters of the pilot. Stereo needs two cameras, the
   // upper one first; mono uses the first. The range sensor sits at p_BR and looks along -z of B.
@@ -69,8 +72,9 @@ struct Config {
   }
 };
 
-// Throws std::invalid_argument, with a sentence that names the parameter, if a value is out of its
-// range, parameters contradict each other, or the cameras do not fit the way depth is measured.
+// Throws std::invalid_argument, with a sentence that names the parameter or camera, if a value is
+// out of its range, parameters contradict each other, a calibration is not finite or its pose no
+// rigid motion, or the cameras do not fit the way depth is measured.
 void validate(const Config& config);
 
 }  // namespace dodge

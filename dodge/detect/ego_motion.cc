@@ -102,7 +102,9 @@ void EgoMotion::set_motion(const Eigen::Vector3d& w_WC_C, TimeUs begin_us, TimeU
   // An event lies at most half a bin from the bin's centre.
   const double travel_px = px_per_rad_ * w.norm() * length_s;
   const double needed = std::ceil(0.5 * travel_px / config_.max_error_px);
-  const auto count = static_cast<std::size_t>(std::clamp(needed, 1.0, kMostBins));
+  // All there are for NaN, which a rate makes whose square is no number any more.
+  const auto count =
+      static_cast<std::size_t>(needed < kMostBins ? std::max(needed, 1.0) : kMostBins);
   begin_us_ = begin_us;
   bins_per_us_ = length_us > 0 ? static_cast<float>(static_cast<double>(count) / length_us) : 0;
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "tests/dodge/synthetic_events.h"
@@ -83,6 +85,55 @@ TEST(Config, StereoNeedsARectifiedVerticalPair) {
   config = valid();
   config.cameras[1].fx += 1;
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("same intrinsics"));
+  config = valid();
+  config.cameras[1].height = 200;
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("320 x 240 pixels and the second 320 x 200"));
+  config = valid();
+  config.cameras[1].X_BC.translation() =
+      config.cameras[0].X_BC.translation() - Eigen::Vector3d(0, 0, 1e-6);
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("at least 0.001 m apart"));
+}
+
+// What a calibration must not be, by its complaint.
+struct BadCalibration {
+  const char* complaint;
+  std::function<void(CameraModel&)> spoil;
+};
+
+TEST(Config, RefusesCalibrationsThatCannotBe) {
+  const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
+  const BadCalibration bad[] = {
+      {"not finite", [&](CameraModel& c) { c.fx = infinite; }},
+      {"not finite", [&](CameraModel& c) { c.cy = nan; }},
+      {"not finite", [&](CameraModel& c) { c.k1 = nan; }},
+      {"not finite", [&](CameraModel& c) { c.X_BC.translation().x() = nan; }},
+      {"not finite", [&](CameraModel& c) { c.X_BC.linear()(1, 2) = nan; }},
+      {"not finite", [&](CameraModel& c) { c.X_BC.translation().z() = -infinite; }},
+      {"positive focal", [&](CameraModel& c) { c.fy = -190; }},
+      {"million pixels", [&](CameraModel& c) { c.fx = 1e300; }},
+      {"right angles", [&](CameraModel& c) { c.fx = 1e-300; }},
+      {"right angles", [&](CameraModel& c) { c.cx = 1e9; }},
+      {"no rotation", [&](CameraModel& c) { c.X_BC.linear() *= 2; }},
+      {"no rotation", [&](CameraModel& c) { c.X_BC.linear() *= -1; }},
+      {"no rotation", [&](CameraModel& c) { c.X_BC.linear().setZero(); }}};
+  for (const BadCalibration& each : bad) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      Config config = valid();
+      each.spoil(config.cameras[i]);
+      EXPECT_THAT(complaint(config),
+                  ::testing::AllOf(::testing::HasSubstr(each.complaint),
+                                   ::testing::HasSubstr("Camera " + std::to_string(i))));
+    }
+    Config both = valid();  // alike, as a rectified pair
+    for (CameraModel& camera : both.cameras) each.spoil(camera);
+    EXPECT_THAT(complaint(both), ::testing::HasSubstr(each.complaint));
+  }
+}
+
+TEST(Config, RefusesARangeSensorThatIsNowhere) {
+  Config config = valid();
+  config.p_BR.z() = std::nan("");
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("p_BR is not finite"));
 }
 
 TEST(Config, ALensMustHaveALineOfSightForEveryPixel) {
@@ -91,8 +142,6 @@ TEST(Config, ALensMustHaveALineOfSightForEveryPixel) {
   EXPECT_EQ(complaint(config), "");
   for (CameraModel& camera : config.cameras) camera.k1 = -0.25;  // folds before the corners
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("has no inverse at pixel (0, 0)"));
-  for (CameraModel& camera : config.cameras) camera.k1 = std::nan("");
-  EXPECT_THAT(complaint(config), ::testing::HasSubstr("has no inverse"));
 }
 
 TEST(Config, AnEscapeNeedsObstaclesThatAreRemembered) {

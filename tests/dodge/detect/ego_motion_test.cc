@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "sim/base/random.h"
 
@@ -139,6 +141,29 @@ TEST(EgoMotion, WhatHasTurnedBehindTheCameraIsOutsideOfTheImage) {
         ego_motion.warp({.t_us = 0, .x = static_cast<std::uint16_t>(x), .y = 120});
     EXPECT_TRUE(at.x() < -100 || at.x() > static_cast<float>(camera.width) + 100) << x;
   }
+}
+
+// A broken gyroscope: what it says is finite, its square is not. Nothing is in the image then.
+TEST(EgoMotion, OfAbsurdRatesSeesNothing) {
+  const CameraModel camera;
+  EgoMotion ego_motion({}, camera);
+  const double huge = 1.7e308, infinite = std::numeric_limits<double>::infinity();
+  const std::vector<Event> events = {{.t_us = kBeginUs, .x = 9, .y = 9},
+                                     {.t_us = kEndUs, .x = 300, .y = 200}};
+  for (const TimeUs end_us : {kEndUs, kBeginUs}) {
+    for (const Eigen::Vector3d& w :
+         {Eigen::Vector3d(huge, 0, 0), Eigen::Vector3d(huge, -huge, huge),
+          Eigen::Vector3d(infinite, 0, std::nan(""))}) {
+      ego_motion.set_motion(w, kBeginUs, end_us);
+      std::vector<float> u(events.size()), v(events.size());
+      ego_motion.warp(events, u.data(), v.data());
+      for (std::size_t i = 0; i < events.size(); ++i) {
+        EXPECT_FALSE(u[i] >= 0 && u[i] < 320 && v[i] >= 0 && v[i] < 240) << w.transpose();
+      }
+    }
+  }
+  ego_motion.set_motion(Eigen::Vector3d::Zero(), kBeginUs, kEndUs);
+  EXPECT_NEAR(ego_motion.warp(events[0]).x(), 9, 1e-3);
 }
 
 TEST(EgoMotion, Undistorts) {
