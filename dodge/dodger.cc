@@ -102,6 +102,7 @@ VelocityCommand Dodger::decide(TimeUs now_us) {
 // The window ends at the newest event of any camera, so that it is full whatever the cameras'
 // delay; in silence it moves on with the clock.
 void Dodger::move_window(TimeUs now_us) {
+  for (Eye& eye : eyes_) eye.events.take(now_us + kMostAheadUs);
   TimeUs newest_us = now_us - config_.window.event_timeout_us;
   for (const Eye& eye : eyes_) {
     if (!eye.events.empty()) newest_us = std::max(newest_us, eye.events.newest_us());
@@ -149,6 +150,16 @@ bool Dodger::locate_obstacles() {
   }
   depth_.locate(views_, *state, detections_);
   return true;
+}
+
+std::optional<TimeUs> Dodger::newest_event_us(int camera) const {
+  const auto index = static_cast<std::size_t>(camera);
+  return index < eyes_.size() ? eyes_[index].events.last_taken_us() : std::nullopt;
+}
+
+std::int64_t Dodger::dropped_events(int camera) const {
+  const auto index = static_cast<std::size_t>(camera);
+  return index < eyes_.size() ? eyes_[index].events.dropped() : 0;
 }
 
 const std::vector<Cluster>& Dodger::clusters(int camera) const {

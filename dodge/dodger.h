@@ -4,6 +4,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -69,6 +70,17 @@ class Dodger : public Pilot {
 
   std::span<const Detection> detections() const override { return detections_; }
   std::span<const Obstacle> obstacles() const override { return obstacles_; }
+
+  // Since the start, as of the last update, for who watches the sensors: the pilot flies on,
+  // whatever is missing. It does not see a camera whose newest event is older than
+  // window.window_us + window.event_timeout_us, nor, in stereo, one that lags behind the other by
+  // window.window_us or more (a clock that is behind, say); and it carries an old state on at
+  // constant velocity. An event is dropped if it is older than one before it, or more than
+  // kMostAheadUs later than the update. Nothing for a camera that is not used.
+  static constexpr TimeUs kMostAheadUs = 10000;
+  std::optional<TimeUs> newest_event_us(int camera) const;
+  std::optional<TimeUs> newest_state_us() const { return states_.newest_us(); }
+  std::int64_t dropped_events(int camera) const;
 
   // Of the last update. Cameras that the configuration does not use (mono) have no clusters.
   const std::vector<Cluster>& clusters(int camera) const;

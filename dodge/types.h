@@ -32,7 +32,7 @@ struct ImuSample {
 struct StateEstimate {
   TimeUs t_us = 0;                                           // the instant the estimate speaks of
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();            // [m]
-  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();  // takes vectors from B to W
+  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();  // unit; takes vectors from B to W
   Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();            // [m/s]
   Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();          // angular velocity of B in B [rad/s]
 };

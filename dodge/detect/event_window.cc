@@ -1,15 +1,27 @@
 #include "dodge/detect/event_window.h"
 
+#include <limits>
+
 namespace dodge {
 
 namespace {
 constexpr std::size_t kInitialEvents = 1 << 15;  // a busy window of 20 ms holds about 20000
 }
 
-EventWindow::EventWindow() : events_(kInitialEvents) {}
+EventWindow::EventWindow() : events_(kInitialEvents) { arrived_.reserve(kInitialEvents); }
 
-void EventWindow::add(std::span<const Event> events) {
-  for (const Event& event : events) events_.push_back(event);
+void EventWindow::take(TimeUs latest_us) {
+  TimeUs earliest_us = empty() ? std::numeric_limits<TimeUs>::min() : newest_us();
+  for (const Event& event : arrived_) {
+    if (event.t_us < earliest_us || event.t_us > latest_us) {
+      ++dropped_;
+      continue;
+    }
+    earliest_us = event.t_us;
+    events_.push_back(event);
+  }
+  arrived_.clear();
+  if (!empty()) last_taken_us_ = newest_us();
 }
 
 void EventWindow::forget_until(TimeUs t_us) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "dodge/detect/ring_buffer.h"
 #include "dodge/types.h"
@@ -28,21 +30,36 @@ class EventWindow {
  public:
   EventWindow();
 
-  // Events in ascending time. Allocates only while the largest window so far is exceeded.
-  void add(std::span<const Event> events);
+  // Events as they arrive; they wait for take(). Allocates only while the largest number of events
+  // so far is exceeded.
+  void add(std::span<const Event> events) {
+    arrived_.insert(arrived_.end(), events.begin(), events.end());
+  }
 
-  // Forgets all events up to and including t_us.
+  // Takes the events that have arrived into the window, in ascending time: one that is older than
+  // one before it, or later than latest_us, is dropped, so that a wrong time stamp costs little
+  // more than its own event.
+  void take(TimeUs latest_us);
+
+  // Forgets all events of the window up to and including t_us.
   void forget_until(TimeUs t_us);
 
-  // The events not forgotten with t <= t_us, oldest first, in two pieces.
+  // The window's events with t <= t_us, oldest first, in two pieces.
   std::array<std::span<const Event>, 2> until(TimeUs t_us) const;
 
   bool empty() const { return events_.empty(); }
   TimeUs newest_us() const { return events_.back().t_us; }  // requires !empty()
   std::size_t capacity() const { return events_.capacity(); }
 
+  // Since the start.
+  std::optional<TimeUs> last_taken_us() const { return last_taken_us_; }  // forgotten or not
+  std::int64_t dropped() const { return dropped_; }
+
  private:
+  std::vector<Event> arrived_;  // since the last take()
   RingBuffer<Event> events_;
+  std::optional<TimeUs> last_taken_us_;
+  std::int64_t dropped_ = 0;
 };
 
 }  // namespace dodge

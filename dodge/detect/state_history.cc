@@ -1,14 +1,17 @@
 #include "dodge/detect/state_history.h"
 
+#include <cmath>
+
 namespace dodge {
 
 namespace {
 
-constexpr std::size_t kStates = 2048;  // half a second at 4 kHz
+constexpr std::size_t kStates = 2048;    // half a second at 4 kHz
+constexpr double kUnitTolerance = 1e-3;  // of the square of q_WB's length
 
-bool is_finite(const StateEstimate& state) {
-  return state.p_WB.allFinite() && state.q_WB.coeffs().allFinite() && state.v_WB.allFinite() &&
-         state.w_WB_B.allFinite();
+bool is_usable(const StateEstimate& state) {
+  return state.p_WB.allFinite() && state.v_WB.allFinite() && state.w_WB_B.allFinite() &&
+         std::abs(state.q_WB.squaredNorm() - 1) <= kUnitTolerance;  // false for NaN
 }
 
 StateEstimate carry_on(const StateEstimate& from, TimeUs t_us) {
@@ -37,9 +40,13 @@ StateEstimate between(const StateEstimate& a, const StateEstimate& b, TimeUs t_u
 StateHistory::StateHistory() : states_(kStates) {}
 
 void StateHistory::add(const StateEstimate& state) {
-  if (!is_finite(state)) return;
+  if (!is_usable(state)) return;
   if (states_.size() == states_.capacity()) states_.pop_front();
   states_.push_back(state);
+}
+
+std::optional<TimeUs> StateHistory::newest_us() const {
+  return states_.empty() ? std::nullopt : std::optional(states_.back().t_us);
 }
 
 std::optional<StateEstimate> StateHistory::at(TimeUs t_us) const {

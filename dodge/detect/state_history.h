@@ -12,11 +12,17 @@ namespace dodge {
 class StateHistory {
  public:
   StateHistory();
-  void add(const StateEstimate& state);  // in ascending time; one that is not finite is left out
+
+  // In ascending time. One that is not finite, or whose q_WB is not of unit length, is left out.
+  void add(const StateEstimate& state);
 
   // The state at t_us: interpolated between two estimates, or carried on from the newest (oldest)
-  // one at constant velocity and angular velocity. Empty as long as there is no estimate.
+  // one at constant velocity and angular velocity, however old that is. Empty as long as there is
+  // no estimate.
   std::optional<StateEstimate> at(TimeUs t_us) const;
+
+  // Of the newest estimate that was not left out.
+  std::optional<TimeUs> newest_us() const;
 
  private:
   RingBuffer<StateEstimate> states_;

@@ -95,6 +95,7 @@ class CheckedTruth : public EventTruth {
     EventTruth::on_cycle(now_us, pilot);
     const auto& dodger = dynamic_cast<const dodge::Dodger&>(pilot);
     for (int camera = 0; camera < 2; ++camera) {
+      EXPECT_EQ(dodger.dropped_events(camera), 0);
       std::map<int, int> count;  // by compensated pixel
       int found = 0, clustered = 0;
       for (const WindowEvent& event : window(camera)) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace dodge {
 namespace {
 
@@ -22,6 +24,8 @@ std::vector<TimeUs> times(const EventWindow& window, TimeUs until_us) {
 TEST(EventWindow, HoldsTheHalfOpenInterval) {
   EventWindow window;
   window.add(events_every(100, 0, 1000));
+  EXPECT_TRUE(window.empty()) << "they wait";
+  window.take(1000);
   window.forget_until(300);
   EXPECT_EQ(times(window, 600), (std::vector<TimeUs>{400, 500, 600}));
   EXPECT_EQ(window.newest_us(), 900);
@@ -32,6 +36,7 @@ TEST(EventWindow, IsEmptyBeforeTheFirstAndAfterTheLastEvent) {
   EXPECT_TRUE(window.empty());
   EXPECT_TRUE(times(window, 1000).empty());
   window.add(events_every(100, 0, 1000));
+  window.take(1000);
   window.forget_until(5000);
   EXPECT_TRUE(window.empty());
 }
@@ -41,6 +46,7 @@ TEST(EventWindow, KeepsTheOrderAcrossTheEndOfItsMemory) {
   const TimeUs length_us = 10000;
   for (TimeUs begin = 0; begin < 2000000; begin += 1000) {
     window.add(events_every(3, begin, begin + 1000));
+    window.take(begin + 1000);
     window.forget_until(begin + 1000 - length_us);
     const std::vector<TimeUs> found = times(window, begin + 1000);
     ASSERT_TRUE(std::is_sorted(found.begin(), found.end()));
@@ -55,10 +61,51 @@ TEST(EventWindow, StopsGrowingInSteadyState) {
   std::size_t capacity = 0;
   for (TimeUs begin = 0; begin < 500000; begin += 1000) {
     window.add(std::vector<Event>(3000, Event{.t_us = begin}));
+    window.take(begin);
     window.forget_until(begin - 10000);
     if (begin == 20000) capacity = window.capacity();
   }
   EXPECT_EQ(window.capacity(), capacity);
+}
+
+TEST(EventWindow, DropsWhatIsOlderThanOneBeforeIt) {
+  EventWindow window;
+  window.add(std::vector<Event>{{.t_us = 100}, {.t_us = 300}, {.t_us = 200}, {.t_us = 300}});
+  window.take(1000);
+  window.add(std::vector<Event>{{.t_us = 299}, {.t_us = 400}});
+  window.take(1000);
+  EXPECT_EQ(times(window, 1000), (std::vector<TimeUs>{100, 300, 300, 400}));
+  EXPECT_EQ(window.dropped(), 2);
+}
+
+TEST(EventWindow, WhatIsTooLateHoldsUpNothing) {
+  EventWindow window;
+  window.add(std::vector<Event>{{.t_us = 100}, {.t_us = 10000000}, {.t_us = 200}});
+  window.take(1000);
+  EXPECT_EQ(times(window, 20000000), (std::vector<TimeUs>{100, 200}));
+  EXPECT_EQ(window.dropped(), 1);
+  window.forget_until(200);
+  EXPECT_TRUE(window.empty());
+}
+
+TEST(EventWindow, KnowsItsNewestEventAlsoWhenThatIsForgotten) {
+  EventWindow window;
+  EXPECT_FALSE(window.last_taken_us().has_value());
+  window.add(events_every(100, 0, 1000));
+  window.take(1000);
+  window.forget_until(5000);
+  EXPECT_EQ(window.last_taken_us(), 900);
+}
+
+// A clock that was set back: once the newer events are forgotten, the older ones count.
+TEST(EventWindow, GoesOnWithOlderEventsWhenItIsEmpty) {
+  EventWindow window;
+  window.add(events_every(100, 5000, 6000));
+  window.take(6000);
+  window.forget_until(6000);
+  window.add(events_every(100, 0, 1000));
+  window.take(6000);
+  EXPECT_EQ(window.newest_us(), 900);
 }
 
 }  // namespace

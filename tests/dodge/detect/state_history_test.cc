@@ -34,6 +34,19 @@ TEST(StateHistory, LeavesOutEstimatesThatAreNotFinite) {
   EXPECT_TRUE(history.at(2000)->p_WB.allFinite());
 }
 
+TEST(StateHistory, LeavesOutAttitudesThatAreNoUnitQuaternions) {
+  StateHistory history;
+  EXPECT_FALSE(history.newest_us().has_value());
+  history.add(state(1000, {0, 0, 1}, 0, {1, 0, 0}, 0));
+  for (const double length : {0.0, 0.9, 2.0, std::nan("")}) {
+    StateEstimate other = state(2000, {9, 9, 9}, 0, {0, 0, 0}, 0);
+    other.q_WB.coeffs() *= length;
+    history.add(other);
+  }
+  EXPECT_EQ(history.newest_us(), 1000);
+  EXPECT_NEAR(history.at(2000)->p_WB.x(), 0.001, 1e-12);
+}
+
 TEST(StateHistory, InterpolatesBetweenEstimates) {
   StateHistory history;
   history.add(state(1000, {0, 0, 1}, 0.0, {1, 0, 0}, 0));
