@@ -12,7 +12,9 @@ Config dodgesim() {
   config.window.window_us = 20000;
   // Clusters over 20 instead of 35 px: a ball seldom grows together with its background.
   config.cluster.weight_position_1ppx = 0.35;
-  // Far away, but only what six detections say that it falls freely, to three standard deviations.
+  // Far away, but only what was detected six times, each time within three standard deviations of
+  // where free fall from the detections before puts it. In some 20 ms that tells what jumps, not
+  // what flies straight or upwards.
   config.position.max_range_m = 5;
   config.association.gate_sigmas = 3;
   config.association.min_detections = 6;
