@@ -16,19 +16,22 @@ class Pilot {
  public:
   virtual ~Pilot() = default;
 
-  // Data arrive in the order in which they would arrive on the vehicle: late, and each kind in the
-  // order of its own time stamps.
+  // Data arrive late, and each kind (of events, each camera's) in the order of its own time stamps;
+  // there is no order across kinds. The events are there during the call only.
   virtual void add_events(int camera, std::span<const Event> events) = 0;
   virtual void add_imu(const ImuSample& sample) = 0;
   virtual void add_state(const StateEstimate& state) = 0;
   virtual void add_range(const RangeReading& /*reading*/) {}
+
+  // Before the first update(), and again whenever the goal is another one, as at a waypoint.
   virtual void set_goal(const Goal& goal) = 0;
 
   // One cycle on all data received so far; now_us is the vehicle's clock. May be called before the
   // first state estimate or event; without an intention of its own, a pilot returns velocity zero.
   virtual VelocityCommand update(TimeUs now_us) = 0;
 
-  // Of the last update, for logs and pictures.
+  // Of the last update, for logs and pictures. What the spans show lives until the next update(),
+  // and may be asked for several times or never.
   virtual std::span<const Detection> detections() const = 0;
   virtual std::span<const Obstacle> obstacles() const = 0;
 };

@@ -12,8 +12,24 @@
 namespace dodge {
 
 // Makes the pilot of one flight. `config` has the calibration (the upper camera first) and the keys
-// of `dodger`; `parameters` is the text of the key `plugin_parameters`. What is wrong with either
-// is thrown as a std::exception with a sentence.
+// of `dodger`; `parameters` is the text of the key `plugin_parameters`. Both are there during the
+// call only: copy what you need. What is wrong with either is thrown as a std::exception with a
+// sentence.
+//
+// What the simulator does with a pilot:
+// - Just before each update() it hands over all that has arrived: the IMU's samples, then state
+//   estimates, range readings, the packets of camera 0, and those of camera 1.
+// - It does not tell rates and delays, which are keys of the scenario. By default: IMU 1000 Hz,
+//   state estimates 250 Hz, range 200 Hz, packets of 1 ms, a cycle every 4 ms
+//   (`dodgesim explain sensors`, `dodgesim explain delays`).
+// - A command that evades is followed at once, at up to controller.evading_speed_limit_mps (5 m/s);
+//   others are smoothed. The heading cannot be commanded: the vehicle keeps that of its start.
+// - The first command with `landing` counts for good, whatever comes later: a gentle touch-down
+//   ends the flight and is no crash, and a throw that would have hit after it is not dodged.
+// - It looks at a detection's t_us and centre_W: those within 0.5 m of the true object's centre
+//   count (scenarios/README.md, first_detection_us). Of the other fields it writes obstacle_id,
+//   size_m, depth_m and depth_sigma_m to detections.csv and draws some. Nobody reads obstacles(),
+//   which may be empty.
 using MakePilot = std::unique_ptr<Pilot>(const Config& config, const std::string& parameters);
 
 // Differs between a library and a simulator that were compiled with different headers of dodge/, or
