@@ -43,13 +43,16 @@ std::string loading_error(const std::string& copy) {
   for (std::size_t at = 0; (at = why.find(name, at)) != std::string::npos;) {
     why.erase(at, name.size());
   }
-  return why;
+  if (why.find("undefined symbol") == std::string::npos) return why + ".";
+  return why +
+         "; link the library that has it (with CMake, dodge for the parts of our pilot), and with "
+         "-Wl,-z,defs the linker tells.";
 }
 
 PilotFunction* load(const Plugin& plugin) {
   const std::string path = "/proc/self/fd/" + std::to_string(plugin.copy);
   void* const library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) refuse(plugin, "cannot be loaded: " + loading_error(path) + ".");
+  if (library == nullptr) refuse(plugin, "cannot be loaded: " + loading_error(path));
   if (function_of<InterfaceFunction>(library, "dodge_plugin_interface", plugin)() !=
       dodge::kPluginInterface) {
     refuse(plugin,

@@ -79,6 +79,20 @@ TEST(Plugin, OfOtherHeadersIsRefused) {
 }
 
 TEST(Plugin, ThatIsNoLibraryOrMissingIsRefused) {
+TEST(Plugin, OfHeadersAloneHasTheCameraModel) {
+  dodge::Config config;
+  config.cameras.resize(1);
+  const Plugin plugin = read_plugin(library("of_headers_alone"));
+  EXPECT_THAT([&] { make_plugin_pilot(plugin, config, ""); },
+              ThrowsMessage<SimulationError>(HasSubstr("I see 76800 pixels, one of them at 3.0")));
+}
+
+TEST(Plugin, ThatLacksAPartIsToldWhatToLink) {
+  EXPECT_THAT([] { pilot_of(library("with_a_missing_part"), ""); },
+              ThrowsMessage<SimulationError>(
+                  AllOf(HasSubstr("made_elsewhere"), HasSubstr("link the library that has it"))));
+}
+
   const testing::TemporaryDirectory directory;
   const std::string file = (directory / "text.so").string();
   for (const std::string content : {"no library", ""}) {
