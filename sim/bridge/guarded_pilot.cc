@@ -1,10 +1,13 @@
 #include "sim/bridge/guarded_pilot.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
+#include <optional>
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/memory_limit.h"
 #include "sim/base/utf8.h"
 
 namespace dodgesim {
@@ -19,7 +22,7 @@ auto guarded(Call call) -> decltype(call()) {
   try {
     return call();
   } catch (const std::bad_alloc&) {
-    throw;
+    throw MemoryError("The pilot " + threw_bad_alloc());
   } catch (const std::exception& error) {
     throw SimulationError("The pilot failed: " + sentence_of(error));
   } catch (...) {
@@ -33,6 +36,24 @@ auto guarded(Call call) -> decltype(call()) {
   throw SimulationError(message.str());
 }
 
+// What is written of it to detections.csv.
+void check_detection(const dodge::Detection& detection, dodge::TimeUs now_us) {
+  if (detection.t_us > now_us) refuse("gave a detection an instant of the future", now_us);
+  if (detection.t_us < 0) refuse("gave a detection an instant before the flight", now_us);
+  if (!(detection.centre_W.array().abs() <= kFarthestM).all()) {  // false for NaN
+    refuse("detected something that is nowhere, or more than a million m away", now_us);
+  }
+  if (!(detection.size_m >= 0 && detection.size_m <= kFarthestM)) {
+    refuse("gave a detection a size_m that is not between 0 and a million m", now_us);
+  }
+  if (!(std::abs(detection.depth_m) <= kFarthestM)) {
+    refuse("gave a detection a depth_m that is no number, or more than a million m", now_us);
+  }
+  if (!(detection.depth_sigma_m >= 0 && detection.depth_sigma_m <= kFarthestM)) {
+    refuse("gave a detection a depth_sigma_m that is not between 0 and a million m", now_us);
+  }
+}
+
 }  // namespace
 
 std::string sentence_of(const std::exception& error) {
@@ -42,6 +63,12 @@ std::string sentence_of(const std::exception& error) {
   while (!text.empty() && text.back() == ' ') text.pop_back();
   if (text.empty()) return "an exception without a text.";
   return text.back() == '.' ? text : text + ".";
+}
+
+std::string threw_bad_alloc() {
+  const std::optional<std::int64_t> limit_mb = memory_limit_mb();
+  return "threw std::bad_alloc, as when there is not enough memory" +
+         (limit_mb ? ": the limit is " + std::to_string(*limit_mb) + " MB." : ".");
 }
 
 void GuardedPilot::add_events(int camera, std::span<const dodge::Event> events) {
@@ -71,12 +98,7 @@ dodge::VelocityCommand GuardedPilot::update(dodge::TimeUs now_us) {
     refuse("commanded a velocity beyond a million m/s", now_us);
   }
   if (command.t_us > now_us) refuse("gave a command an instant of the future", now_us);
-  for (const dodge::Detection& detection : detections()) {
-    if (!(detection.centre_W.cwiseAbs().maxCoeff() <= kFarthestM)) {
-      refuse("detected something that is nowhere, or more than a million m away", now_us);
-    }
-    if (detection.t_us > now_us) refuse("gave a detection an instant of the future", now_us);
-  }
+  for (const dodge::Detection& detection : detections()) check_detection(detection, now_us);
   return command;
 }
 

@@ -12,9 +12,13 @@ namespace dodgesim {
 // The exception's text as one line of UTF-8 that ends in a full stop.
 std::string sentence_of(const std::exception& error);
 
-// Passes everything on. What the pilot throws, and commands and detections that are no numbers, are
-// out of all proportion or come from the future, become a SimulationError, which costs the flight;
-// std::bad_alloc leaves as it is.
+// What it means that a pilot threw std::bad_alloc, as the end of a sentence about it.
+std::string threw_bad_alloc();
+
+// Passes everything on. What the pilot throws becomes a SimulationError, which costs the flight;
+// std::bad_alloc becomes a MemoryError. A SimulationError, too: a velocity, or a number that is
+// logged of a detection (all but p_W and distance_per_depth), that is no number or out of all
+// proportion; an instant of the future; a detection before the flight began.
 class GuardedPilot : public dodge::Pilot {
  public:
   explicit GuardedPilot(std::unique_ptr<dodge::Pilot> pilot) : pilot_(std::move(pilot)) {}

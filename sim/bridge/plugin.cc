@@ -92,7 +92,7 @@ std::unique_ptr<dodge::Pilot> make_plugin_pilot(const Plugin& plugin, const dodg
   try {
     pilot.reset(make(config, parameters));
   } catch (const std::bad_alloc&) {
-    throw;
+    throw MemoryError("The plug-in " + plugin.file + " makes no pilot: it " + threw_bad_alloc());
   } catch (const std::exception& error) {
     refuse(plugin, "makes no pilot: " + sentence_of(error));
   } catch (...) {

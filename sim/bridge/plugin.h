@@ -20,7 +20,7 @@ Plugin read_plugin(const std::string& file);
 
 // A pilot for one flight, guarded (guarded_pilot.h). The library stays loaded until the process
 // ends. Throws SimulationError if it cannot be loaded, was compiled with other headers, or makes no
-// pilot.
+// pilot; MemoryError if that is for lack of memory.
 std::unique_ptr<dodge::Pilot> make_plugin_pilot(const Plugin& plugin, const dodge::Config& config,
                                                 const std::string& parameters);
 

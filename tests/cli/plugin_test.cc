@@ -70,6 +70,13 @@ TEST_F(PluginTest, ThatDiesCostsTheThrowAndCanBeWatched) {
   EXPECT_NE(again.exit_code, 0);
 }
 
+TEST_F(PluginTest, WhoseMemoryIsShortCostsTheThrow) {
+  const std::string plugin = " --plugin " + library("obedient");
+  const std::string order = "--set 'plugin_parameters=take all memory'";
+  EXPECT_EQ(run(order + plugin).exit_code, 3);
+  EXPECT_THAT(contents("out/table.md"), HasSubstr("The pilot threw std::bad_alloc, as when"));
+}
+
 TEST_F(PluginTest, DoesNotPrintAmongTheTables) {
   const std::string plugin = " --plugin " + library("obedient");
   const std::string print = "--set plugin_parameters=print" + plugin;
@@ -104,6 +111,9 @@ TEST_F(PluginTest, IsRefusedBeforeTheFirstThrow) {
        "crashes while it makes"},
       {"--set plugin_parameters=refuse --plugin " + library("obedient"),
        "libobedient.so makes no pilot: I take no such parameters."},
+      {"--set 'plugin_parameters=take all memory at once' --plugin " + library("obedient"),
+       "libobedient.so makes no pilot: it threw std::bad_alloc"},
+      {"--plugin " + library("with_a_missing_part"), "link the library that has it"},
       {"--plugin " + library("without_a_pilot"), "has no dodge_plugin_interface()"}};
   for (const auto& [options, sentence] : refused) {
     const Outcome outcome = run(options);

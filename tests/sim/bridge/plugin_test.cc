@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "dodge/dodger.h"
 #include "sim/base/error.h"
@@ -78,7 +79,6 @@ TEST(Plugin, OfOtherHeadersIsRefused) {
               ThrowsMessage<SimulationError>(HasSubstr("compile it anew")));
 }
 
-TEST(Plugin, ThatIsNoLibraryOrMissingIsRefused) {
 TEST(Plugin, OfHeadersAloneHasTheCameraModel) {
   dodge::Config config;
   config.cameras.resize(1);
@@ -93,6 +93,7 @@ TEST(Plugin, ThatLacksAPartIsToldWhatToLink) {
                   AllOf(HasSubstr("made_elsewhere"), HasSubstr("link the library that has it"))));
 }
 
+TEST(Plugin, ThatIsNoLibraryOrMissingIsRefused) {
   const testing::TemporaryDirectory directory;
   const std::string file = (directory / "text.so").string();
   for (const std::string content : {"no library", ""}) {
@@ -139,6 +140,31 @@ TEST(GuardedPilot, CommandsOnlyWhatCanBe) {
               ThrowsMessage<SimulationError>(HasSubstr("beyond a million m/s")));
   EXPECT_THAT([&] { told_to("foresee")->update(0); },
               ThrowsMessage<SimulationError>(HasSubstr("an instant of the future")));
+}
+
+TEST(GuardedPilot, DetectsOnlyWhatCanBe) {
+  EXPECT_EQ(told_to("detect all right")->update(310000).t_us, 310000);
+  const std::pair<const char*, const char*> faults[] = {
+      {"nowhere", "detected something that is nowhere"},
+      {"tomorrow", "gave a detection an instant of the future"},
+      {"long ago", "gave a detection an instant before the flight"},
+      {"less than nothing", "gave a detection a size_m that is not between 0 and a million m"},
+      {"at no depth", "gave a detection a depth_m that is no number"},
+      {"without certainty", "gave a detection a depth_sigma_m that is not between 0"}};
+  for (const auto& [fault, complaint] : faults) {
+    EXPECT_THAT(
+        [&] { told_to(std::string("detect ") + fault)->update(310000); },
+        ThrowsMessage<SimulationError>(AllOf(HasSubstr(complaint), HasSubstr("at 0.31 s."))));
+  }
+}
+
+// Unlike other failures, it may be the machine's.
+TEST(GuardedPilot, WhoseMemoryIsShortIsNamed) {
+  EXPECT_THAT([] { told_to("take all memory")->update(0); },
+              ThrowsMessage<MemoryError>(HasSubstr("The pilot threw std::bad_alloc, as when ")));
+  EXPECT_THAT([] { told_to("take all memory at once"); },
+              ThrowsMessage<MemoryError>(
+                  HasSubstr("libobedient.so makes no pilot: it threw std::bad_alloc, as when ")));
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <new>
 #include <stdexcept>
+#include <vector>
 
 #include "dodge/dodger.h"
 #include "dodge/plugin.h"
@@ -28,13 +30,30 @@ class Leftward : public dodge::Pilot {
     if (order_ == "command nothing") command.v_W.x() = std::numeric_limits<double>::quiet_NaN();
     if (order_ == "race") command.v_W.z() = -1e200;
     if (order_ == "foresee") ++command.t_us;
+    if (order_ == "take all memory") throw std::bad_alloc();
+    if (order_.starts_with("detect ")) detect(order_.substr(7), now_us);
     return command;
   }
-  std::span<const dodge::Detection> detections() const override { return {}; }
+  std::span<const dodge::Detection> detections() const override { return detections_; }
   std::span<const dodge::Obstacle> obstacles() const override { return {}; }
 
  private:
+  // Something at the origin, with a fault.
+  void detect(const std::string& fault, dodge::TimeUs now_us) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    dodge::Detection detection;
+    detection.t_us = now_us;
+    if (fault == "nowhere") detection.centre_W.y() = nan;
+    if (fault == "tomorrow") ++detection.t_us;
+    if (fault == "long ago") detection.t_us = std::numeric_limits<dodge::TimeUs>::min();
+    if (fault == "less than nothing") detection.size_m = -1;
+    if (fault == "at no depth") detection.depth_m = nan;
+    if (fault == "without certainty") detection.depth_sigma_m = nan;
+    detections_ = {detection};
+  }
+
   std::string order_;
+  std::vector<dodge::Detection> detections_;
 };
 
 std::unique_ptr<dodge::Pilot> make(const dodge::Config& config, const std::string& parameters) {
@@ -43,6 +62,7 @@ std::unique_ptr<dodge::Pilot> make(const dodge::Config& config, const std::strin
   if (parameters == "refuse") throw std::invalid_argument("I take no such parameters");
   if (parameters == "refuse with a number") throw 7;
   if (parameters == "die at once") std::abort();
+  if (parameters == "take all memory at once") throw std::bad_alloc();
   if (parameters == "be the dodger") return std::make_unique<dodge::Dodger>(config);
   return std::make_unique<Leftward>(parameters);
 }
