@@ -1,6 +1,7 @@
 #include "dodge/detect/time_image.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace dodge {
 
@@ -85,7 +86,10 @@ void TimeImage::threshold(double rate_radps) {
 
   cv::swap(averaged_, previous_);
   blur_.apply(rho_, averaged_);
-  const auto cut = static_cast<float>(config_.threshold_a_s * rate_radps + config_.threshold_b);
+  // Above 0, which is what empty pixels have.
+  const float cut =
+      std::max(static_cast<float>(config_.threshold_a_s * rate_radps + config_.threshold_b),
+               std::numeric_limits<float>::min());
   const float* averaged = averaged_.ptr<float>();
   std::transform(averaged, averaged + averaged_.total(), threshold_mask_.ptr<std::uint8_t>(),
                  [cut](float value) { return static_cast<std::uint8_t>(value >= cut ? 255 : 0); });

@@ -84,6 +84,15 @@ TEST_F(TimeImageTest, ThresholdGrowsWithTheAngularRate) {
   EXPECT_EQ(cv::countNonZero(image.threshold_mask()), 0);
 }
 
+TEST_F(TimeImageTest, WithoutAThresholdEmptyPixelsAreNoObstacle) {
+  TimeImageConfig config = plain();
+  config.threshold_b = 0;
+  TimeImage image(config, kColumns, kRows);
+  process(image, {at(5, 6, 1000), at(7, 8, 9000)});
+  EXPECT_EQ(cv::countNonZero(image.threshold_mask()), 1);
+  EXPECT_EQ(image.threshold_mask()(8, 7), 255);
+}
+
 TEST_F(TimeImageTest, AveragingKeepsTheSumAndTreatsEmptyPixelsAsNeutral) {
   TimeImageConfig config = plain();
   config.blur_px = 5;
