@@ -33,7 +33,8 @@ VelocityCommand CommandRamp::ramped(VelocityCommand command, const Eigen::Vector
   }
   if (command.evading || !braking_) return command;
   const Eigen::Vector3d from_W = last_ ? last_->v_W : braked_from(v_WB);
-  const double elapsed_s = last_ ? seconds(command.t_us - last_->t_us) : 0;
+  // Not negative, should time go back.
+  const double elapsed_s = last_ ? std::max(0.0, seconds(command.t_us - last_->t_us)) : 0;
   const Eigen::Vector3d change_W = command.v_W - from_W;
   const double most_mps = config_.calm_acceleration_mps2 * elapsed_s;
   braking_ = change_W.norm() > most_mps;

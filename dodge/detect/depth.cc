@@ -112,6 +112,7 @@ void DepthEstimator::locate_by_stereo(const View& top, const View& bottom,
       const std::optional<double> found = correlated_disparity(top, bottom, match);
       if (!found) continue;
       disparity_px = *found;
+      // Its time stays the top cluster's, which is a little off where the bottom one's differs.
       object.rectangle = joined(object.rectangle, below.rectangle, disparity_px);
     }
     const double depth_m = focal_baseline_ / disparity_px;

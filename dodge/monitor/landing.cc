@@ -10,8 +10,9 @@ void Landing::add(TimeUs t_us, double estimated_m, double measured_m) {
   const double dt_s = seconds(passed_us);
   const double expected_m = ground_m_ + dt_s * drift_mps_;
   const double error_m = ground_m - expected_m;
-  if (!last_us_ || passed_us > config_.fresh_us || std::abs(error_m) > config_.max_step_m) {
-    ground_m_ = ground_m;  // the drift goes on as it was
+  if (!last_us_ || passed_us < 0 || passed_us > config_.fresh_us ||
+      std::abs(error_m) > config_.max_step_m) {
+    ground_m_ = ground_m;  // the drift goes on as it was, also where time has gone back
   } else {
     // Both poles at exp(-dt / tau): critically damped at any rate of readings.
     const double stays = std::exp(-dt_s / config_.drift_filter_s);

@@ -53,6 +53,15 @@ TEST(CommandRamp, BrakesGentlyFromTheVelocityOfAnEscape) {
   EXPECT_EQ(ramp.ramped(wanted(1000000, home), reached).v_W, home);
 }
 
+TEST(CommandRamp, HoldsTheCommandWhenTimeGoesBack) {
+  CommandRamp ramp({.calm_acceleration_mps2 = 5});
+  const Vector3d reached(0, 3, 0);
+  ramp.ramped(wanted(100000, {0, 5, 0}, true), Vector3d::Zero());
+  ramp.ramped(wanted(200000, Vector3d::Zero()), reached);
+  EXPECT_EQ(ramp.ramped(wanted(0, Vector3d::Zero()), reached).v_W, reached);
+  EXPECT_LT(ramp.ramped(wanted(100000, Vector3d::Zero()), reached).v_W.y(), 3);
+}
+
 TEST(CommandRamp, EndsWhenTheCommandIsWhatIsWanted) {
   CommandRamp ramp({.calm_acceleration_mps2 = 5});
   EXPECT_EQ(ramp.ramped(wanted(0, {1.5, 0, 0}), Vector3d::Zero()).v_W, Vector3d(1.5, 0, 0));

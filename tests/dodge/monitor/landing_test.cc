@@ -63,6 +63,16 @@ TEST(Landing, APauseInTheReadingsIsNoDrift) {
   EXPECT_NEAR(landing.drift_mps(), 0.2, 1e-3);
 }
 
+// A reading stamped far in the future, and the next ones.
+TEST(Landing, TimeThatGoesBackIsNoDrift) {
+  Landing landing = after_drift(0.2, 3);
+  landing.add(13000000, 5.6, 3);
+  landing.add(3005000, 5.601, 3);
+  EXPECT_NEAR(landing.drift_mps(), 0.2, 1e-3);
+  landing.add(3000000, 5.65, 3);  // 5 ms before the last
+  EXPECT_NEAR(landing.drift_mps(), 0.2, 1e-3);
+}
+
 TEST(Landing, TheNoiseOfTheSensorHardlyShakesTheCommand) {
   // +-2 cm in turn.
   Landing landing({});
