@@ -291,6 +291,17 @@ TEST(Dodger, WrongTimeStampsCostTheirOwnEventsOnly) {
   EXPECT_EQ(disturbed.dropped_events(7), 0);
 }
 
+TEST(Dodger, ABrokenGyroscopeIsSurvived) {
+  Dodger dodger(stereo());
+  int cycles = 0;
+  for (const VelocityCommand& command : commands(dodger, [&](Dodger&broken, TimeUs t) {
+         const double sign = ++cycles % 2 == 0 ? 1 : -1;
+         broken.add_imu({t, sign * Eigen::Vector3d(1.7e308, 1.7e308, -1.7e308), {}});
+       })) {
+    ASSERT_TRUE(command.v_W.allFinite());
+  }
+}
+
 TEST(Dodger, EventsALittleAheadWaitForTheirTime) {
   Dodger dodger(stereo());
   dodger.set_capture(true);
