@@ -152,8 +152,9 @@ TEST(GuardedPilot, DetectsOnlyWhatCanBe) {
       {"at no depth", "gave a detection a depth_m that is no number"},
       {"without certainty", "gave a detection a depth_sigma_m that is not between 0"}};
   for (const auto& [fault, complaint] : faults) {
+    const auto pilot = told_to(std::string("detect ") + fault);
     EXPECT_THAT(
-        [&] { told_to(std::string("detect ") + fault)->update(310000); },
+        [&] { pilot->update(310000); },
         ThrowsMessage<SimulationError>(AllOf(HasSubstr(complaint), HasSubstr("at 0.31 s."))));
   }
 }
