@@ -30,6 +30,8 @@ namespace dodge {
 //   count (scenarios/README.md, first_detection_us). Of the other fields it writes obstacle_id,
 //   size_m, depth_m and depth_sigma_m to detections.csv and draws some. Nobody reads obstacles(),
 //   which may be empty.
+// - Every process flies many throws: what a plug-in changes of it (std::locale::global(), signals,
+//   open files) meets those after it, too.
 using MakePilot = std::unique_ptr<Pilot>(const Config& config, const std::string& parameters);
 
 // Differs between a library and a simulator that were compiled with different headers of dodge/, or

@@ -8,6 +8,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/memory_limit.h"
+#include "sim/base/process_state.h"
 #include "sim/base/utf8.h"
 
 namespace dodgesim {
@@ -19,6 +20,7 @@ constexpr double kFastestMps = 1e6, kFarthestM = 1e6;
 
 template <class Call>
 auto guarded(Call call) -> decltype(call()) {
+  const KeptRounding rounding;
   try {
     return call();
   } catch (const std::bad_alloc&) {

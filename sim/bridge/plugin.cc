@@ -12,6 +12,7 @@
 #include "sim/base/descriptor.h"
 #include "sim/base/digest.h"
 #include "sim/base/error.h"
+#include "sim/base/process_state.h"
 #include "sim/bridge/guarded_pilot.h"
 #include "sim/files/input_file.h"
 
@@ -87,6 +88,9 @@ Plugin read_plugin(const std::string& file) {
 std::unique_ptr<dodge::Pilot> make_plugin_pilot(const Plugin& plugin, const dodge::Config& config,
                                                 const std::string& parameters) {
   if (plugin.file.empty()) throw SimulationError("The pilot is plugin, but no library is given.");
+  const KeptRounding
+      rounding;  // libraries compiled with -ffast-math change it when they are loaded
+  keep_decimal_point();
   PilotFunction* const make = loaded(plugin);
   std::unique_ptr<dodge::Pilot> pilot;
   try {

@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <langinfo.h>
+#include <locale.h>
+
+#include <cfenv>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -37,6 +41,21 @@ TEST(Plugin, MakesAPilot) {
   EXPECT_EQ(command.t_us, 7);
   EXPECT_EQ(command.v_W.y(), 2);
   EXPECT_TRUE(command.evading);
+}
+
+TEST(Plugin, DoesNotChangeHowTheSimulatorRounds) {
+  for (const char* order : {"round up", "round up at once"}) {
+    const auto pilot = told_to(order);
+    pilot->update(0);
+    EXPECT_EQ(std::fegetround(), FE_TONEAREST) << order;
+    std::fesetround(FE_TONEAREST);
+  }
+}
+
+TEST(Plugin, DoesNotChangeHowTheSimulatorWritesNumbers) {
+  told_to("");
+  EXPECT_NE(::uselocale(nullptr), LC_GLOBAL_LOCALE) << "which setlocale() changes";
+  EXPECT_STREQ(::nl_langinfo_l(RADIXCHAR, ::uselocale(nullptr)), ".");
 }
 
 TEST(Plugin, MakesAPilotForEachFlight) {

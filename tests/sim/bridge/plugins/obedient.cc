@@ -1,4 +1,5 @@
 // A plug-in that does what its parameters say.
+#include <cfenv>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -24,6 +25,7 @@ class Leftward : public dodge::Pilot {
     if (order_ == "throw") throw std::runtime_error("I have lost my way,\nand my map");
     if (order_ == "throw Latin 1") throw std::runtime_error("Verst\xe4rker aus");
     if (order_ == "throw a number") throw 7;
+    if (order_ == "round up") std::fesetround(FE_UPWARD);
     if (order_ == "die") std::abort();
     if (order_ == "print") std::printf("Here I am.\n"), std::fflush(stdout);
     dodge::VelocityCommand command{now_us, Eigen::Vector3d(0, 2, 0), true, false};
@@ -58,6 +60,7 @@ class Leftward : public dodge::Pilot {
 
 std::unique_ptr<dodge::Pilot> make(const dodge::Config& config, const std::string& parameters) {
   if (parameters == "print") std::puts("I am made.");
+  if (parameters == "round up at once") std::fesetround(FE_UPWARD);
   if (parameters == "make nothing") return nullptr;
   if (parameters == "refuse") throw std::invalid_argument("I take no such parameters");
   if (parameters == "refuse with a number") throw 7;

@@ -1,0 +1,28 @@
+// What foreign code may change of the process, and what our numbers depend on.
+#pragma once
+
+#include <locale.h>
+
+#include <cfenv>
+
+namespace dodgesim {
+
+// How numbers are rounded, and what is done with denormal ones, is after its life as it was before.
+class KeptRounding {
+ public:
+  KeptRounding() { std::fegetenv(&environment_); }
+  ~KeptRounding() { std::fesetenv(&environment_); }
+  KeptRounding(const KeptRounding&) = delete;
+  KeptRounding& operator=(const KeptRounding&) = delete;
+
+ private:
+  std::fenv_t environment_;
+};
+
+// From here on this thread reads and writes numbers with a point, whatever setlocale() is told.
+inline void keep_decimal_point() {
+  static const locale_t c_locale = ::newlocale(LC_ALL_MASK, "C", nullptr);
+  if (c_locale != nullptr) ::uselocale(c_locale);
+}
+
+}  // namespace dodgesim
