@@ -54,7 +54,7 @@ TEST(Plugin, DoesNotChangeHowTheSimulatorRounds) {
 
 TEST(Plugin, DoesNotChangeHowTheSimulatorWritesNumbers) {
   told_to("");
-  EXPECT_NE(::uselocale(nullptr), LC_GLOBAL_LOCALE) << "which setlocale() changes";
+  ASSERT_NE(::uselocale(nullptr), LC_GLOBAL_LOCALE) << "which setlocale() changes";
   EXPECT_STREQ(::nl_langinfo_l(RADIXCHAR, ::uselocale(nullptr)), ".");
 }
 
