@@ -71,8 +71,8 @@ class Dodger : public Pilot {
   std::span<const Detection> detections() const override { return detections_; }
   std::span<const Obstacle> obstacles() const override { return obstacles_; }
 
-  // Since the start, as of the last update, for who watches the sensors: the pilot flies on,
-  // whatever is missing. It does not see a camera whose newest event is older than
+  // Since the start, of events as of the last update, for who watches the sensors: the pilot flies
+  // on, whatever is missing. It does not see a camera whose newest event is older than
   // window.window_us + window.event_timeout_us, nor, in stereo, one that lags behind the other by
   // window.window_us or more (a clock that is behind, say); and it carries an old state on at
   // constant velocity. An event is dropped if it is older than one before it, or more than

@@ -11,7 +11,8 @@ namespace dodge {
 // Every flight has a pilot of its own, which is called from one thread only. Campaigns can be
 // resumed, merged and replayed if a pilot is a function of its inputs: no clocks, no
 // std::random_device, no races between threads, nothing left in statics by an earlier flight. A
-// flight in which a pilot throws an exception is recorded as failed, with the exception's text.
+// flight in which a pilot throws an exception is recorded as failed, with the exception's text;
+// std::bad_alloc loses the whole throw.
 class Pilot {
  public:
   virtual ~Pilot() = default;

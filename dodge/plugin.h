@@ -27,9 +27,9 @@ namespace dodge {
 // - The first command with `landing` counts for good, whatever comes later: a gentle touch-down
 //   ends the flight and is no crash, and a throw that would have hit after it is not dodged.
 // - It looks at a detection's t_us and centre_W: those within 0.5 m of the true object's centre
-//   count (scenarios/README.md, first_detection_us). Of the other fields it writes obstacle_id,
-//   size_m, depth_m and depth_sigma_m to detections.csv and draws some. Nobody reads obstacles(),
-//   which may be empty.
+//   (more for objects larger than 30 cm) count (scenarios/README.md, first_detection_us). Of the
+//   other fields it writes obstacle_id, size_m, depth_m and depth_sigma_m to detections.csv and
+//   draws some. Nobody reads obstacles(), which may be empty.
 // - Every process flies many throws: what a plug-in changes of it (std::locale::global(), signals,
 //   open files) meets those after it, too.
 using MakePilot = std::unique_ptr<Pilot>(const Config& config, const std::string& parameters);

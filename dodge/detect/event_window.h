@@ -37,8 +37,8 @@ class EventWindow {
   }
 
   // Takes the events that have arrived into the window, in ascending time: one that is older than
-  // one before it, or later than latest_us, is dropped, so that a wrong time stamp costs little
-  // more than its own event.
+  // one before it, or later than latest_us, is dropped. A wrong time stamp costs its own event or,
+  // if it lies ahead but not beyond latest_us, the events up to it.
   void take(TimeUs latest_us);
 
   // Forgets all events of the window up to and including t_us.

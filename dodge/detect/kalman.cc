@@ -82,8 +82,8 @@ Kalman::Position Kalman::position_at(TimeUs t_us) const {
   return {then.past_position(age_s), H * then.P_ * H.transpose()};
 }
 
-// As in the paper, detections count as independent. Successive windows overlap and share events, so
-// that they are not, and the covariance is smaller than the error it stands for.
+// As in the paper, detections count as independent. Successive windows overlap and share events:
+// they are not, and the covariance is smaller than the error it stands for.
 void Kalman::update(TimeUs t_us, const Eigen::Vector3d& z_W, const Eigen::Matrix3d& R) {
   predict(t_us);
   const double age_s = seconds(t_us_ - t_us);

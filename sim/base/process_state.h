@@ -19,7 +19,8 @@ class KeptRounding {
   std::fenv_t environment_;
 };
 
-// From here on this thread reads and writes numbers with a point, whatever setlocale() is told.
+// From here on the C functions of this thread read and write numbers with a point, whatever
+// setlocale() is told; streams follow std::locale::global().
 inline void keep_decimal_point() {
   static const locale_t c_locale = ::newlocale(LC_ALL_MASK, "C", nullptr);
   if (c_locale != nullptr) ::uselocale(c_locale);

@@ -46,8 +46,8 @@ std::string loading_error(const std::string& copy) {
   }
   if (why.find("undefined symbol") == std::string::npos) return why + ".";
   return why +
-         "; link the library that has it (with CMake, dodge for the parts of our pilot), and with "
-         "-Wl,-z,defs the linker tells.";
+         "; link the library that has it (with CMake, dodge for the parts of our pilot). With "
+         "-Wl,-z,defs the linker reports it.";
 }
 
 PilotFunction* load(const Plugin& plugin) {
@@ -88,8 +88,8 @@ Plugin read_plugin(const std::string& file) {
 std::unique_ptr<dodge::Pilot> make_plugin_pilot(const Plugin& plugin, const dodge::Config& config,
                                                 const std::string& parameters) {
   if (plugin.file.empty()) throw SimulationError("The pilot is plugin, but no library is given.");
-  const KeptRounding
-      rounding;  // libraries compiled with -ffast-math change it when they are loaded
+  // Libraries compiled with -ffast-math change it when they are loaded.
+  const KeptRounding rounding;
   keep_decimal_point();
   PilotFunction* const make = loaded(plugin);
   std::unique_ptr<dodge::Pilot> pilot;

@@ -32,8 +32,8 @@ constexpr std::array<NumericKey, 5> kNumericKeys = {
 // comes again.
 bool is_round(double value) { return std::abs(value - std::round(value * 1e3) / 1e3) < 1e-12; }
 
-// Whether all values are written ones: it is the same one everywhere, or each comes again. Within a
-// value of the sweep, as the others meet the same throws.
+// Whether all values are written ones: each comes again, within a value of the sweep, as the others
+// meet the same throws.
 bool are_written(const std::vector<ThrowResult>& results, double ThrowResult::*key) {
   std::map<int, std::map<double, int>> counts;
   std::set<double> distinct, again;
@@ -43,7 +43,7 @@ bool are_written(const std::vector<ThrowResult>& results, double ThrowResult::*k
     if (++counts[result.sweep][result.*key] > 1) again.insert(result.*key);
     if (distinct.size() > kMostWrittenValues) return false;
   }
-  return distinct.size() == 1 || again.size() == distinct.size();
+  return again.size() == distinct.size();
 }
 
 std::string names_of_keys(const std::vector<ThrowResult>& results) {

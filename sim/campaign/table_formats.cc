@@ -232,7 +232,7 @@ Json json_of(const StatisticsTable& table, const StatisticsTable::Row& row) {
     const PilotStatistics& of = row.statistics.pilots[pilot];
     json["pilots"].push_back({{"pilot", of.pilot},
                               {"throws", of.tally.throws},
-                              {"would_have_hit", json_of(of.tally.hit_undisturbed)},
+                              {"would_have_hit_rate", json_of(of.tally.hit_undisturbed)},
                               {"dodged", json_of(dodged_by(of))},
                               {"collisions", json_of(of.tally.collisions)},
                               {"errors", of.tally.errors},

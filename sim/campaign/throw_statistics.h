@@ -25,7 +25,7 @@ struct Rate {
   std::int64_t count = 0;
   std::int64_t of = 0;
   std::optional<SequentialInterval> sequential = {};  // in place of Wilson's
-  // Another rate decided when to stop counting, and depends on this one: no interval is known.
+  // It is the complement of a rate whose counts decided when to stop: no interval of it is known.
   bool stopped = false;
 
   void add(bool success) {

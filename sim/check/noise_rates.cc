@@ -12,7 +12,6 @@ namespace {
 
 constexpr int kStillWidth = 320, kStillHeight = 240;
 constexpr double kPixels = kStillWidth * kStillHeight;
-constexpr double kBrightLux = 1000;  // where the shot noise's bright share holds
 constexpr double kDarkLux = 0;
 constexpr double kSigmas = 3;
 constexpr TimeUs kPictureEveryUs = 100000;

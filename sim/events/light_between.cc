@@ -7,9 +7,6 @@ namespace dodgesim {
 
 namespace {
 
-constexpr double kBrightLux = 1000;  // at which the rates of noise and bandwidth are given
-constexpr double kMostChanges = 100;
-
 // By which factor a rate grows or falls in the pixel where it changes most.
 template <class Rate>
 double greatest_factor(const std::vector<float>& before, const std::vector<float>& after,
@@ -29,21 +26,20 @@ LightBetween::LightBetween(const EventCameraSpec& spec)
     : response_(spec.log_epsilon, spec.linear_below),
       bandwidth_changes_(spec.photoreceptor_hz > 0),
       dark_luminance_(0),
-      bright_luminance_(static_cast<float>(kBrightLux / spec.illuminance_lux)),
-      bright_loss_(static_cast<float>(1 - spec.shot_noise_bright_share)) {
+      shot_noise_share_(spec) {
   const bool shot_noise = spec.shot_noise_on_hz > 0 || spec.shot_noise_off_hz > 0;
   noisy_ = spec.leak_hz > 0 || shot_noise || spec.hot_pixel_fraction > 0;
   shot_noise_changes_ = shot_noise && spec.shot_noise_bright_share < 1;
   if (bandwidth_changes_) {
-    dark_luminance_ =
-        static_cast<float>(spec.photoreceptor_dark_hz / spec.photoreceptor_hz) * bright_luminance_;
+    const double dark_lux = kBrightLux * spec.photoreceptor_dark_hz / spec.photoreceptor_hz;
+    dark_luminance_ = static_cast<float>(dark_lux / spec.illuminance_lux);
   }
 }
 
 std::int64_t LightBetween::steps(TimeUs interval_us, const std::vector<float>& before,
                                  const std::vector<float>& after) const {
   const std::int64_t in_time = noisy_ ? (interval_us + kLongestStepUs - 1) / kLongestStepUs : 1;
-  const double changes = std::log(greatest_change(before, after)) / std::log(kMostChange);
+  const double changes = std::log(greatest_change(before, after)) / std::log(kChange);
   const auto in_light = static_cast<std::int64_t>(std::ceil(std::min(changes, kMostChanges)));
   return std::clamp<std::int64_t>(std::max(in_time, in_light), 1, interval_us);
 }
@@ -57,7 +53,7 @@ double LightBetween::greatest_change(const std::vector<float>& before,
   }
   if (shot_noise_changes_) {
     const auto share = [this](float luminance) {
-      return 1 - bright_loss_ * std::min(1.0F, luminance / bright_luminance_);
+      return static_cast<float>(shot_noise_share_.at(luminance));
     };
     change = std::max(change, greatest_factor(before, after, share));
   }

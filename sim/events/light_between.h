@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/base/time.h"
+#include "sim/events/noise.h"
 #include "sim/events/response.h"
 #include "sim/events/spec.h"
 
@@ -15,12 +16,14 @@ namespace dodgesim {
 //
 // A camera with noise makes events all the time, however little there is to see: steps of no more
 // than kLongestStepUs, so that memory need not hold more than the events of a step. Bandwidth and
-// shot noise, which depend on the light, are the same for all of a step: as many steps as it takes
-// for neither to change by more than the factor kMostChange from one to the next, in any pixel.
+// shot noise, which depend on the light, are the same for all of a step: as many steps as there are
+// factors of kChange between their values in the two pictures, in the pixel where that is most, but
+// no more than kMostChanges. It is the response that runs straight, not the rate: from black to
+// white a single step may change a bandwidth by 1.7 (`noisy`), and shot noise by 2.8.
 class LightBetween {
  public:
   static constexpr TimeUs kLongestStepUs = 50000;
-  static constexpr double kMostChange = 1.2;
+  static constexpr double kChange = 1.2, kMostChanges = 100;
 
   explicit LightBetween(const EventCameraSpec& spec);
 
@@ -40,7 +43,7 @@ class LightBetween {
   bool noisy_;
   bool bandwidth_changes_, shot_noise_changes_;
   float dark_luminance_;  // which would give the bandwidth that there is in the dark
-  float bright_luminance_, bright_loss_;  // of shot noise
+  ShotNoiseShare shot_noise_share_;
 };
 
 }  // namespace dodgesim

@@ -9,8 +9,6 @@ namespace dodgesim {
 
 namespace {
 
-constexpr double kBrightLux = 1000;
-
 std::vector<PixelRate> rates_of_shot_noise(const EventCameraSpec& spec,
                                            std::span<const Thresholds> thresholds) {
   if (spec.shot_noise_on_hz + spec.shot_noise_off_hz <= 0) return {};
@@ -54,8 +52,7 @@ double since_reset_s(double u, double leak_period_s, double noise_hz) {
 Noise::Noise(const EventCameraSpec& spec, int width, std::span<const Thresholds> thresholds,
              std::uint64_t seed, std::uint64_t throw_index, std::string_view name)
     : width_(width),
-      bright_share_(spec.shot_noise_bright_share),
-      bright_luminance_(kBrightLux / spec.illuminance_lux),
+      shot_share_(spec),
       shot_rates_(rates_of_shot_noise(spec, thresholds)),
       hot_rates_(rates_of_hot_pixels(spec, thresholds.size(),
                                      RandomStream(seed, 0, stream_name(name, "hot pixels")))),
@@ -68,15 +65,11 @@ void Noise::reset(TimeUs t_us) {
   waiting_.clear();
 }
 
-double Noise::accepted_share(float luminance) const {
-  return 1 - (1 - bright_share_) * std::min(1.0, luminance / bright_luminance_);
-}
-
 double Noise::rate_hz(std::uint32_t pixel, float luminance) const {
   const auto sum = [](const PixelRate& rate) { return rate.on_hz + rate.off_hz; };
   const auto hot = std::ranges::lower_bound(hot_rates_, pixel, {}, &PixelRate::pixel);
   const double shot_hz = shot_rates_.empty() ? 0 : sum(shot_rates_[pixel]);
-  return shot_hz * accepted_share(luminance) +
+  return shot_hz * shot_share_.at(luminance) +
          (hot != hot_rates_.end() && hot->pixel == pixel ? sum(*hot) : 0);
 }
 
@@ -94,7 +87,7 @@ std::span<const NoiseEvent> Noise::take(TimeUs t_us, const Rect& region, const f
     const auto x = static_cast<int>(event.pixel) % width_;
     const auto y = static_cast<int>(event.pixel) / width_;
     if (x < region.x0 || x >= region.x1 || y < region.y0 || y >= region.y1) return false;
-    if (cause == kCauseHotPixel || event.chance < accepted_share(luminance[event.pixel])) {
+    if (cause == kCauseHotPixel || event.chance < shot_share_.at(luminance[event.pixel])) {
       taken_.push_back({event.t_us, event.pixel, event.on, cause});
     }
     return true;

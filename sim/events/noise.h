@@ -3,6 +3,7 @@
 // has it: Hu et al. 2021), and hot pixels.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -32,6 +33,22 @@ struct NoiseEvent {
 // or by its leak, once it has been spared for a whole period. `u` is uniform in (0, 1).
 double since_reset_s(double u, double leak_period_s, double noise_hz);
 
+// Which share of the shot noise in the dark is left in the light.
+class ShotNoiseShare {
+ public:
+  explicit ShotNoiseShare(const EventCameraSpec& spec)
+      : bright_share_(spec.shot_noise_bright_share),
+        bright_luminance_(kBrightLux / spec.illuminance_lux) {}
+
+  double at(float luminance) const {
+    return 1 - (1 - bright_share_) * std::min(1.0, luminance / bright_luminance_);
+  }
+
+ private:
+  double bright_share_;
+  double bright_luminance_;  // from which on the share is bright_share_
+};
+
 class Noise {
  public:
   // `thresholds` are the pixels', row by row; `name` tells the cameras of a vehicle apart. Which
@@ -49,11 +66,8 @@ class Noise {
   std::span<const NoiseEvent> take(TimeUs t_us, const Rect& region, const float* luminance);
 
  private:
-  double accepted_share(float luminance) const;
-
   int width_;
-  double bright_share_;
-  double bright_luminance_;            // from which on the share is bright_share
+  ShotNoiseShare shot_share_;
   std::vector<PixelRate> shot_rates_;  // of all pixels, in the dark; empty: none
   std::vector<PixelRate> hot_rates_;   // of the hot pixels, in order
   PoissonEvents shot_;

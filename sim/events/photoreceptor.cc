@@ -16,8 +16,6 @@ namespace dodgesim {
 
 namespace {
 
-constexpr double kReferenceLux = 1000;
-
 // Two low-passes are taken as equal when their cut-offs differ by less than this share: the
 // difference of nearly equal numbers would be worse than the mean of both ends.
 template <class Number>
@@ -184,7 +182,7 @@ auto kernel_for(int order, bool own_time, bool linear, int level) {
 Photoreceptor::Photoreceptor(const EventCameraSpec& spec)
     : response_(spec.log_epsilon, spec.linear_below),
       order_((spec.photoreceptor_hz > 0 ? 1 : 0) + (spec.follower_hz > 0 ? 1 : 0)),
-      rad_s_(2 * std::numbers::pi * spec.photoreceptor_hz * spec.illuminance_lux / kReferenceLux),
+      rad_s_(2 * std::numbers::pi * spec.photoreceptor_hz * spec.illuminance_lux / kBrightLux),
       dark_rad_s_(2 * std::numbers::pi *
                   (spec.photoreceptor_hz > 0 ? spec.photoreceptor_dark_hz : spec.follower_hz)),
       follower_rad_s_(2 * std::numbers::pi * spec.follower_hz) {}

@@ -6,6 +6,9 @@
 
 namespace dodgesim {
 
+// At which the rates of noise and bandwidth are given.
+inline constexpr double kBrightLux = 1000;
+
 // The pixels and the readout of an event camera. Luminance is relative: 1 is a white surface under
 // `illuminance_lux`. A value of 0 switches a part off unless its description says otherwise.
 struct EventCameraSpec {

@@ -149,7 +149,7 @@ std::string comparison_text(const Comparison& comparison, const std::string& fir
                     c.gained.size());
   return text + left_out(c.only_first, "only " + first + " has them") +
          left_out(c.only_second, "only " + second + " has them") +
-         left_out(c.counts_differ, "they would have hit in one campaign only");
+         left_out(c.counts_differ, "in one campaign only they could be flown and would have hit");
 }
 
 std::string list_of(const std::vector<std::string>& items) {

@@ -26,7 +26,7 @@ struct Comparison {
   Proportion first, second;  // successes of the throws that count; paired: in both campaigns
   PairedCounts counts;       // when paired
   // When paired, numbers of the throws that cannot be compared and are in no count: those that only
-  // one campaign has, and those that would have hit in only one.
+  // one campaign has, and those that count in only one (ThrowOutcome::counts).
   std::vector<int> only_first, only_second, counts_differ;
   std::vector<ChangedThrow> lost, gained;  // when paired
 };

@@ -60,7 +60,8 @@ GateCheck throws_are_the_same(const Comparison& comparison, bool same_machine) {
   };
   add("of the baseline only", comparison.only_first);
   add("of this campaign only", comparison.only_second);
-  add("that would have hit in the baseline or now, but not both", comparison.counts_differ);
+  add("that could be flown and would have hit in the baseline or now, but not both",
+      comparison.counts_differ);
   if (reason.empty()) return {name, Result::kPassed, ""};
   const bool all_there = comparison.only_first.empty() && comparison.only_second.empty();
   if (all_there && !same_machine) return {name, Result::kPassed, reason};

@@ -98,6 +98,10 @@ bool flew(const CsvTable& table, std::size_t row, const char* status) {
 void judge(const CsvTable& table, std::size_t row, ThrowOutcome& out) {
   const bool thrown = !out.draw.empty();
   const bool judged = flew(table, row, "none_status");  // it is known whether it would hit
+  const auto failed = [&](const char* status) {
+    return table.at(row, status) == "error" || table.at(row, status) == "lost";
+  };
+  out.failed = failed("flown_status") || failed("none_status");
   out.nobody_could_fly = thrown && table.at(row, "flown_status") == "error" && !judged &&
                          !flew(table, row, "oracle_status");
   out.counts = !out.nobody_could_fly && (!thrown || !judged || table.boolean(row, "none_hit"));

@@ -42,6 +42,7 @@ struct ThrowOutcome {
   // could fly.
   bool counts = false;
   bool nobody_could_fly = false;  // ThrowResult::nobody_could_fly()
+  bool failed = false;            // the pilot's flight, or that without a pilot
   // Neither hit nor crashed, nor given up on with a landing; without a throw, no dodge either.
   bool success = false;
   // "dodged", "hit", "crashed", "landed", "evaded nothing", "quiet", "error: ..."; "not judged:

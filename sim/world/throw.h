@@ -20,7 +20,7 @@ namespace dodgesim {
 // between a low and a high arc, and slow throws are lobs.
 struct Throw {
   ObjectSpec object;
-  double speed_mps = 6;    // mean closing speed over the ground
+  double speed_mps = 6;    // the object's own mean speed over the ground
   double distance_m = 3;   // over the ground, from the launch to the aim point
   double bearing_deg = 0;  // where it comes from, against the vehicle's heading, positive left
   Eigen::Vector2d aim_offset_m = Eigen::Vector2d::Zero();  // left, up, for a viewer at the vehicle

@@ -30,8 +30,8 @@ struct VehicleOverrides {
     v("inertia_scale", inertia_scale, 0.1, 10, "Factor on its moments of inertia.");
     v("max_thrust_n", max_thrust_n, 0, 1000,
       "Greatest thrust of a rotor, in place of the model's; 0: as in the model. Four times "
-      "controller.max_thrust_fraction of it must lift at least 1.2 times the weight: with the "
-      "default fraction of 0.9 the rotors at full thrust 1.33 times.");
+      "controller.max_thrust_fraction of it must lift at least 1.2 times the weight; with the "
+      "default fraction of 0.9 that is 1.33 times the weight at full thrust.");
     v("stereo_baseline_m", stereo_baseline_m, 0, 1,
       "Distance between the two cameras, each moved as far from their middle, which stays; the "
       "pilot's calibration has it, too. The hull stays as it is. 0: as in the model.");

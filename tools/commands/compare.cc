@@ -44,17 +44,6 @@ bool has_stop(const std::filesystem::path& directory) {
   return false;
 }
 
-int failed_throws(const CsvTable& throws) {
-  int failed = 0;
-  for (std::size_t row = 0; row < throws.rows(); ++row) {
-    const auto is_failed = [](const std::string& status) {
-      return status == "error" || status == "lost";
-    };
-    failed += is_failed(throws.at(row, "flown_status")) || is_failed(throws.at(row, "none_status"));
-  }
-  return failed;
-}
-
 // What was changed from one campaign to the other, if both have their scenarios.
 void print_difference(const std::filesystem::path& first, const std::filesystem::path& second) {
   constexpr std::size_t kMost = 10;
@@ -92,7 +81,8 @@ std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& d
     std::cerr << "In " << directory.string() << " " << count_text(of_nobody, "throw")
               << " could not be flown, whoever the pilot: left out.\n";
   }
-  const auto failed = failed_throws(tables.throws) - of_nobody;
+  const auto failed = std::ranges::count_if(
+      all, [](const ThrowOutcome& o) { return o.failed && !o.nobody_could_fly; });
   if (failed > 0) {
     std::cerr << "In " << directory.string() << " " << count_text(failed, "throw")
               << " could not be flown and count as not dodged.\n";

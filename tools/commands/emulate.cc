@@ -51,8 +51,8 @@ or the readout would stamp later is not in it. The file appears when it is whole
 
 Frames have up to 4096 rows and columns, and are at most 1073 s apart. Between two frames
 a camera is shown pictures along the straight line of L: one with leak or noise at least every
-50 ms, and as many as it takes for bandwidth and shot noise, which depend on the light, to change
-by no more than a fifth from one to the next. Memory holds two frames and the events up to the
+50 ms, and about one for each fifth by which bandwidth or shot noise, which depend on the light,
+change. Memory holds two frames and the events up to the
 next picture, however long the video is. The speeds printed
 are of the emulation alone, beside cv::log of the same frames in the same run, on one thread; with
 --causes none are printed.

@@ -56,7 +56,7 @@ A number under `throw` may be a distribution, from which every throw draws a val
 `aim_offset_m` and `spin_radps` take a list, one number or distribution for each component, or a
 single one. `object` takes a name or a `!choice` of names. A throw's draws depend only on `seed`, the
 number of the throw and the key: changing one key leaves the draws of all others as they were, and
-`dodgesim compare` pairs the throws of one seed and grid whatever other keys differ.
+`dodgesim compare` pairs the throws of one seed, grid and sweep, whatever other keys differ.
 
 ## Grids
 

@@ -93,7 +93,8 @@ function fillErrors() {
   const counts = [];
   if (nobodys) counts.push(`Throws that no pilot could fly, which no rate counts: ${nobodys}.`);
   if (wrong.length > nobodys) {
-    counts.push(`Throws with a flight that failed, which is no success: ${wrong.length - nobodys}.`);
+    const others = wrong.length - nobodys;
+    counts.push(`Throws of which a flight failed, which is no success of that pilot: ${others}.`);
   }
   const some = wrong.slice(0, 12).map((i) => {
     const button = make('button', {type: 'button', textContent: `Throw ${throws.number[i]}`});

@@ -39,12 +39,12 @@ function fillHeat() {
   }));
 }
 
-// A line for each of `rows`: [{values, rates, label, press}], with no rate of who did not
-// fly. `names`: of the rates.
+// A line for each of `rows`: [{values, rates, label, press}]. The rate of a pilot that did not fly
+// is undefined, and its cell empty. `names`: of the rates.
 function rateTable(keys, names, rows) {
   const head = [...keys, ...names];
-  const cells = (row) => [...row.values.map((text) => make('td', {textContent: text})),
-                          ...row.rates.map((rate) => make('td', {textContent: rate ? rateText(rate) : ''}))];
+  const texts = (row) => [...row.values, ...row.rates.map((rate) => (rate ? rateText(rate) : ''))];
+  const cells = (row) => texts(row).map((text) => make('td', {textContent: text}));
   return make('table', {},
       make('thead', {}, make('tr', {}, ...head.map((text) => make('th', {textContent: text,
                                                                          scope: 'col'})))),

@@ -99,9 +99,9 @@ TEST(TableFormats, TheRowOfThePilotNoneSaysHowManyWouldHaveHit) {
   const Interval share = wilson(1, 2), undodged = wilson(0, 1);
   const auto json = parse_json(to_json(grouped))[0]["pilots"][1];
   EXPECT_EQ(json["pilot"], "none");
-  EXPECT_EQ(json["would_have_hit"]["count"], 1);
-  EXPECT_EQ(json["would_have_hit"]["of"], 2);
-  EXPECT_EQ(json["would_have_hit"]["hi"], share.hi);
+  EXPECT_EQ(json["would_have_hit_rate"]["count"], 1);
+  EXPECT_EQ(json["would_have_hit_rate"]["of"], 2);
+  EXPECT_EQ(json["would_have_hit_rate"]["hi"], share.hi);
   EXPECT_EQ(json["dodged"]["of"], 1);
   EXPECT_EQ(json["dodged"]["hi"], undodged.hi);
   const std::vector<std::string> rows = lines(to_csv(grouped));

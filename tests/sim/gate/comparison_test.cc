@@ -56,7 +56,18 @@ TEST(Comparison, LeavesOutWhatWouldHaveHitInOneCampaignOnly) {
   EXPECT_EQ(c.counts.total(), 1);
   EXPECT_THAT(c.counts_differ, ElementsAre(1, 2));
   EXPECT_THAT(comparison_text(c, "a", "b"),
-              HasSubstr("Left out, because they would have hit in one campaign only: throws 1, 2"));
+              HasSubstr("Left out, because in one campaign only they could be flown and would have "
+                        "hit: throws 1, 2"));
+}
+
+TEST(Comparison, LeavesOutWhatNobodyCouldFlyInOneCampaign) {
+  std::vector<ThrowOutcome> first = outcomes(tables_of("ddd")), second = first;
+  second[1].nobody_could_fly = true;
+  second[1].counts = false;
+  const Comparison c = compare(first, second);
+  EXPECT_TRUE(c.paired);
+  EXPECT_EQ(c.counts.total(), 2);
+  EXPECT_THAT(c.counts_differ, ElementsAre(1));
 }
 
 TEST(Comparison, TakesTheCommonPartOfCampaignsOfDifferentLength) {

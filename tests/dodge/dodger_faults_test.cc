@@ -1,0 +1,97 @@
+// Sensors that are broken, or whose clocks are off.
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "dodge/dodger.h"
+#include "tests/dodge/synthetic_flight.h"
+
+namespace dodge {
+namespace {
+
+using synthetic::Flight, synthetic::kCycleUs, synthetic::still;
+
+Config two_cameras() {
+  Config config;
+  config.cameras = synthetic::vertical_pair();
+  return config;
+}
+
+// The commands of a throw at which `spoil` adds to what the flight hands over, cycle by cycle.
+std::vector<VelocityCommand> commands(Dodger& dodger,
+                                      const std::function<void(Dodger&, TimeUs)>& spoil) {
+  Flight flight(still, {synthetic::thrown_ball({3, 0, 0}, {0, 0, 0.1}, 5, 0.3, 1)}, {}, 5);
+  std::vector<VelocityCommand> commands;
+  for (TimeUs t = kCycleUs; t <= 500000; t += kCycleUs) {
+    flight.advance(t);
+    spoil(dodger, t);
+    commands.push_back(flight.feed(dodger));
+  }
+  return commands;
+}
+
+TEST(DodgerFaults, TimeStampsFarOffCostTheirOwnEventsOnly) {
+  Dodger undisturbed(two_cameras()), disturbed(two_cameras());
+  const auto nothing = [](Dodger&, TimeUs) {};
+  const auto wrong = [](Dodger& dodger, TimeUs t) {
+    if (t != 20 * kCycleUs) return;
+    const std::vector<Event> events = {{.t_us = t + 10000000, .x = 9, .y = 9, .polarity = 1},
+                                       {.t_us = t - 8 * kCycleUs, .x = 9, .y = 9, .polarity = 1}};
+    for (int camera = 0; camera < 2; ++camera) dodger.add_events(camera, events);
+  };
+  const std::vector<VelocityCommand> right = commands(undisturbed, nothing);
+  const std::vector<VelocityCommand> same = commands(disturbed, wrong);
+  bool evading = false;
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    ASSERT_EQ(same[i].v_W, right[i].v_W) << i;
+    ASSERT_EQ(same[i].t_us, right[i].t_us) << i;
+    evading |= right[i].evading;
+  }
+  EXPECT_TRUE(evading);
+  for (int camera = 0; camera < 2; ++camera) {
+    EXPECT_EQ(undisturbed.dropped_events(camera), 0);
+    EXPECT_EQ(disturbed.dropped_events(camera), 2);
+  }
+  EXPECT_EQ(disturbed.dropped_events(7), 0);
+}
+
+TEST(DodgerFaults, ABrokenGyroscopeIsSurvived) {
+  Dodger dodger(two_cameras());
+  int cycles = 0;
+  const auto broken = [&cycles](Dodger& handed, TimeUs t) {
+    const double sign = ++cycles % 2 == 0 ? 1 : -1;
+    handed.add_imu({t, sign * Eigen::Vector3d(1.7e308, 1.7e308, -1.7e308), {}});
+  };
+  for (const VelocityCommand& command : commands(dodger, broken)) {
+    ASSERT_TRUE(command.v_W.allFinite());
+  }
+}
+
+TEST(DodgerFaults, EventsALittleAheadWaitForTheirTime) {
+  Dodger dodger(two_cameras());
+  dodger.set_capture(true);
+  dodger.add_events(0, std::vector<Event>{{.t_us = 100000 + Dodger::kMostAheadUs, .polarity = 1}});
+  dodger.update(100000);
+  EXPECT_TRUE(dodger.stage_images(0).window.empty());
+  dodger.update(100000 + Dodger::kMostAheadUs);
+  EXPECT_EQ(dodger.stage_images(0).window.size(), 1U);
+  EXPECT_EQ(dodger.dropped_events(0), 0);
+}
+
+TEST(DodgerFaults, TellsHowOldItsDataAre) {
+  Dodger dodger(two_cameras());
+  dodger.update(5000);
+  EXPECT_FALSE(dodger.newest_event_us(0).has_value());
+  EXPECT_FALSE(dodger.newest_state_us().has_value());
+  dodger.add_events(0, std::vector<Event>{{.t_us = 9000}});
+  dodger.add_state({.t_us = 8000});
+  dodger.update(10000);
+  dodger.update(1000000);  // blind since
+  EXPECT_EQ(dodger.newest_event_us(0), 9000);
+  EXPECT_FALSE(dodger.newest_event_us(1).has_value());
+  EXPECT_EQ(dodger.newest_state_us(), 8000);
+  EXPECT_FALSE(dodger.newest_event_us(2).has_value());
+}
+
+}  // namespace
+}  // namespace dodge
