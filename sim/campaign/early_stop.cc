@@ -25,22 +25,27 @@ void EarlyStop::add(const ThrowResult& result) {
     waiting_.clear();
     break;
   }
-  interval_ = find_interval();
+  if (end_ || all_flown()) last_interval_ = find_last_interval();
+}
+
+SequentialInterval EarlyStop::interval() const {
+  if (last_interval_) return {*last_interval_, spec_.confidence};
+  return {confidence_sequence(sum_.dodged, sum_.would_have_hit, spec_.confidence),
+          spec_.confidence};
 }
 
 // Which throws would have hit does not depend on the pilot: nobody dodges there.
-Interval EarlyStop::find_interval() const {
+Interval EarlyStop::find_last_interval() const {
   const int dodged = sum_.dodged, trials = sum_.would_have_hit;
   if (trials == 0) return {0, 1};
-  if (end_) return rule_.interval(dodged, trials);
-  if (all_flown()) return rule_.run_out(trials).interval(dodged, trials);
-  return confidence_sequence(dodged, trials, spec_.confidence);
+  return (end_ ? rule_ : rule_.run_out(trials)).interval(dodged, trials);
 }
 
 std::string EarlyStop::text() const {
   const int dodged = sum_.dodged, trials = sum_.would_have_hit;
+  const Interval interval = this->interval().interval;
   const std::string counts = formatted("%d of %d dodged, %.4g %% interval %.3f to %.3f", dodged,
-                                       trials, 100 * spec_.confidence, interval_.lo, interval_.hi);
+                                       trials, 100 * spec_.confidence, interval.lo, interval.hi);
   const std::string asked = formatted("asked for: +- %g).", spec_.half_width);
   if (end_ || !all_flown()) {
     return formatted("%s after %d throws: ", end_ ? "Ended by stop" : "Not ended by stop", next_) +
@@ -49,7 +54,7 @@ std::string EarlyStop::text() const {
   const double rate = trials > 0 ? static_cast<double>(dodged) / trials : 0.5;
   return formatted("All %d throws flown: ", next_) + counts +
          formatted(" (valid though the results could have stopped it; known to +- %.3f, ",
-                   std::max(interval_.hi - rate, rate - interval_.lo)) +
+                   std::max(interval.hi - rate, rate - interval.lo)) +
          asked;
 }
 

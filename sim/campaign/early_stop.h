@@ -26,7 +26,7 @@ class EarlyStop {
 
   // Of the success rate over the throws so far or, after the end, over those before it. It holds
   // although the campaign chose when to stop; of a campaign under way it is much wider.
-  SequentialInterval interval() const { return {interval_, spec_.confidence}; }
+  SequentialInterval interval() const;
 
   // Of the throws so far or, after the end, of those before it: dodged of those that would have
   // hit, with that interval. One sentence.
@@ -34,7 +34,7 @@ class EarlyStop {
 
  private:
   bool all_flown() const { return next_ == planned_; }
-  Interval find_interval() const;
+  Interval find_last_interval() const;
 
   StopSpec spec_;
   int planned_;  // throws of the scenario
@@ -43,7 +43,7 @@ class EarlyStop {
   int next_ = 0;                  // number of the throw that is counted next
   Tally sum_;
   std::optional<int> end_;
-  Interval interval_{0, 1};
+  std::optional<Interval> last_interval_;  // when the campaign has ended
 };
 
 }  // namespace dodgesim

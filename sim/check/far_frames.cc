@@ -35,7 +35,7 @@ std::vector<Event> film(const EventCameraSpec& spec, TimeUs interval_us, std::in
                         std::uint64_t seed) {
   EventCamera camera(spec, kFrameWidth, kFrameHeight, seed, 0, "check");
   const LightBetween light(spec);
-  std::vector<float> before = random_frame(0, seed), between;
+  std::vector<float> before = random_frame(0, seed);
   std::vector<Event> events;
   camera.reset(0, before.data());
   TimeUs t_us = 0;
@@ -43,10 +43,9 @@ std::vector<Event> film(const EventCameraSpec& spec, TimeUs interval_us, std::in
     const std::vector<float> after = random_frame(i, seed);
     const std::int64_t steps =
         fine_steps > 0 ? fine_steps : light.steps(interval_us, before, after);
-    for (std::int64_t k = 1; k < steps; ++k) {
-      light.at(static_cast<double>(k) / static_cast<double>(steps), before, after, between);
-      camera.update(t_us + interval_us * k / steps, between.data(), events);
-    }
+    light.show_between(
+        steps, t_us, before, t_us + interval_us, after,
+        [&](TimeUs at_us, const auto& seen) { camera.update(at_us, seen.data(), events); });
     camera.update(t_us + interval_us, after.data(), events);
     before = after;
   }

@@ -120,8 +120,7 @@ struct ThrowSpec {
     v("speed_mps", speed_mps, 0.5, 30,
       "The object's own mean speed over the ground: it reaches the aim point distance_m / "
       "speed_mps after its launch. On a vehicle that flies towards it, it closes faster by the "
-      "vehicle's "
-      "speed. A ball that meets the room on its way, such as a slow lob the ceiling, "
+      "vehicle's speed. A ball that meets the room on its way, such as a slow lob the ceiling, "
       "counts as one that would have missed.");
     v("distance_m", distance_m, 0.5, 20,
       "Distance over the ground from the launch to the aim point, where the vehicle will be on "

@@ -36,6 +36,17 @@ class LightBetween {
   void at(double share, const std::vector<float>& before, const std::vector<float>& after,
           std::vector<float>& between) const;
 
+  // Calls show(t_us, luminance) for each picture between two, in that many steps.
+  template <class Show>
+  void show_between(std::int64_t steps, TimeUs before_us, const std::vector<float>& before,
+                    TimeUs after_us, const std::vector<float>& after, const Show& show) const {
+    std::vector<float> between;
+    for (std::int64_t k = 1; k < steps; ++k) {
+      at(static_cast<double>(k) / static_cast<double>(steps), before, after, between);
+      show(before_us + (after_us - before_us) * k / steps, between);
+    }
+  }
+
  private:
   double greatest_change(const std::vector<float>& before, const std::vector<float>& after) const;
 

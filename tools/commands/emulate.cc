@@ -49,13 +49,12 @@ EVENTS:
 t of .npy and .txt is of the clock of T.npy. The recording ends with the last frame: what latency
 or the readout would stamp later is not in it. The file appears when it is whole.
 
-Frames have up to 4096 rows and columns, and are at most 1073 s apart. Between two frames
-a camera is shown pictures along the straight line of L: one with leak or noise at least every
-50 ms, and about one for each fifth by which bandwidth or shot noise, which depend on the light,
-change. Memory holds two frames and the events up to the
-next picture, however long the video is. The speeds printed
-are of the emulation alone, beside cv::log of the same frames in the same run, on one thread; with
---causes none are printed.
+Frames have up to 4096 rows and columns, and are at most 1073 s apart. Between two frames a camera
+is shown pictures along the straight line of L: one with leak or noise at least every 50 ms, and
+about one for each fifth by which bandwidth or shot noise, which depend on the light, change.
+Memory holds two frames and the events up to the next picture, however long the video is. The
+speeds printed are of the emulation alone, beside cv::log of the same frames in the same run, on
+one thread; with --causes none are printed.
 
 Examples:
   dodgesim emulate video.npy --timestamps t.npy --camera ideal --out events.h5
@@ -118,7 +117,7 @@ class Emulation {
 void emulate(FrameReader& video, const LightBetween& light, Emulation& emulation) {
   Progress progress(video.frame_count(), ::isatty(STDERR_FILENO) == 1, "frames");
   TimeUs before_us = 0, t_us = 0;
-  std::vector<float> before, luminance, between;
+  std::vector<float> before, luminance;
   video.next(t_us, luminance);
   emulation.begin(t_us, luminance);
   std::int64_t frames = 1;
@@ -127,10 +126,9 @@ void emulate(FrameReader& video, const LightBetween& light, Emulation& emulation
     before_us = t_us;
     if (!video.next(t_us, luminance)) break;
     const std::int64_t steps = light.steps(t_us - before_us, before, luminance);
-    for (std::int64_t k = 1; k < steps; ++k) {
-      light.at(static_cast<double>(k) / static_cast<double>(steps), before, luminance, between);
-      emulation.show(before_us + (t_us - before_us) * k / steps, between, true);
-    }
+    light.show_between(
+        steps, before_us, before, t_us, luminance,
+        [&](TimeUs at_us, const auto& between) { emulation.show(at_us, between, true); });
     emulation.show(t_us, luminance, false);
     progress.show(++frames);
   }

@@ -97,14 +97,11 @@ TEST(LightBetween, LetsBandwidthFollowTheLight) {
   for (const auto& [from, to] : {std::pair{1.0F, 0.01F}, std::pair{0.05F, 0.8F}}) {
     EventCamera camera(spec, 1, 1, 1, 0, "test");
     const std::vector<float> before = {from}, after = {to};
-    std::vector<float> between;
     std::vector<Event> events;
     camera.reset(0, before.data());
-    const std::int64_t steps = light.steps(1000, before, after);
-    for (std::int64_t k = 1; k < steps; ++k) {
-      light.at(static_cast<double>(k) / static_cast<double>(steps), before, after, between);
-      camera.update(1000 * k / steps, between.data(), events);
-    }
+    light.show_between(
+        light.steps(1000, before, after), 0, before, 1000, after,
+        [&](TimeUs at_us, const auto& seen) { camera.update(at_us, seen.data(), events); });
     camera.update(1000, after.data(), events);
     camera.update(100000, after.data(), events);
     const auto expected =
