@@ -53,7 +53,7 @@ void Problems::raise_if_any() const {
     message += place(problem.at) + ": " + problem.sentence;
   }
   if (left_out_ > 0) {
-    message += "\n" + file() + ": and " + std::to_string(left_out_) + " more problems.";
+    message += "\n" + sources_.front() + ": and " + std::to_string(left_out_) + " more problems.";
   }
   throw ScenarioError(message);
 }

@@ -41,9 +41,7 @@ class Problems {
   // "file:line:column", or "file" alone.
   std::string place(Position at) const;
 
-  bool empty() const { return problems_.empty(); }
   const std::vector<Problem>& all() const { return problems_; }  // but those that are only counted
-  const std::string& file() const { return sources_.front(); }
 
  private:
   std::vector<std::string> sources_;

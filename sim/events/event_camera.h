@@ -63,7 +63,6 @@ class EventCamera {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  TimeUs time_us() const { return t_us_; }
   PixelState pixel(int x, int y) const;
   // Why the events of the last update() happened, one by one.
   const std::vector<Cause>& causes() const { return causes_; }

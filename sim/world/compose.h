@@ -13,13 +13,6 @@ namespace dodgesim {
 struct ObjectSpec {
   std::string kind = "ball";
   double size_m = 0.2;  // longest edge or diameter, 0.01 to 1
-
-  template <class Visitor>
-  void visit(Visitor& v) {
-    v("kind", kind, "Kind of object: the name of a file in models/objects, without .xml.");
-    v("size_m", size_m, 0.01, 1.0,
-      "Size of the object: a ball's diameter, the longest edge of a box.");
-  }
 };
 
 struct WorldSpec {
