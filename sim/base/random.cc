@@ -86,8 +86,6 @@ double RandomStream::normal() {
   return normal_quantile((cell + 0.5) * (1.0 / 4503599627370496.0));
 }
 
-double RandomStream::exponential(double rate) { return -std::log1p(-uniform()) / rate; }
-
 double normal_quantile(double p) {
   const double q = p - 0.5;
   if (std::abs(q) <= 0.425) {

@@ -17,8 +17,7 @@ class RandomStream {
   std::uint32_t next_u32();
   double uniform();  // in [0, 1), 53 bits
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-  double normal();                  // mean 0, standard deviation 1 (inverse CDF, portable)
-  double exponential(double rate);  // mean 1/rate
+  double normal();  // mean 0, standard deviation 1 (inverse CDF, portable)
 
   // Random access: the 128-bit block number `counter` of this stream. Does not disturb the
   // sequential draws (which use a counter range of their own).

@@ -43,13 +43,12 @@ RateThrustCommand VelocityController::update(const StateReading& state,
                                                      : feedback_normal(state, reference.v_W, dt_s);
   const Eigen::Vector3d drag_W =
       state.q_W * drag_1ps_.cwiseProduct(state.q_W.conjugate() * v_ref_W_);
-  a_des_W_ = limited(feedback + Eigen::Vector3d(0, 0, kGravityMps2) + drag_W);
-  q_des_W_ = attitude(thrust_direction(a_des_W_, reference.evading));
+  const Eigen::Vector3d a_des_W = limited(feedback + Eigen::Vector3d(0, 0, kGravityMps2) + drag_W);
 
   RateThrustCommand command;
-  command.w_B_radps = body_rates(state.q_W);
+  command.w_B_radps = body_rates(state.q_W, attitude(thrust_direction(a_des_W, reference.evading)));
   const Eigen::Vector3d v_B = state.q_W.conjugate() * state.v_W;
-  const double along_z_mps2 = a_des_W_.dot(state.q_W * Eigen::Vector3d::UnitZ());
+  const double along_z_mps2 = a_des_W.dot(state.q_W * Eigen::Vector3d::UnitZ());
   command.thrust_mps2 = std::clamp(
       std::max(spec_.min_thrust_mps2, along_z_mps2) - drag_kh_1pm_ * v_B.head<2>().squaredNorm(),
       0.0, max_thrust_mps2_);
@@ -138,8 +137,9 @@ Eigen::Quaterniond VelocityController::attitude(const Eigen::Vector3d& a_W) cons
   return Eigen::Quaterniond(R_W);
 }
 
-Eigen::Vector3d VelocityController::body_rates(const Eigen::Quaterniond& q_W) const {
-  const Eigen::Quaterniond q_e = q_W.conjugate() * q_des_W_;
+Eigen::Vector3d VelocityController::body_rates(const Eigen::Quaterniond& q_W,
+                                               const Eigen::Quaterniond& q_des_W) const {
+  const Eigen::Quaterniond q_e = q_W.conjugate() * q_des_W;
   const double sign = q_e.w() < 0 ? -1 : 1;
   const Eigen::Vector3d rates =
       2 * sign * xyz(spec_.attitude_gain_xy_1ps, spec_.attitude_gain_z_1ps).cwiseProduct(q_e.vec());

@@ -126,10 +126,6 @@ class VelocityController {
   // a_des within the limits of thrust and tilt, gravity included [m/s^2].
   Eigen::Vector3d limited(const Eigen::Vector3d& a_W) const;
 
-  // Of the last update.
-  const Eigen::Vector3d& reference_p_W() const { return p_ref_W_; }
-  const Eigen::Vector3d& desired_a_W() const { return a_des_W_; }
-
  private:
   void start(const StateReading& state);
   Eigen::Vector3d advance_filter(const Eigen::Vector3d& v_W, double dt_s);
@@ -138,7 +134,8 @@ class VelocityController {
   Eigen::Vector3d feedback_evading(const StateReading& state, const Eigen::Vector3d& v_W);
   Eigen::Vector3d thrust_direction(const Eigen::Vector3d& a_W, bool evading) const;
   Eigen::Quaterniond attitude(const Eigen::Vector3d& a_W) const;
-  Eigen::Vector3d body_rates(const Eigen::Quaterniond& q_W) const;
+  Eigen::Vector3d body_rates(const Eigen::Quaterniond& q_W,
+                             const Eigen::Quaterniond& q_des_W) const;
 
   ControllerSpec spec_;
   Eigen::Vector3d drag_1ps_;
@@ -150,8 +147,6 @@ class VelocityController {
   Eigen::Vector3d p_ref_W_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_ref_W_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_filter_W_ = Eigen::Vector3d::Zero();  // the low-pass of the command
-  Eigen::Vector3d a_des_W_ = Eigen::Vector3d::Zero();
-  Eigen::Quaterniond q_des_W_ = Eigen::Quaterniond::Identity();
 };
 
 }  // namespace dodgesim

@@ -31,10 +31,8 @@ void EventHash::Free::operator()(XXH64_state_s* state) const { XXH64_freeState(s
 
 EventHash::EventHash() : state_(XXH64_createState()) {
   if (!state_) throw std::bad_alloc();
-  reset();
+  XXH64_reset(state_.get(), 0);
 }
-
-void EventHash::reset() { XXH64_reset(state_.get(), 0); }
 
 void EventHash::add(std::span<const Event> events) {
   std::array<unsigned char, kBlock * kEventBytes> bytes;

@@ -17,7 +17,6 @@ class EventHash {
  public:
   EventHash();
 
-  void reset();
   void add(std::span<const Event> events);
   std::uint64_t value() const;
 

@@ -60,7 +60,6 @@ class Imu {
       std::string_view name = "imu");
 
   bool due(TimeUs t_us) const { return clock_.due(t_us); }
-  TimeUs period_us() const { return clock_.period_us(); }
 
   // Call at increasing instants.
   ImuReading sample(const Snapshot& truth);

@@ -22,7 +22,6 @@ class SampleClock {
     period_us_ = 1000000 / rate_hz;
   }
 
-  TimeUs period_us() const { return period_us_; }
   bool due(TimeUs t_us) const { return t_us % period_us_ == 0; }
 
  private:

@@ -72,7 +72,6 @@ class StateEstimator {
   StateEstimator(const StateEstimateSpec& spec, std::uint64_t seed, std::uint64_t throw_index);
 
   bool due(TimeUs t_us) const { return clock_.due(t_us); }
-  TimeUs period_us() const { return clock_.period_us(); }
 
   // Call at increasing instants.
   StateReading sample(const Snapshot& truth);

@@ -63,8 +63,6 @@ std::optional<QuantileEstimate> estimate_quantile(std::span<const double> sorted
   estimate.value = definition_8(sorted, share);
   const auto at = [&](std::int64_t rank) { return sorted[static_cast<std::size_t>(rank - 1)]; };
   estimate.interval = {lower < 1 ? -kInfinity : at(lower), upper > n ? kInfinity : at(upper)};
-  estimate.coverage = 1 - (lower < 1 ? 0 : binomial_lower_tail(lower - 1, n, share)) -
-                      (upper > n ? 0 : binomial_upper_tail(upper, n, share));
   return estimate;
 }
 

@@ -10,8 +10,7 @@ namespace dodgesim {
 
 struct QuantileEstimate {
   double value = 0;
-  Interval interval;    // an end is infinite where the sample is too small to bound that side
-  double coverage = 0;  // of the interval for a continuous distribution; at least the confidence
+  Interval interval;  // an end is infinite where the sample is too small to bound that side
 };
 
 // Quantile of a share in [0, 1] of the distribution that the sample was drawn from; empty for an
@@ -20,8 +19,8 @@ struct QuantileEstimate {
 //             recommend: its median is near the true quantile whatever the distribution. R's
 //             quantile(type = 8); NumPy's method "median_unbiased".
 //   interval  Between two order statistics, each tail of the binomial at most (1 - confidence) / 2
-//             (Conover 1999, Practical Nonparametric Statistics, section 3.2). For a distribution
-//             with steps its closed interval covers with more than `coverage`.
+//             (Conover 1999, Practical Nonparametric Statistics, section 3.2): covers with the
+//             confidence or more, whether or not the distribution has steps.
 // `sorted` must ascend and may end with +infinity (that which never happened). Throws
 // std::invalid_argument when it does not ascend or has a NaN or -infinity.
 std::optional<QuantileEstimate> estimate_quantile(std::span<const double> sorted, double share,

@@ -156,14 +156,6 @@ double FixedWidthRule::coverage(double p) const {
   return sum;
 }
 
-double FixedWidthRule::expected_trials(double p) const {
-  double sum = 0;
-  for (const StopPoint& point : stop_points_) {
-    sum += point.probability(p) * static_cast<double>(point.trials);
-  }
-  return sum;
-}
-
 // Between two neighbouring ends of intervals the stop points that cover are the same, those between
 // two counts, and their probability rises and falls once: it is smallest next to an end.
 double FixedWidthRule::least_coverage() const {

@@ -46,12 +46,8 @@ class FixedWidthRule {
   // statement before: use confidence_sequence() for a look at a campaign under way.
   Interval interval(std::int64_t successes, std::int64_t trials) const;
 
-  std::int64_t max_trials() const { return max_trials_; }  // never more throws than this
-  double z() const { return z_; }                          // as chosen
-
-  // Exact values for a true rate of p in [0, 1], and the smallest coverage of all p.
+  // Exact, of a true rate of p in [0, 1], and the smallest of all p.
   double coverage(double p) const;
-  double expected_trials(double p) const;
   double least_coverage() const;
 
  private:

@@ -20,7 +20,6 @@ struct WorldSpec {
   std::string room = "room";        // models/rooms/<room>.xml
   std::string vehicle = "qav_rxl";  // models/vehicles/<vehicle>.xml
   std::vector<ObjectSpec> objects;
-  bool air_drag = true;  // of thrown objects; off only to compare with the parabola
   VehicleOverrides vehicle_overrides = {};
 };
 

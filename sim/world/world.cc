@@ -38,7 +38,6 @@ World::World(const WorldSpec& spec) : model_(compose_model(spec)) {
     object_bodies_.push_back(object.find(mjOBJ_BODY, object_prefix(i) + "body"));
     objects_free_.push_back(object.free_body(object_bodies_.back()));
     objects_.push_back(object.object(object_prefix(i), of.size_m));
-    if (!spec.air_drag) objects_.back().drag_area_m2 = 0;
   }
   snapshot_.objects.resize(objects_.size());
   snapshot_.launched.resize(objects_.size());

@@ -14,6 +14,7 @@
 #include "dodge/camera_model.h"
 #include "dodge/types.h"
 #include "sim/base/random.h"
+#include "tests/exponential.h"
 
 namespace dodge::synthetic {
 
@@ -212,14 +213,14 @@ class EventGenerator {
   void add_noise(TimeUs begin_us, TimeUs end_us, double rate_hz, const std::vector<int>* among,
                  std::vector<Event>& out) {
     if (rate_hz <= 0) return;
-    double t_us = static_cast<double>(begin_us) + 1e6 * random_.exponential(rate_hz);
+    double t_us = static_cast<double>(begin_us) + 1e6 * dodgesim::exponential(random_, rate_hz);
     while (t_us <= static_cast<double>(end_us)) {
       const std::size_t count = among != nullptr ? among->size() : level_.size();
       const auto pick = static_cast<std::size_t>(random_.uniform() * static_cast<double>(count));
       const int pixel = among != nullptr ? (*among)[pick] : static_cast<int>(pick);
       out.push_back(
           event(static_cast<TimeUs>(std::ceil(t_us)), pixel, random_.uniform() < 0.5 ? -1 : 1));
-      t_us += 1e6 * random_.exponential(rate_hz);
+      t_us += 1e6 * dodgesim::exponential(random_, rate_hz);
     }
   }
 

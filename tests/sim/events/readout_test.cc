@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "sim/base/random.h"
+#include "tests/exponential.h"
 
 namespace dodgesim {
 namespace {
@@ -75,7 +76,7 @@ std::vector<Request> poisson(double rate_hz, double duration_s,
   RandomStream random(2, 0, "requests");
   std::vector<Request> requests;
   double t_s = 0;
-  while ((t_s += random.exponential(rate_hz)) < duration_s) {
+  while ((t_s += exponential(random, rate_hz)) < duration_s) {
     const auto t_us = static_cast<TimeUs>(std::ceil(1e6 * t_s));
     requests.push_back({t_us, 7919 * requests.size() % pixels, requests.size() % 3 == 0});
   }

@@ -58,7 +58,7 @@ TEST(Imu, WhiteNoiseHasTheVarianceOfItsDensityAtTheRate) {
     constexpr int kSamples = 10000;
     double gyro = 0, accelerometer = 0, lagged = 0, last = 0;
     Snapshot truth;
-    for (int n = 0; n < kSamples; ++n, truth.t_us += imu.period_us()) {
+    for (int n = 0; n < kSamples; ++n, truth.t_us += 1000000 / rate_hz) {
       const ImuReading reading = imu.sample(truth);
       const Vector3d f = reading.f_B_mps2 - Vector3d(0, 0, kGravityMps2);
       gyro += reading.w_B_radps.squaredNorm() / (3 * kSamples);

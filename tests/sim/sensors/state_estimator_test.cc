@@ -111,6 +111,7 @@ TEST(StateEstimator, VelocityAndTiltErrorsAreStationaryAndForgetThemselves) {
   spec.tilt_error_correlation_s = 2;
   constexpr int kRuns = 3000;
   constexpr int kSteps = 125;
+  constexpr TimeUs kPeriodUs = 4000;
   double v_start = 0, v_end = 0, v_product = 0, tilt_end = 0, tilt_product = 0;
   for (int n = 0; n < kRuns; ++n) {
     StateEstimator estimator(spec, 1, static_cast<std::uint64_t>(n));
@@ -118,7 +119,7 @@ TEST(StateEstimator, VelocityAndTiltErrorsAreStationaryAndForgetThemselves) {
     const StateReading start = estimator.sample(truth);
     StateReading end;
     for (int i = 0; i < kSteps; ++i) {
-      truth.t_us += estimator.period_us();
+      truth.t_us += kPeriodUs;
       end = estimator.sample(truth);
     }
     v_start += start.v_W.squaredNorm() / (3 * kRuns);
@@ -130,7 +131,7 @@ TEST(StateEstimator, VelocityAndTiltErrorsAreStationaryAndForgetThemselves) {
     tilt_product += tilt.dot(attitude_error(start, level)) / (2 * kRuns);
     EXPECT_NEAR(tilt.z(), 0, 1e-9);
   }
-  const double time_s = seconds(4000) * kSteps;
+  const double time_s = seconds(kPeriodUs) * kSteps;
   EXPECT_NEAR(v_start / (0.05 * 0.05), 1, 4 * std::sqrt(2.0 / (3 * kRuns)));
   EXPECT_NEAR(v_end / (0.05 * 0.05), 1, 4 * std::sqrt(2.0 / (3 * kRuns)));
   EXPECT_NEAR(v_product / (0.05 * 0.05), std::exp(-time_s / 0.8), 4 * std::sqrt(2.0 / (3 * kRuns)));

@@ -30,24 +30,51 @@ Campaign run_until_done(const FixedWidthRule& rule, double rate, RandomStream& s
   return campaign;
 }
 
+// The number of throws at which the campaign ends at the latest: an even outcome takes longest.
+std::int64_t most_trials(const FixedWidthRule& rule) {
+  std::int64_t trials = 1;
+  while (!rule.done(trials / 2, trials)) ++trials;
+  return trials;
+}
+
+// Of a campaign at a rate, exactly: how likely it goes on after n throws, for all n.
+double expected_trials(const FixedWidthRule& rule, double rate) {
+  std::vector<double> going_on = {1};  // by successes
+  double expected = 0;
+  for (std::int64_t n = 0; !going_on.empty(); ++n) {
+    std::vector<double> next(static_cast<std::size_t>(n + 2), 0.0);
+    bool ended = true;
+    for (std::int64_t s = 0; s <= n; ++s) {
+      if (rule.done(s, n)) continue;
+      const auto i = static_cast<std::size_t>(s);
+      expected += going_on[i];
+      next[i] += going_on[i] * (1 - rate);
+      next[i + 1] += going_on[i] * rate;
+      ended = false;
+    }
+    going_on = ended ? std::vector<double>() : next;
+  }
+  return expected;
+}
+
 TEST(FixedWidthRule, StopsOnceTheHalfWidthIsReached) {
   const FixedWidthRule rule(0.03, 0.95, kNoLimit);
-  RandomStream stream(1, 0, "sequential test");
-  for (const double rate : {0.0, 0.05, 0.5, 0.93, 1.0}) {
-    const Campaign campaign = run_until_done(rule, rate, stream);
-    const Interval interval = rule.interval(campaign.successes, campaign.trials);
-    EXPECT_LE(interval.half_width(), 0.03 + 1e-12) << rate;
-    EXPECT_LE(campaign.trials, rule.max_trials());
-    // One throw fewer was not enough.
-    for (const std::int64_t last : {0, 1}) {
-      if (campaign.successes < last || campaign.trials - campaign.successes < 1 - last) continue;
-      const std::int64_t before = campaign.successes - last;
-      const double r = static_cast<double>(before + 4) / static_cast<double>(campaign.trials + 7);
-      const double half =
-          rule.z() * std::sqrt(r * (1 - r) / static_cast<double>(campaign.trials - 1));
-      EXPECT_EQ(rule.done(before, campaign.trials - 1), half <= 0.03);
+  // For some z, those counts are enough of which z sqrt(r (1 - r) / n) is small enough.
+  double largest_enough = 0, smallest_not = 1;
+  for (std::int64_t n = 1; n <= most_trials(rule); ++n) {
+    for (std::int64_t s = 0; s <= n; ++s) {
+      const double r = static_cast<double>(s + 4) / static_cast<double>(n + 8);
+      const double deviation = std::sqrt(r * (1 - r) / static_cast<double>(n));
+      if (rule.done(s, n)) {
+        largest_enough = std::max(largest_enough, deviation);
+        EXPECT_LE(rule.interval(s, n).half_width(), 0.03 + 1e-12);
+      } else {
+        smallest_not = std::min(smallest_not, deviation);
+      }
     }
   }
+  EXPECT_LT(largest_enough, smallest_not);
+  EXPECT_NEAR(0.03 / largest_enough, 2.04, 0.01);  // z: that of a fixed plan is 1.96
 }
 
 TEST(FixedWidthRule, ReportsTheObservedRateWithItsHalfWidth) {
@@ -81,7 +108,6 @@ TEST(FixedWidthRule, CoversEveryRate) {
 TEST(FixedWidthRule, CoversEveryRateWhenTheThrowsRunOut) {
   for (const std::int64_t most : {1, 7, 60, 400}) {
     const FixedWidthRule rule(0.05, 0.95, most);
-    EXPECT_LE(rule.max_trials(), most);
     EXPECT_TRUE(rule.done(most / 2, most));
     for (int i = 0; i <= 1000; ++i) EXPECT_GE(rule.coverage(i / 1000.0), 0.95) << most << " " << i;
   }
@@ -89,9 +115,10 @@ TEST(FixedWidthRule, CoversEveryRateWhenTheThrowsRunOut) {
 
 TEST(FixedWidthRule, WidensItsIntervalWhenTheThrowsRunOut) {
   const FixedWidthRule rule(0.05, 0.95, 60);
-  // Pooled with the pseudo counts, 30 of 60 is 1/2.
-  EXPECT_NEAR(rule.interval(30, 60).half_width(), rule.z() * 0.5 / std::sqrt(60), 1e-12);
   EXPECT_GT(rule.interval(30, 60).half_width(), 0.12);
+  // Pooled with the pseudo counts, 30 of 60 is 1/2 and 13 of 60 is 1/4.
+  EXPECT_NEAR(rule.interval(13, 60).half_width() / rule.interval(30, 60).half_width(),
+              std::sqrt(0.25 * 0.75) / 0.5, 1e-12);
 }
 
 // The throws planned are 60, of which fewer were trials: the campaign stopped, or went on, by the
@@ -102,7 +129,6 @@ TEST(FixedWidthRule, CoversEveryRateWhenThrowsWereNoTrials) {
     for (const std::int64_t trials : {1, 2, 7, 20, 58, 60, 150, 300}) {
       if (trials > planned) continue;
       const FixedWidthRule shorter = rule.run_out(trials);
-      EXPECT_EQ(shorter.max_trials(), trials);
       for (std::int64_t n = 1; n < trials; ++n) {
         for (std::int64_t s = 0; s <= n; ++s) EXPECT_EQ(shorter.done(s, n), rule.done(s, n));
       }
@@ -114,7 +140,7 @@ TEST(FixedWidthRule, CoversEveryRateWhenThrowsWereNoTrials) {
   }
   const FixedWidthRule rule(0.05, 0.95, 60);
   EXPECT_NEAR(rule.run_out(58).interval(34, 58).half_width(), 0.13, 0.01);
-  EXPECT_EQ(rule.run_out(100).max_trials(), 60);
+  EXPECT_EQ(most_trials(rule.run_out(100)), 60);
   EXPECT_THROW(static_cast<void>(rule.run_out(0)), std::invalid_argument);
 }
 
@@ -124,7 +150,7 @@ TEST(FixedWidthRule, CountsAllPaths) {
   const FixedWidthRule rule(0.5, 0.95, 3);
   // Three throws at most, none of which ends the campaign before.
   ASSERT_FALSE(rule.done(0, 2));
-  EXPECT_NEAR(rule.expected_trials(0.37), 3, 1e-12);
+  EXPECT_NEAR(expected_trials(rule, 0.37), 3, 1e-12);
   const FixedWidthRule longer(0.1, 0.95, kNoLimit);
   EXPECT_NEAR(longer.coverage(0), 1, 1e-12);
   EXPECT_NEAR(longer.coverage(1), 1, 1e-12);
@@ -149,7 +175,7 @@ TEST(FixedWidthRule, SimulatedCampaignsCoverAndLastAsComputed) {
     EXPECT_GE(expected, 0.95);
     EXPECT_NEAR(static_cast<double>(covered) / kCampaigns, expected, 4 * sigma) << rate;
     const double trials_sigma = std::sqrt(std::max(0.0, squares - trials * trials) / kCampaigns);
-    EXPECT_NEAR(trials, rule.expected_trials(rate), 4 * trials_sigma + 1e-9) << rate;
+    EXPECT_NEAR(trials, expected_trials(rule, rate), 4 * trials_sigma + 1e-9) << rate;
   }
 }
 
@@ -158,11 +184,11 @@ TEST(FixedWidthRule, CostsLittleMoreThanAFixedNumberOfThrows) {
   const FixedWidthRule rule(0.03, 0.95, kNoLimit);
   const double z = normal_quantile(0.975);
   const auto fixed = [&](double rate) { return z * z * rate * (1 - rate) / (0.03 * 0.03); };
-  EXPECT_EQ(rule.max_trials(), 1156);
-  EXPECT_LT(static_cast<double>(rule.max_trials()) / fixed(0.5), 1.09);
-  EXPECT_NEAR(rule.expected_trials(0.9), 437, 0.5);
-  EXPECT_LT(rule.expected_trials(0.9) / fixed(0.9), 1.15);
-  EXPECT_LT(rule.expected_trials(0.9) / fixed(0.5), 0.42);
+  EXPECT_EQ(most_trials(rule), 1156);
+  EXPECT_LT(static_cast<double>(most_trials(rule)) / fixed(0.5), 1.09);
+  EXPECT_NEAR(expected_trials(rule, 0.9), 437, 0.5);
+  EXPECT_LT(expected_trials(rule, 0.9) / fixed(0.9), 1.15);
+  EXPECT_LT(expected_trials(rule, 0.9) / fixed(0.5), 0.42);
 }
 
 TEST(FixedWidthRule, RefusesImpossibleDemands) {

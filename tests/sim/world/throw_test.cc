@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <string>
 
 #include "sim/base/error.h"
 #include "sim/base/random.h"
+#include "tests/models.h"
+#include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/world/test_world.h"
 
 namespace dodgesim {
@@ -170,9 +174,17 @@ TEST(ThrowTest, InTheWorldTheFlightAgreesWithItsIntegrationOverASecond) {
 }
 
 TEST(ThrowTest, InTheWorldAFlightWithoutDragIsTheParabola) {
+  const testing::TemporaryDirectory directory;
+  const std::filesystem::path models = testing::copy_models(directory.path());
+  const std::filesystem::path ball = models / "objects/ball.xml";
+  std::string model = testing::contents(ball);
+  const std::string drag = "\"drag_coefficient\" data=\"0.47\"";
+  model.replace(model.find(drag), drag.size(), "\"drag_coefficient\" data=\"0\"");
+  testing::put(ball, model);
   WorldSpec spec = test_spec({{"ball", 0.2}});
-  spec.air_drag = false;
+  spec.models_dir = models.string();
   World world(spec);
+  ASSERT_EQ(world.object(0).drag_area_m2, 0);
   BodyState launch;
   launch.p_W = Vector3d(5, 0, 9);
   launch.v_W = Vector3d(8, -3, 5);
