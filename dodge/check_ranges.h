@@ -1,11 +1,11 @@
 // The ranges that a configuration's visit() states, checked.
 #pragma once
 
-#include <cstdint>
 #include <initializer_list>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 namespace dodge {
@@ -17,15 +17,15 @@ class RangeChecker {
   // path: before the names, such as "kalman.".
   explicit RangeChecker(std::string path = "") : path_(std::move(path)) {}
 
-  void operator()(const char* name, double& value, double min, double max, const char*) const {
-    check(name, value, min, max);
-  }
-  void operator()(const char* name, int& value, int min, int max, const char*) const {
-    check(name, value, min, max);
-  }
-  void operator()(const char* name, std::int64_t& value, std::int64_t min, std::int64_t max,
-                  const char*) const {
-    check(name, value, min, max);
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void operator()(const char* name, Number& value, std::type_identity_t<Number> min,
+                  std::type_identity_t<Number> max, const char*) const {
+    if (value >= min && value <= max) return;  // false for NaN
+    std::ostringstream sentence;
+    sentence << "The parameter " << path_ << name << " is " << value << " but must lie between "
+             << min << " and " << max << ".";
+    throw std::invalid_argument(sentence.str());
   }
   void operator()(const char*, bool&, const char*) const {}
   void operator()(const char* name, std::string& value, std::initializer_list<const char*> allowed,
@@ -45,15 +45,6 @@ class RangeChecker {
   }
 
  private:
-  template <class Number>
-  void check(const char* name, Number value, Number min, Number max) const {
-    if (value >= min && value <= max) return;  // false for NaN
-    std::ostringstream sentence;
-    sentence << "The parameter " << path_ << name << " is " << value << " but must lie between "
-             << min << " and " << max << ".";
-    throw std::invalid_argument(sentence.str());
-  }
-
   std::string path_;
 };
 

@@ -3,17 +3,11 @@
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
 #include "sim/config/closest_name.h"
-#include "sim/config/numbers.h"
 #include "sim/config/writer.h"
 
 namespace dodgesim {
 
 namespace {
-
-template <class Number>
-std::string range_text(Number min, Number max) {
-  return to_text(min) + " to " + to_text(max);
-}
 
 std::string group_of(const std::string& path) {
   const std::size_t dot = path.rfind('.');
@@ -46,25 +40,6 @@ std::string paragraph(const ParameterDoc& doc) {
 void Documenter::add(const char* key, const std::string& type, const std::string& range,
                      const std::string& default_text, const char* doc) {
   docs_.push_back({prefix_ + key, type, range, default_text, doc});
-}
-
-void Documenter::operator()(const char* key, double& value, double min, double max,
-                            const char* doc) {
-  add(key, "number", range_text(min, max), to_text(value), doc);
-}
-
-void Documenter::operator()(const char* key, int& value, int min, int max, const char* doc) {
-  add(key, "whole number", range_text(min, max), to_text(value), doc);
-}
-
-void Documenter::operator()(const char* key, std::int64_t& value, std::int64_t min,
-                            std::int64_t max, const char* doc) {
-  add(key, "whole number", range_text(min, max), to_text(value), doc);
-}
-
-void Documenter::operator()(const char* key, std::uint64_t& value, std::uint64_t min,
-                            std::uint64_t max, const char* doc) {
-  add(key, "whole number", range_text(min, max), to_text(value), doc);
 }
 
 void Documenter::operator()(const char* key, bool& value, const char* doc) {

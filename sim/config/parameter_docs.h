@@ -2,14 +2,15 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "sim/config/distribution.h"
+#include "sim/config/numbers.h"
 #include "sim/config/varied_key.h"
 
 namespace dodgesim {
@@ -28,12 +29,13 @@ class Documenter {
  public:
   std::vector<ParameterDoc> take() { return std::move(docs_); }
 
-  void operator()(const char* key, double& value, double min, double max, const char* doc);
-  void operator()(const char* key, int& value, int min, int max, const char* doc);
-  void operator()(const char* key, std::int64_t& value, std::int64_t min, std::int64_t max,
-                  const char* doc);
-  void operator()(const char* key, std::uint64_t& value, std::uint64_t min, std::uint64_t max,
-                  const char* doc);
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void operator()(const char* key, Number& value, std::type_identity_t<Number> min,
+                  std::type_identity_t<Number> max, const char* doc) {
+    const char* type = std::is_integral_v<Number> ? "whole number" : "number";
+    add(key, type, range_text(min, max), to_text(value), doc);
+  }
   void operator()(const char* key, bool& value, const char* doc);
   void operator()(const char* key, const std::string& value,
                   std::initializer_list<const char*> allowed, const char* doc);
@@ -75,6 +77,11 @@ class Documenter {
   }
 
  private:
+  template <class Number>
+  static std::string range_text(Number min, Number max) {
+    return to_text(min) + " to " + to_text(max);
+  }
+
   void add(const char* key, const std::string& type, const std::string& range,
            const std::string& default_text, const char* doc);
 

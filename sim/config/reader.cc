@@ -157,23 +157,12 @@ bool Reader::read_number(const YamlNode& node, const std::string& name, Number& 
   return true;
 }
 
-void Reader::operator()(const char* key, double& value, double min, double max, const char*) {
-  if (const YamlNode* node = take(key)) read_number(*node, full(key), value, min, max);
-}
-
-void Reader::operator()(const char* key, int& value, int min, int max, const char*) {
-  if (const YamlNode* node = take(key)) read_number(*node, full(key), value, min, max);
-}
-
-void Reader::operator()(const char* key, std::int64_t& value, std::int64_t min, std::int64_t max,
-                        const char*) {
-  if (const YamlNode* node = take(key)) read_number(*node, full(key), value, min, max);
-}
-
-void Reader::operator()(const char* key, std::uint64_t& value, std::uint64_t min, std::uint64_t max,
-                        const char*) {
-  if (const YamlNode* node = take(key)) read_number(*node, full(key), value, min, max);
-}
+template bool Reader::read_number(const YamlNode&, const std::string&, double&, double, double);
+template bool Reader::read_number(const YamlNode&, const std::string&, int&, int, int);
+template bool Reader::read_number(const YamlNode&, const std::string&, std::int64_t&, std::int64_t,
+                                  std::int64_t);
+template bool Reader::read_number(const YamlNode&, const std::string&, std::uint64_t&,
+                                  std::uint64_t, std::uint64_t);
 
 void Reader::operator()(const char* key, bool& value, const char*) {
   const YamlNode* node = take(key);

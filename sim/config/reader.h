@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -43,12 +44,12 @@ class Reader {
   // Keys that were not asked for are problems. Call after visit().
   void finish();
 
-  void operator()(const char* key, double& value, double min, double max, const char*);
-  void operator()(const char* key, int& value, int min, int max, const char*);
-  void operator()(const char* key, std::int64_t& value, std::int64_t min, std::int64_t max,
-                  const char*);
-  void operator()(const char* key, std::uint64_t& value, std::uint64_t min, std::uint64_t max,
-                  const char*);
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void operator()(const char* key, Number& value, std::type_identity_t<Number> min,
+                  std::type_identity_t<Number> max, const char*) {
+    if (const YamlNode* node = take(key)) read_number(*node, full(key), value, min, max);
+  }
   void operator()(const char* key, bool& value, const char*);
   void operator()(const char* key, std::string& value, std::initializer_list<const char*> allowed,
                   const char*);

@@ -2,7 +2,6 @@
 
 #include "sim/base/formatted.h"
 #include "sim/base/joined.h"
-#include "sim/config/numbers.h"
 
 namespace dodgesim {
 
@@ -99,24 +98,6 @@ void Writer::line(const char* key, const std::string& value) {
   yaml_ += ":";
   if (!value.empty()) yaml_ += " " + value;
   yaml_ += "\n";
-}
-
-void Writer::operator()(const char* key, double& value, double, double, const char*) {
-  line(key, to_text(value));
-}
-
-void Writer::operator()(const char* key, int& value, int, int, const char*) {
-  line(key, to_text(value));
-}
-
-void Writer::operator()(const char* key, std::int64_t& value, std::int64_t, std::int64_t,
-                        const char*) {
-  line(key, to_text(value));
-}
-
-void Writer::operator()(const char* key, std::uint64_t& value, std::uint64_t, std::uint64_t,
-                        const char*) {
-  line(key, to_text(value));
 }
 
 void Writer::operator()(const char* key, bool& value, const char*) {

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include "sim/config/distribution.h"
+#include "sim/config/numbers.h"
 #include "sim/config/varied_key.h"
 
 namespace dodgesim {
@@ -18,10 +20,12 @@ class Writer {
  public:
   const std::string& yaml() const { return yaml_; }
 
-  void operator()(const char* key, double& value, double, double, const char*);
-  void operator()(const char* key, int& value, int, int, const char*);
-  void operator()(const char* key, std::int64_t& value, std::int64_t, std::int64_t, const char*);
-  void operator()(const char* key, std::uint64_t& value, std::uint64_t, std::uint64_t, const char*);
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void operator()(const char* key, Number& value, std::type_identity_t<Number>,
+                  std::type_identity_t<Number>, const char*) {
+    line(key, to_text(value));
+  }
   void operator()(const char* key, bool& value, const char*);
   void operator()(const char* key, const std::string& value, std::initializer_list<const char*>,
                   const char*);
