@@ -105,6 +105,7 @@ std::string to_markdown(const std::vector<ParameterDoc>& docs) {
   }
   std::string text;
   for (const ParameterDoc& group : groups) {
+    if (!text.empty()) text += "\n";
     text += "### " + (group.path.empty() ? "Top level" : in_code(group.path)) + "\n\n" + group.doc +
             "\n\n| key | value | range | default | meaning |\n|---|---|---|---|---|\n";
     for (const ParameterDoc& doc : docs) {
@@ -117,7 +118,6 @@ std::string to_markdown(const std::vector<ParameterDoc>& docs) {
                 cell(in_code(doc.default_text)) + " | " + cell(doc.doc) + " |\n";
       }
     }
-    text += "\n";
   }
   return text;
 }

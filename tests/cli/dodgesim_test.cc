@@ -123,8 +123,11 @@ TEST_F(DodgesimTest, ResolvingAResolvedScenarioChangesNothing) {
 }
 
 TEST_F(DodgesimTest, TheDocumentationOfTheKeysIsUpToDate) {
-  EXPECT_TRUE(dodgesim("explain --markdown").output == contents(kSource / "scenarios/README.md"))
-      << "Update it with: build/dodgesim explain --markdown > scenarios/README.md";
+  const std::string readme = contents(kSource / "scenarios/README.md");
+  const std::size_t tables = readme.find("### Top level\n");
+  ASSERT_NE(tables, std::string::npos);
+  EXPECT_TRUE(readme.substr(tables) == dodgesim("explain --markdown").output)
+      << "Put what this prints in place of the tables at its end: build/dodgesim explain --markdown";
 }
 
 // Physics only, which costs next to nothing; the closed loop has tests of its own.

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "tools/commands/command.h"
-#include "tools/commands/scenario_readme.h"
 
 namespace dodgesim {
 
@@ -23,13 +22,13 @@ void add_explain_command(CLI::App& program, int& exit_code) {
   CLI::Option* key = command->add_option(
       "key", arguments->key,
       "A key (throw.size_m, or size_m alone) or a group (throw); all when left out");
-  command->add_flag("--markdown", arguments->markdown, "Print scenarios/README.md")->excludes(key);
+  command->add_flag("--markdown", arguments->markdown, "Print all keys as the tables of scenarios/README.md")->excludes(key);
   command->footer(
       "Examples:\n"
       "  dodgesim explain throw                the keys of a throw\n"
       "  dodgesim explain compute_us           one key, wherever it stands");
   command->callback([arguments, &exit_code] {
-    std::cout << (arguments->markdown ? scenario_readme()
+    std::cout << (arguments->markdown ? to_markdown(scenario_docs())
                                       : explain(scenario_docs(), arguments->key));
     exit_code = kOk;
   });
