@@ -9,13 +9,15 @@ namespace dodgesim {
 
 namespace {
 
-template <class Write>
-bool all(std::string_view bytes, Write write) {
-  while (!bytes.empty()) {
-    const ssize_t n = write(bytes);
+// transfer(done) is a system call for what is left after the first `done` bytes.
+template <class Transfer>
+bool all(std::size_t size, Transfer transfer) {
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t n = transfer(done);
     if (n < 0 && errno == EINTR) continue;
+    if (n == 0) errno = ENOSPC;  // of a write; a read has come to the end
     if (n <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(n));
+    done += static_cast<std::size_t>(n);
   }
   return true;
 }
@@ -23,13 +25,26 @@ bool all(std::string_view bytes, Write write) {
 }  // namespace
 
 bool write_all(int file, std::string_view bytes) {
-  return all(bytes,
-             [file](std::string_view left) { return ::write(file, left.data(), left.size()); });
+  return all(bytes.size(), [&](std::size_t done) {
+    return ::write(file, bytes.data() + done, bytes.size() - done);
+  });
+}
+
+bool pwrite_all(int file, std::string_view bytes, std::uint64_t at) {
+  return all(bytes.size(), [&](std::size_t done) {
+    return ::pwrite(file, bytes.data() + done, bytes.size() - done, static_cast<off_t>(at + done));
+  });
 }
 
 bool send_all(int socket, std::string_view bytes) {
-  return all(bytes, [socket](std::string_view left) {
-    return ::send(socket, left.data(), left.size(), MSG_NOSIGNAL);
+  return all(bytes.size(), [&](std::size_t done) {
+    return ::send(socket, bytes.data() + done, bytes.size() - done, MSG_NOSIGNAL);
+  });
+}
+
+bool read_all(int file, void* data, std::size_t size) {
+  return all(size, [&](std::size_t done) {
+    return ::read(file, static_cast<char*>(data) + done, size - done);
   });
 }
 

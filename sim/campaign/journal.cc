@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "sim/base/descriptor.h"
 #include "sim/base/error.h"
 #include "sim/campaign/wire.h"
 #include "sim/files/staged_file.h"
@@ -247,17 +248,10 @@ void Journal::expect_only_writer() const {
 
 void Journal::append(const std::string& bytes) {
   expect_only_writer();
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t n =
-        ::pwrite(fd_, bytes.data() + done, bytes.size() - done, static_cast<off_t>(end_ + done));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      const int error = n < 0 ? errno : ENOSPC;
-      if (::ftruncate(fd_, static_cast<off_t>(end_)) != 0) fail("could not be cut", errno);
-      fail("could not be written", error);
-    }
-    done += static_cast<std::size_t>(n);
+  if (!pwrite_all(fd_, bytes, end_)) {
+    const int error = errno;
+    if (::ftruncate(fd_, static_cast<off_t>(end_)) != 0) fail("could not be cut", errno);
+    fail("could not be written", error);
   }
   end_ += bytes.size();
 }

@@ -47,19 +47,6 @@ constexpr int kPollMs = 200;
 // when a job must end. So long does it take to believe that a throw was lost.
 constexpr std::chrono::milliseconds kGrace(500);
 
-// A whole read from a stream socket; false when the other side is gone.
-bool read_all(int fd, void* data, std::size_t size) {
-  auto* bytes = static_cast<char*>(data);
-  while (size > 0) {
-    const ssize_t n = ::read(fd, bytes, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    bytes += n;
-    size -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
 template <class Value>
 std::string_view bytes_of(const Value& value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};

@@ -1,8 +1,8 @@
 #include "sim/files/output_file.h"
 
-#include <unistd.h>
-
 #include <cerrno>
+
+#include "sim/base/descriptor.h"
 
 namespace dodgesim {
 
@@ -19,14 +19,7 @@ void OutputFile::write(std::string_view text) {
 
 void OutputFile::rewrite_front(std::string_view text) {
   flush();
-  off_t at = 0;
-  while (!text.empty()) {
-    const ssize_t n = ::pwrite(staged_.fd(), text.data(), text.size(), at);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) staged_.fail("could not be written", errno);
-    text.remove_prefix(static_cast<std::size_t>(n));
-    at += n;
-  }
+  if (!pwrite_all(staged_.fd(), text, 0)) staged_.fail("could not be written", errno);
 }
 
 void OutputFile::finish() {
@@ -40,13 +33,7 @@ void OutputFile::commit() {
 }
 
 void OutputFile::flush() {
-  std::string_view rest = buffer_;
-  while (!rest.empty()) {
-    const ssize_t n = ::write(staged_.fd(), rest.data(), rest.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) staged_.fail("could not be written", errno);
-    rest.remove_prefix(static_cast<std::size_t>(n));
-  }
+  if (!write_all(staged_.fd(), buffer_)) staged_.fail("could not be written", errno);
   buffer_.clear();
 }
 
