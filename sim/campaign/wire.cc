@@ -14,46 +14,49 @@ class ByteWriter {
  public:
   std::string take() { return std::move(bytes_); }
 
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void operator()(const char*, Number& value) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    bytes_.append(raw, sizeof value);
+  }
+
   void operator()(const char*, std::string& text) {
-    number(static_cast<std::uint64_t>(text.size()));
+    size(text.size());
     bytes_ += text;
   }
 
-  void operator()(const char*, std::vector<AxisValue>& values) {
-    number(static_cast<std::uint64_t>(values.size()));
-    for (AxisValue& value : values) {
-      (*this)("", value.key);
-      (*this)("", value.value);
-    }
+  void operator()(const char*, AxisValue& value) {
+    (*this)("", value.key);
+    (*this)("", value.value);
   }
 
   template <class T>
   void operator()(const char*, std::optional<T>& value) {
-    number(static_cast<char>(value.has_value()));
+    bool present = value.has_value();
+    (*this)("", present);
     if (value) (*this)("", *value);
+  }
+
+  template <class T>
+  void operator()(const char*, std::vector<T>& values) {
+    size(values.size());
+    for (T& value : values) (*this)("", value);
   }
 
   template <class T, std::size_t N>
   void operator()(const char*, std::array<T, N>& values) {
-    for (T& value : values) number(value);
+    for (T& value : values) (*this)("", value);
   }
 
   template <class T>
   void operator()(const char*, T& value) {
-    if constexpr (std::is_arithmetic_v<T>) {
-      number(value);
-    } else {
-      value.visit(*this);
-    }
+    value.visit(*this);
   }
 
  private:
-  template <class T>
-  void number(const T& value) {
-    char raw[sizeof(T)];
-    std::memcpy(raw, &value, sizeof(T));
-    bytes_.append(raw, sizeof(T));
-  }
+  void size(std::uint64_t count) { (*this)("", count); }
 
   std::string bytes_;
 };
@@ -64,44 +67,50 @@ class ByteReader {
 
   bool at_end() const { return bytes_.empty(); }
 
-  void operator()(const char*, std::string& text) {
-    std::uint64_t size = 0;
-    number(size);
-    text = std::string(take(size));
+  void operator()(const char*, bool& value) { value = take(1).front() != '\0'; }
+
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  void operator()(const char*, Number& value) {
+    std::memcpy(&value, take(sizeof value).data(), sizeof value);
   }
 
-  void operator()(const char*, std::vector<AxisValue>& values) {
-    std::uint64_t count = 0;
-    number(count);
-    for (std::uint64_t i = 0; i < count; ++i) {
-      AxisValue& value = values.emplace_back();
-      (*this)("", value.key);
-      (*this)("", value.value);
-    }
+  void operator()(const char*, std::string& text) { text = take(read<std::uint64_t>()); }
+
+  void operator()(const char*, AxisValue& value) {
+    (*this)("", value.key);
+    (*this)("", value.value);
   }
 
   template <class T>
   void operator()(const char*, std::optional<T>& value) {
-    char present = 0;
-    number(present);
-    if (present != 0) (*this)("", value.emplace());
+    if (read<bool>()) (*this)("", value.emplace());
+  }
+
+  template <class T>
+  void operator()(const char*, std::vector<T>& values) {
+    const auto count = read<std::uint64_t>();
+    for (std::uint64_t i = 0; i < count; ++i) (*this)("", values.emplace_back());
   }
 
   template <class T, std::size_t N>
   void operator()(const char*, std::array<T, N>& values) {
-    for (T& value : values) number(value);
+    for (T& value : values) (*this)("", value);
   }
 
   template <class T>
   void operator()(const char*, T& value) {
-    if constexpr (std::is_arithmetic_v<T>) {
-      number(value);
-    } else {
-      value.visit(*this);
-    }
+    value.visit(*this);
   }
 
  private:
+  template <class Number>
+  Number read() {
+    Number value{};
+    (*this)("", value);
+    return value;
+  }
+
   std::string_view take(std::uint64_t size) {
     if (size > bytes_.size()) throw IoError("A result is not whole.");
     const std::string_view head = bytes_.substr(0, size);
@@ -109,29 +118,8 @@ class ByteReader {
     return head;
   }
 
-  void number(bool& value) { value = take(1).front() != '\0'; }
-
-  template <class T>
-  void number(T& value) {
-    std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
-  }
-
   std::string_view bytes_;
 };
-
-template <class Row>
-void write_rows(ByteWriter& writer, std::vector<Row>& rows) {
-  auto count = static_cast<std::uint64_t>(rows.size());
-  writer("", count);
-  for (Row& row : rows) writer("", row);
-}
-
-template <class Row>
-void read_rows(ByteReader& reader, std::vector<Row>& rows) {
-  std::uint64_t count = 0;
-  reader("", count);
-  for (std::uint64_t i = 0; i < count; ++i) reader("", rows.emplace_back());
-}
 
 }  // namespace
 
@@ -141,9 +129,9 @@ std::string to_bytes(const ThrowResult& result) {
   copy.visit(writer);
   writer("", copy.trajectory);
   writer("", copy.wall_s);
-  write_rows(writer, copy.object_rows);
-  write_rows(writer, copy.detection_rows);
-  write_rows(writer, copy.truth_rows);
+  writer("", copy.object_rows);
+  writer("", copy.detection_rows);
+  writer("", copy.truth_rows);
   return writer.take();
 }
 
@@ -153,9 +141,9 @@ ThrowResult result_from_bytes(std::string_view bytes) {
   result.visit(reader);
   reader("", result.trajectory);
   reader("", result.wall_s);
-  read_rows(reader, result.object_rows);
-  read_rows(reader, result.detection_rows);
-  read_rows(reader, result.truth_rows);
+  reader("", result.object_rows);
+  reader("", result.detection_rows);
+  reader("", result.truth_rows);
   if (!reader.at_end()) throw IoError("A result is longer than one.");
   return result;
 }
