@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "sim/base/joined.h"
+#include "sim/base/names.h"
 #include "sim/config/closest_name.h"
 #include "sim/config/numbers.h"
 
@@ -335,13 +336,8 @@ void Reader::text(const char* key, std::string& value, const char*) {
 
 bool Reader::read_model(const YamlNode& node, const std::string& name, const char* folder,
                         std::string& value) {
-  const auto is_name_character = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-';
-  };
   // Only a plain name: a path could lead out of the folder of models.
-  if (node.kind != Kind::kScalar || !node.tag.empty() || node.text.empty() ||
-      !std::all_of(node.text.begin(), node.text.end(), is_name_character)) {
+  if (node.kind != Kind::kScalar || !node.tag.empty() || !is_plain_name(node.text)) {
     problem(node, name,
             std::string("must be the name of a file in models/") + folder +
                 " without .xml (letters, digits, _ and -)");

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "sim/base/names.h"
 #include "sim/config/layers.h"
 #include "sim/config/writer.h"
 
@@ -29,11 +30,6 @@ std::optional<YamlNode> take(YamlNode& map, const std::string& key) {
     return value;
   }
   return std::nullopt;
-}
-
-bool is_below(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
-         folder.end();
 }
 
 // Follows `extends` from one file to the next.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/base/names.h"
 #include "sim/base/utf8.h"
 #include "sim/config/writer.h"
 
@@ -250,8 +251,7 @@ YamlNode parse_document(std::string_view text, Problems& problems, const Place& 
 // Whether a scalar can stand without quotes wherever a value may stand.
 bool is_plain(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '.' || c == '+' || c == '-';
+    return is_name_character(c) || c == '.' || c == '+';
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/gravity.h"
+#include "sim/base/names.h"
 #include "sim/base/time.h"
 #include "sim/world/mjcf.h"
 
@@ -14,11 +15,7 @@ namespace {
 
 // A model is named by a plain word, so that it cannot point outside its folder.
 void check_model_name(const std::string& name, const std::string& folder) {
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-';
-  };
-  if (name.empty() || !std::all_of(name.begin(), name.end(), allowed)) {
+  if (!is_plain_name(name)) {
     throw ScenarioError("The model name '" + name + "' for " + folder +
                         " must consist of letters, digits, '_' and '-'.");
   }

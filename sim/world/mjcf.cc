@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "sim/base/error.h"
+#include "sim/base/names.h"
 
 namespace dodgesim {
 
@@ -22,11 +23,6 @@ constexpr std::uintmax_t kMaxAssetBytes = 32 << 20;
 constexpr std::uint32_t kMaxTexturePx = 4096;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
-bool is_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-         c == '-';
-}
 
 // Reads one file from front to back.
 class Reader {
@@ -81,7 +77,7 @@ class Reader {
 
   std::string read_name() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && is_name(text_[at_])) ++at_;
+    while (at_ < text_.size() && is_name_character(text_[at_])) ++at_;
     if (at_ == begin) fail("The model is not valid XML: a name is expected here.");
     return text_.substr(begin, at_ - begin);
   }
@@ -113,7 +109,7 @@ class Reader {
       tag.kind = MjcfTag::Kind::kClose;
     }
     tag.name = read_name();
-    for (skip_space(); at_ < text_.size() && is_name(text_[at_]); skip_space()) {
+    for (skip_space(); at_ < text_.size() && is_name_character(text_[at_]); skip_space()) {
       tag.attributes.push_back(read_attribute());
     }
     if (starts_with("/") && tag.kind == MjcfTag::Kind::kOpen) {
@@ -175,8 +171,7 @@ bool is_inside(const std::string& path, const std::string& directory) {
   std::error_code error;
   const std::filesystem::path file = std::filesystem::canonical(path, error);
   const std::filesystem::path folder = std::filesystem::canonical(directory, error);
-  return !error && std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
-                       folder.end();
+  return !error && is_below(file, folder);
 }
 
 // <compiler> could move the folders of assets, and change the meaning of angles in other files.
