@@ -47,7 +47,4 @@ inline double unit_interval(std::uint32_t bits) {
   return (static_cast<double>(bits) + 0.5) * (1.0 / 4294967296.0);
 }
 
-// Quantile of the standard normal for p in (0, 1) (Wichura 1988, algorithm AS 241, 1e-16).
-double normal_quantile(double p);
-
 }  // namespace dodgesim

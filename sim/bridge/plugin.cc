@@ -5,13 +5,14 @@
 #include <xxhash.h>
 
 #include <cerrno>
+#include <cinttypes>
 #include <cstring>
 #include <map>
 #include <new>
 
 #include "sim/base/descriptor.h"
-#include "sim/base/digest.h"
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/base/process_state.h"
 #include "sim/bridge/guarded_pilot.h"
 #include "sim/files/input_file.h"
@@ -82,7 +83,8 @@ int copy_in_memory(const std::string& bytes, const std::string& file) {
 
 Plugin read_plugin(const std::string& file) {
   const std::string bytes = read_file(file);
-  return {file, digits_of(XXH64(bytes.data(), bytes.size(), 0)), copy_in_memory(bytes, file)};
+  return {file, formatted("%016" PRIx64, XXH64(bytes.data(), bytes.size(), 0)),
+          copy_in_memory(bytes, file)};
 }
 
 std::unique_ptr<dodge::Pilot> make_plugin_pilot(const Plugin& plugin, const dodge::Config& config,

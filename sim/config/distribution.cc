@@ -5,6 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/base/normal_quantile.h"
+
 namespace dodgesim {
 
 namespace {

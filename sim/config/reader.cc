@@ -53,7 +53,8 @@ std::string describe(const YamlNode& node) {
   return tag + (number ? node.text : quote(node.text));
 }
 
-std::string range_text(double min, double max) {
+template <class Number>
+std::string range_text(Number min, Number max) {
   return "between " + to_text(min) + " and " + to_text(max);
 }
 
@@ -107,8 +108,7 @@ const YamlNode* Reader::take_map(const char* key) {
 
 bool Reader::is_map(const YamlNode& node, const std::string& name) {
   if (node.kind == Kind::kMap && node.tag.empty()) return true;
-  problem(node, name, "must be a map of keys");
-  return false;
+  return refuse(node, name, "must be a map of keys");
 }
 
 const YamlNode* Reader::take_list(const char* key, const char* wanted, std::size_t most) {
@@ -131,29 +131,28 @@ template <class Number>
 bool Reader::read_number(const YamlNode& node, const std::string& name, Number& value, Number min,
                          Number max) {
   const bool whole = !std::is_same_v<Number, double>;
-  const std::string range = "between " + to_text(min) + " and " + to_text(max);
+  const std::string range = range_text(min, max);
   const std::string wanted =
       std::string("must be a ") + (whole ? "whole " : "") + "number " + range;
-  const auto refuse = [&](const std::string& complaint) {
-    problem(node, name, complaint);
-    return false;
-  };
-  if (node.kind != Kind::kScalar || node.quoted || !node.tag.empty()) return refuse(wanted);
+  if (node.kind != Kind::kScalar || node.quoted || !node.tag.empty()) {
+    return refuse(node, name, wanted);
+  }
   switch (number_form(node.text)) {
     case NumberForm::kNone:
-      return refuse(wanted);
+      return refuse(node, name, wanted);
     case NumberForm::kNotFinite:
-      return refuse(wanted + " (it must be finite)");
+      return refuse(node, name, wanted + " (it must be finite)");
     case NumberForm::kLeadingZero:
-      return refuse(wanted + " without leading zeros (some readers take them as octal)");
+      return refuse(node, name,
+                    wanted + " without leading zeros (some readers take them as octal)");
     case NumberForm::kDecimal:
-      if (whole) return refuse(wanted);
+      if (whole) return refuse(node, name, wanted);
       break;
     case NumberForm::kInteger:
       break;
   }
   const std::optional<Number> parsed = parse_number<Number>(node.text);
-  if (!parsed || *parsed < min || *parsed > max) return refuse("must be " + range);
+  if (!parsed || *parsed < min || *parsed > max) return refuse(node, name, "must be " + range);
   value = *parsed;
   return true;
 }
@@ -194,8 +193,7 @@ void Reader::operator()(const char* key, std::string& value,
 bool Reader::read_vector(const YamlNode& node, const std::string& name, Eigen::Vector3d& value,
                          double min, double max) {
   if (node.kind != Kind::kSequence || !node.tag.empty() || node.items.size() != 3) {
-    problem(node, name, "must be [x, y, z], each a number " + range_text(min, max));
-    return false;
+    return refuse(node, name, "must be [x, y, z], each a number " + range_text(min, max));
   }
   bool read = true;
   for (int i = 0; i < 3; ++i) {
@@ -253,51 +251,70 @@ bool has_key(const YamlNode& map, const char* name) {
 
 bool Reader::read_distribution(const YamlNode& node, const std::string& name, Distribution& value,
                                double min, double max) {
-  const std::string numbers = "each a number " + range_text(min, max);
-  if (node.tag.empty() && node.kind == Kind::kScalar) {
-    double number = 0;
-    if (!read_number(node, name, number, min, max)) return false;
-    value = Distribution::constant(number);
-  } else if (node.tag == "!uniform" || node.tag == "!choice") {
-    const bool uniform = node.tag == "!uniform";
-    if (node.kind != Kind::kSequence || node.items.empty() || (uniform && node.items.size() != 2)) {
-      problem(node, name,
-              uniform ? "must be !uniform [lowest, highest], " + numbers
-                      : "must be !choice [a, b, ...], " + numbers);
-      return false;
-    }
-    std::vector<double> values(node.items.size());
-    bool read = true;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::string item = name + "[" + std::to_string(i) + "]";
-      read = read_number(node.items[i], item, values[i], min, max) && read;
-    }
-    if (!read) return false;
-    if (uniform && values[0] > values[1]) {
-      problem(node.items[0], name + "[0]",
-              "the lowest value must come first and be at most " + to_text(values[1]));
-      return false;
-    }
-    value = uniform ? Distribution::uniform(values[0], values[1]) : Distribution::choice(values);
-  } else if (node.tag == "!normal") {
-    if (node.kind != Kind::kMap || !has_key(node, "mean") || !has_key(node, "sd")) {
-      problem(node, name, "must be !normal {mean: a, sd: b}, optionally with min and max");
-      return false;
-    }
-    NormalKeys keys{min, 1, min, max, min, max};
-    read_nested(last_part(name), node, keys);
-    if (keys.min >= keys.max || keys.mean < keys.min || keys.mean > keys.max) {
-      problem(node, name, "must have min < max and its mean between them");
-      return false;
-    }
-    value = Distribution::normal(keys.mean, keys.sd, keys.min, keys.max);
-  } else {
-    problem(node, name,
-            "must be a number " + range_text(min, max) +
-                ", !uniform [lowest, highest], !normal {mean, sd} or !choice [a, b, ...]");
-    return false;
+  if (node.tag == "!uniform") return read_uniform(node, name, value, min, max);
+  if (node.tag == "!normal") return read_normal(node, name, value, min, max);
+  if (node.tag == "!choice") return read_choice(node, name, value, min, max);
+  if (!node.tag.empty() || node.kind != Kind::kScalar) {
+    return refuse(node, name,
+                  "must be a number " + range_text(min, max) +
+                      ", !uniform [lowest, highest], !normal {mean, sd} or !choice [a, b, ...]");
   }
+  double number = 0;
+  if (!read_number(node, name, number, min, max)) return false;
+  value = Distribution::constant(number);
   return true;
+}
+
+bool Reader::read_uniform(const YamlNode& node, const std::string& name, Distribution& value,
+                          double min, double max) {
+  if (node.kind != Kind::kSequence || node.items.size() != 2) {
+    return refuse(node, name,
+                  "must be !uniform [lowest, highest], each a number " + range_text(min, max));
+  }
+  std::vector<double> ends;
+  if (!read_numbers(node, name, ends, min, max)) return false;
+  if (ends[0] > ends[1]) {
+    return refuse(node.items[0], name + "[0]",
+                  "the lowest value must come first and be at most " + to_text(ends[1]));
+  }
+  value = Distribution::uniform(ends[0], ends[1]);
+  return true;
+}
+
+bool Reader::read_normal(const YamlNode& node, const std::string& name, Distribution& value,
+                         double min, double max) {
+  if (node.kind != Kind::kMap || !has_key(node, "mean") || !has_key(node, "sd")) {
+    return refuse(node, name, "must be !normal {mean: a, sd: b}, optionally with min and max");
+  }
+  NormalKeys keys{min, 1, min, max, min, max};
+  read_nested(last_part(name), node, keys);
+  if (keys.min >= keys.max || keys.mean < keys.min || keys.mean > keys.max) {
+    return refuse(node, name, "must have min < max and its mean between them");
+  }
+  value = Distribution::normal(keys.mean, keys.sd, keys.min, keys.max);
+  return true;
+}
+
+bool Reader::read_choice(const YamlNode& node, const std::string& name, Distribution& value,
+                         double min, double max) {
+  if (node.kind != Kind::kSequence || node.items.empty()) {
+    return refuse(node, name, "must be !choice [a, b, ...], each a number " + range_text(min, max));
+  }
+  std::vector<double> values;
+  if (!read_numbers(node, name, values, min, max)) return false;
+  value = Distribution::choice(values);
+  return true;
+}
+
+bool Reader::read_numbers(const YamlNode& list, const std::string& name,
+                          std::vector<double>& values, double min, double max) {
+  values.resize(list.items.size());
+  bool read = true;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string item = name + "[" + std::to_string(i) + "]";
+    read = read_number(list.items[i], item, values[i], min, max) && read;
+  }
+  return read;
 }
 
 void Reader::operator()(const char* key, Distribution& value, double min, double max, const char*) {
@@ -338,18 +355,16 @@ bool Reader::read_model(const YamlNode& node, const std::string& name, const cha
                         std::string& value) {
   // Only a plain name: a path could lead out of the folder of models.
   if (node.kind != Kind::kScalar || !node.tag.empty() || !is_plain_name(node.text)) {
-    problem(node, name,
-            std::string("must be the name of a file in models/") + folder +
-                " without .xml (letters, digits, _ and -)");
-    return false;
+    return refuse(node, name,
+                  std::string("must be the name of a file in models/") + folder +
+                      " without .xml (letters, digits, _ and -)");
   }
   if (!context_.models_dir.empty()) {
     const std::filesystem::path file =
         std::filesystem::path(context_.models_dir) / folder / (node.text + ".xml");
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) {
-      problem(node, name, "there is no model file " + file.string());
-      return false;
+      return refuse(node, name, "there is no model file " + file.string());
     }
   }
   value = node.text;

@@ -121,12 +121,24 @@ class Reader {
   bool is_map(const YamlNode& node, const std::string& name);
   void problem(const YamlNode& node, const std::string& name, const std::string& complaint);
 
-  // The functions below return whether `value` was read; if not, there is a problem.
+  // The functions below return whether the value was read; if not, there is a problem.
+  bool refuse(const YamlNode& node, const std::string& name, const std::string& complaint) {
+    problem(node, name, complaint);
+    return false;
+  }
   template <class Number>
   bool read_number(const YamlNode& node, const std::string& name, Number& value, Number min,
                    Number max);
   bool read_distribution(const YamlNode& node, const std::string& name, Distribution& value,
                          double min, double max);
+  bool read_uniform(const YamlNode& node, const std::string& name, Distribution& value, double min,
+                    double max);
+  bool read_normal(const YamlNode& node, const std::string& name, Distribution& value, double min,
+                   double max);
+  bool read_choice(const YamlNode& node, const std::string& name, Distribution& value, double min,
+                   double max);
+  bool read_numbers(const YamlNode& list, const std::string& name, std::vector<double>& values,
+                    double min, double max);
   bool read_vector(const YamlNode& node, const std::string& name, Eigen::Vector3d& value,
                    double min, double max);
   bool read_model(const YamlNode& node, const std::string& name, const char* folder,

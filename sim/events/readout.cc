@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "sim/base/branchless.h"
+#include "sim/base/normal_quantile.h"
 
 namespace dodgesim {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/base/normal_quantile.h"
+
 namespace dodgesim {
 
 std::vector<Thresholds> draw_thresholds(const EventCameraSpec& spec, std::size_t pixel_count,

@@ -1,6 +1,7 @@
 #include "sim/preflight/try_models.h"
 
 #include <algorithm>
+#include <cinttypes>
 #include <map>
 #include <numbers>
 #include <set>
@@ -8,8 +9,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sim/base/digest.h"
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/base/gravity.h"
 #include "sim/config/expand.h"
 #include "sim/config/numbers.h"
@@ -191,7 +192,7 @@ void try_models(const std::vector<Scenario>& campaigns) {
 std::string digest_of_models(const Scenario& campaign) {
   std::uint64_t digest = 0;
   for (const Trial& trial : trials_of(campaign)) digest = 31 * digest + models_digest(trial.world);
-  return digits_of(digest);
+  return formatted("%016" PRIx64, digest);
 }
 
 }  // namespace dodgesim

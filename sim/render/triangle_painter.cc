@@ -3,11 +3,26 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
-#include "sim/render/gl_values.h"
-
 namespace dodgesim {
 
 namespace {
+
+// Hand Eigen's values to the uniforms of the program in use.
+template <class Matrix>
+void set_matrix(int location, const Matrix& matrix) {
+  const Eigen::Matrix<float, Matrix::RowsAtCompileTime, Matrix::ColsAtCompileTime> m =
+      matrix.template cast<float>();
+  if constexpr (Matrix::RowsAtCompileTime == 4) {
+    glUniformMatrix4fv(location, 1, GL_FALSE, m.data());
+  } else {
+    glUniformMatrix3fv(location, 1, GL_FALSE, m.data());
+  }
+}
+
+void set_vector(int location, const Eigen::Vector3d& v) {
+  glUniform3f(location, static_cast<float>(v.x()), static_cast<float>(v.y()),
+              static_cast<float>(v.z()));
+}
 
 // Quads that stand for an unbounded plane around the camera's foot: small ones nearby, where float
 // positions must be exact, and large ones out to the horizon.

@@ -16,21 +16,20 @@ bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const V
     if (std::find(keys.begin(), keys.end(), path) != keys.end()) axis.key = path;
   }
   const std::string name = full(key.name);
-  const auto refuse = [&](const std::string& sentence) {
+  const auto refuse_key = [&](const std::string& sentence) {
     context_.problems.add(key.at, sentence);
     return false;
   };
   if (axis.key.empty()) {
     const std::string near = closest_key(key.name, keys);
-    return refuse(name + " is not a key that can take several values" +
-                  (near.empty() ? "." : "; did you mean " + near + "?"));
+    return refuse_key(name + " is not a key that can take several values" +
+                      (near.empty() ? "." : "; did you mean " + near + "?"));
   }
   for (const VariedKey& other : before) {
-    if (other.key == axis.key) return refuse(name + " is given twice.");
+    if (other.key == axis.key) return refuse_key(name + " is given twice.");
   }
   if (node.kind != YamlNode::Kind::kSequence || !node.tag.empty() || node.items.empty()) {
-    problem(node, name, "must be a list of values, such as [0.1, 0.2]");
-    return false;
+    return refuse(node, name, "must be a list of values, such as [0.1, 0.2]");
   }
   for (const YamlNode& item : node.items) {
     // 0.20 is 0.2.
@@ -39,9 +38,8 @@ bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const V
       return number ? as_number(to_text(other)) == number : to_text(other) == to_text(item);
     };
     if (std::any_of(axis.values.begin(), axis.values.end(), same)) {
-      problem(item, name + "[" + std::to_string(axis.values.size()) + "]",
-              "this value is in the list already");
-      return false;
+      return refuse(item, name + "[" + std::to_string(axis.values.size()) + "]",
+                    "this value is in the list already");
     }
     axis.values.push_back(item);
   }
