@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "sim/files/frame_reader.h"
+#include "sim/recordings/frame_reader.h"
 #include "tests/fuzz/inputs.h"
 
 namespace dodgesim::fuzz {

@@ -12,9 +12,9 @@
 #include "sim/campaign/progress.h"
 #include "sim/config/event_camera_file.h"
 #include "sim/events/light_between.h"
-#include "sim/files/event_writer.h"
-#include "sim/files/frame_reader.h"
 #include "sim/files/staged_file.h"
+#include "sim/recordings/event_writer.h"
+#include "sim/recordings/frame_reader.h"
 #include "tools/commands/command.h"
 #include "tools/commands/stop_signal.h"
 

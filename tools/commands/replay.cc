@@ -19,7 +19,6 @@
 #include "sim/campaign/result_files.h"
 #include "sim/config/expand.h"
 #include "sim/config/pilot.h"
-#include "sim/files/event_writer.h"
 #include "sim/gate/csv_table.h"
 #include "sim/loop.h"
 #include "sim/observers/event_truth.h"
@@ -29,6 +28,7 @@
 #include "sim/observers/stage_panels.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
+#include "sim/recordings/event_writer.h"
 #include "tools/commands/command.h"
 #include "tools/commands/stop_signal.h"
 

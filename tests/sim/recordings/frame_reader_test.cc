@@ -1,4 +1,4 @@
-#include "sim/files/frame_reader.h"
+#include "sim/recordings/frame_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

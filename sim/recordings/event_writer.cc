@@ -1,4 +1,4 @@
-#include "sim/files/event_writer.h"
+#include "sim/recordings/event_writer.h"
 
 #include <array>
 #include <bit>
@@ -6,9 +6,9 @@
 #include <cstring>
 
 #include "sim/base/error.h"
-#include "sim/files/hdf5_event_writer.h"
 #include "sim/files/npy_header.h"
 #include "sim/files/output_file.h"
+#include "sim/recordings/hdf5_event_writer.h"
 
 namespace dodgesim {
 

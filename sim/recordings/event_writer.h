@@ -8,7 +8,8 @@
 // .txt  A line "t x y p" an event: t [us] as an integer, p 1 (ON) or 0 (OFF). The columns are
 //       those of events.txt in the rpg data sets, where t is in seconds.
 //
-// t is the absolute time in .npy and .txt. A file appears only when it is whole (staged_file.h).
+// t is the absolute time in .npy and .txt. A file appears only when it is whole
+// (sim/files/staged_file.h).
 //
 // A recording with causes (sim/events/cause.h) says why each event happened: in events/cause u8
 // (.h5), in a fifth field cause |u1 (.npy), in a fifth column (.txt).

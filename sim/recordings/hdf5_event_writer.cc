@@ -1,4 +1,4 @@
-#include "sim/files/hdf5_event_writer.h"
+#include "sim/recordings/hdf5_event_writer.h"
 
 #include <hdf5.h>
 

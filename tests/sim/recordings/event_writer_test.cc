@@ -1,6 +1,6 @@
 // Random recordings, written and read back by readers of our own: the HDF5 library by itself, and
 // the bytes of the other formats.
-#include "sim/files/event_writer.h"
+#include "sim/recordings/event_writer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

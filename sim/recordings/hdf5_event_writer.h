@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "sim/files/event_writer.h"
+#include "sim/recordings/event_writer.h"
 
 namespace dodgesim {
 
