@@ -34,8 +34,8 @@ int flushed(int exit_code) {
   return kIoError;
 }
 
-// One that is closed would become the next file or pipe that is opened. Writing to the output still
-// fails.
+// The next file or pipe that is opened would take the number of a closed one. Writing to the output
+// still fails.
 void open_standard_files() {
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(fd, F_GETFD) >= 0) continue;
@@ -50,8 +50,8 @@ bool is_command(CLI::App& program, const std::string& name) {
   return false;
 }
 
-// What stands before a value that is empty, as a script's variable that was never set; CLI11 would
-// take the next argument for the value of "--option=".
+// The argument before an empty one, as a script makes it from a variable that was never set; CLI11
+// would take the next argument for the value of "--option=".
 std::string before_nothing(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];

@@ -1,5 +1,5 @@
-// Minimum and maximum by value, so that loops over them are vectorised. What is not a number gives
-// way to the second argument. And choices that are not followed to the end.
+// Minimum, maximum and a select without a branch, by value so that loops over them are vectorised.
+// Minimum and maximum are the second argument if either is NaN.
 #pragma once
 
 #include <bit>
@@ -17,8 +17,8 @@ template <class Number>
   return a > b ? a : b;
 }
 
-// `a` where the mask is -1, `b` where it is 0. Written as a choice, compilers compute all that
-// depends on it twice, divisions and all.
+// `a` if the mask is -1, `b` if it is 0: a select by bit mask. Written with ?:, compilers compute
+// everything that depends on the result twice, divisions included.
 [[gnu::always_inline]] inline float chosen(std::int32_t mask, float a, float b) {
   const auto y = std::bit_cast<std::int32_t>(b);
   return std::bit_cast<float>(y ^ ((std::bit_cast<std::int32_t>(a) ^ y) & mask));

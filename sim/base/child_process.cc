@@ -25,7 +25,7 @@ namespace {
   die_with(parent);
   const rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  // Allocators and sanitizers print their own, and whatever code of users the task runs.
+  // Allocators and sanitizers print messages, and so may the user's code that the task runs.
   const int nowhere = ::open("/dev/null", O_WRONLY);
   for (const int printed : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, printed);
   ::_exit(write_all(fd, task()) ? 0 : 1);

@@ -10,7 +10,7 @@ namespace dodgesim {
 
 struct ChildAnswer {
   bool in_time = false;
-  std::string said;  // all until it ended; what it had said before a crash, or less
+  std::string said;  // its whole output; of a crash at most what came before it
 };
 
 // Runs `task` in a forked process, and listens for at most `wall_ms`; then the process is killed.

@@ -1,4 +1,4 @@
-// What foreign code may change of the process, and what our numbers depend on.
+// State of the process that foreign code may change and our numbers depend on.
 #pragma once
 
 #include <locale.h>
@@ -7,7 +7,7 @@
 
 namespace dodgesim {
 
-// How numbers are rounded, and what is done with denormal ones, is after its life as it was before.
+// Saves the floating-point environment (rounding, denormal numbers) and restores it on destruction.
 class KeptRounding {
  public:
   KeptRounding() { std::fegetenv(&environment_); }

@@ -21,7 +21,7 @@ inline int widest_vector_level() {
 
 #if defined(__x86_64__)
 #define DODGESIM_TARGET_AVX2 [[gnu::target("avx2")]]
-#if defined(__clang__)  // which drops an attribute with a preferred width
+#if defined(__clang__)  // ignores the attribute if it names a preferred width
 #define DODGESIM_TARGET_AVX512 [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]]
 #else
 #define DODGESIM_TARGET_AVX512 \
@@ -44,7 +44,7 @@ struct CompiledLoop<kLoop> {
   }
 };
 
-// That of one level: a pointer to it.
+// A pointer to the loop as compiled for the level.
 template <auto kLoop>
 constexpr auto compiled_for(int vector_level) {
   using Loop = CompiledLoop<kLoop>;

@@ -11,7 +11,7 @@ namespace dodgesim {
 WeightedChoice::WeightedChoice(std::span<const double> weights) : places_(weights.size()) {
   const double mean =
       std::accumulate(weights.begin(), weights.end(), 0.0) / static_cast<double>(weights.size());
-  std::vector<double> left(weights.size());  // of each thing, to be given to places; a place has 1
+  std::vector<double> left(weights.size());  // weight that has no place yet; a place holds 1
   std::vector<std::uint32_t> small, large;
   for (std::uint32_t i = 0; i < weights.size(); ++i) {
     left[i] = weights[i] / mean;
@@ -27,7 +27,7 @@ WeightedChoice::WeightedChoice(std::span<const double> weights) : places_(weight
       small.push_back(giver);
     }
   }
-  // What rounding has left has a whole place, unless it has no weight at all.
+  // What rounding leaves over gets a whole place, unless its weight is 0.
   const auto heaviest = static_cast<std::uint32_t>(
       std::distance(weights.begin(), std::max_element(weights.begin(), weights.end())));
   for (const std::uint32_t i : small) places_[i] = {weights[i] > 0 ? 1.0 : 0.0, heaviest};

@@ -18,7 +18,7 @@ class WeightedChoice {
   std::uint32_t pick(std::uint32_t bits, std::uint32_t more_bits) const;
 
  private:
-  // A share of each place is its own thing's, the rest of it another's.
+  // Of the draws that meet the place of a thing, a share goes to that thing, the rest to another.
   struct Place {
     double own_share = 1;
     std::uint32_t other = 0;

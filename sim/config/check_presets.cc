@@ -39,7 +39,7 @@ std::string text_at(const YamlNode& root, const std::string& key) {
   return node->text;
 }
 
-// As a resolved scenario does, which says nothing of what anybody wanted.
+// As a resolved scenario does, which does not tell the keys that somebody chose from defaults.
 bool gives_all_keys(const Preset& preset, const ReadContext& context) {
   return std::all_of(context.all_keys.begin(), context.all_keys.end(), [&](const auto& key) {
     return !preset.has(key) || context.where.contains(key);

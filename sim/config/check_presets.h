@@ -1,4 +1,5 @@
-// Presets: pilot decides on all keys of dodger, sensors.events.preset on those of the camera.
+// Presets: `pilot` sets the defaults of all keys of `dodger`, sensors.events.preset those of the
+// camera.
 #pragma once
 
 #include "sim/config/reader.h"
@@ -6,8 +7,9 @@
 
 namespace dodgesim {
 
-// Where a file gives all keys of a group, as a resolved scenario does, another preset in `root`,
-// which has the settings of the command line over `file`, would be one by its name only: a problem.
+// A file that gives all keys of a group, as a resolved scenario does, leaves nothing for a preset
+// to decide. Adds a problem if `root`, which is `file` with the settings of the command line, then
+// has another preset.
 void check_set_presets(const YamlNode& file, const YamlNode& root, ReadContext& context);
 
 // Adds a problem for each key that the scenario gives and that would hold with some values of its

@@ -82,7 +82,7 @@ void check_throws(const Scenario& scenario, ReadContext& context) {
   }
 }
 
-// A rate of throws that would have hit, of one kind, is what can be known well enough.
+// `stop` needs a single success rate, of throws that would have hit.
 void check_stop(const Scenario& scenario, ReadContext& context) {
   if (!scenario.stop) return;
   if (!scenario.anyone_throws()) {
@@ -165,8 +165,9 @@ struct ValueOfKey {
   double value;
 };
 
-// Of two keys whose values exclude each other; `must`: what the first must be to the second,
-// "be less than", `converse` the second to the first. Says it of the one that the scenario gives.
+// Adds a problem for two keys whose values exclude each other, at the one that the scenario gives.
+// `must` is what the first must do to the second, "be less than", `converse` the second to the
+// first.
 void add_contradiction(const ValueOfKey& a, const std::string& must, const ValueOfKey& b,
                        const std::string& converse, ReadContext& context) {
   const bool a_given = context.where.contains(a.key) || !context.where.contains(b.key);
@@ -235,7 +236,7 @@ std::int64_t product(const VariedKeys& axes) {
   return count;
 }
 
-// Whether there are so few combinations that the counts of expand.h are right.
+// Whether there are so few combinations that the counts of expand.h do not overflow.
 bool check_counts(const Scenario& scenario, ReadContext& context) {
   const std::int64_t combinations = product(scenario.grid) * product(scenario.sweep);
   const Position at = context.position_of(scenario.grid.empty() ? "sweep" : "grid");
@@ -274,7 +275,7 @@ void check_axis(const Scenario& scenario, const VariedKey& axis, bool in_grid,
   for (const YamlNode& value : axis.values) with_values(scenario, {{axis.key, &value}}, context);
 }
 
-// What is wrong with the keys of each combination, once, and with which values unless with all.
+// Adds every problem of the combinations once, with the first one that has it unless all have.
 void check_combinations(const Scenario& scenario, ReadContext& context) {
   struct Found {
     Problems::Problem problem;

@@ -13,7 +13,7 @@ namespace dodgesim {
 
 namespace {
 
-// Neither what names the campaign or its throws can have several values, nor what is no value.
+// Several values are for single keys, and not for those that name the campaign or its throws.
 bool may_vary(const ParameterDoc& doc) {
   constexpr const char* kSingle[] = {"extends", "name", "description", "seed",
                                      "repeats", "grid", "sweep",       "throws"};

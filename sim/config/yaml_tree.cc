@@ -203,7 +203,7 @@ void check_encoding(std::string_view text, Problems& problems, const Place& plac
   }
 }
 
-// YAML's own messages seldom name it.
+// yaml-cpp's own messages seldom say that a tab is the cause.
 std::string hint_of_tab(std::string_view text) {
   int line = 1;
   bool indenting = true;

@@ -50,7 +50,7 @@ struct Curve {
   return smaller(larger(next_us, start_us), c.dt);
 }
 
-// kBent: some of the signals may be no straight lines.
+// kBent: some of the signals may be curved.
 template <bool kBent>
 [[gnu::always_inline]] inline void solve_row(Row row) {
   const double refractory_us = row.refractory_us;
@@ -83,7 +83,7 @@ template <bool kBent>
     const double level = reference + (up ? on : off);
     const bool crosses = ((up ? s1 - level : level - s1) >= 0) & (!still_held);
 
-    // From the chord on. Two steps do nearly always.
+    // Starts at the chord; two steps are nearly always enough.
     const double chord_us = crosses ? start + (level - s_start) * (dt - start) / (s1 - s_start) : 0;
     double before = chord_us, t = chord_us;
     if constexpr (kBent) {

@@ -22,7 +22,7 @@ class Crossings {
     kArmed,    // one event; it is armed again
     kAgain,    // one event, and after its refractory period another may follow
     kUnknown,  // an event on a curve that turns, or several without a refractory period in between:
-               // somebody must look
+               // the caller must find out
   };
 
   // Of one pixel. Times count from its last sample.

@@ -21,8 +21,8 @@ namespace {
 template <class Number>
 constexpr Number kEqualShare = std::is_same_v<Number, float> ? Number(0.01) : Number(0.001);
 
-// Of numbers that are not negative, which are ordered like their bits: with a comparison of numbers
-// compilers follow both ways to the end.
+// For numbers that are not negative, whose order is that of their bits: when the numbers themselves
+// are compared, compilers compute everything that follows for both outcomes.
 [[gnu::always_inline]] inline float at_most(float x, float most) {
   return std::bit_cast<float>(
       std::min(std::bit_cast<std::uint32_t>(x), std::bit_cast<std::uint32_t>(most)));

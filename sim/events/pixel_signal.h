@@ -55,8 +55,8 @@ class PixelSignal {
   // finish.
   virtual void begin() = 0;
   // may_fire[i] = 1 for pixels that may make an event, and for luminance that is negative or no
-  // number, after which the signal must be reset. Between scan and take the part's last sample is
-  // neither this nor the one before.
+  // number, after which the signal must be reset. Until take() the part's state is of neither
+  // sample.
   virtual void scan(const RowPart& part, unsigned char* may_fire) = 0;
   // Appends the candidates at the given places of the part; its new sample becomes its last one.
   virtual void take(const RowPart& part, std::span<const std::uint32_t> places,

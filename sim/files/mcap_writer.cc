@@ -49,7 +49,7 @@ std::string record(Opcode opcode, std::string_view content) {
   return bytes;
 }
 
-// Of `bytes`, which follow others with the checksum `before`.
+// Of data whose checksum is `before`, continued by `bytes`.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0) {
   return static_cast<std::uint32_t>(
       ::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));

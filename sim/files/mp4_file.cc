@@ -54,7 +54,8 @@ std::vector<std::string> ffmpeg_command(const std::string& path, int width, int 
           "file:" + path};
 }
 
-// Starts the command, apart from the terminal's Ctrl-C; the number of an error.
+// Starts the command in a process group of its own, which the terminal's Ctrl-C does not reach.
+// Returns an errno, or 0.
 int start(const std::vector<std::string>& command, int input, int errors, pid_t& process) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);

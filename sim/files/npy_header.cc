@@ -14,8 +14,8 @@ namespace {
 constexpr std::string_view kNpyMagic = "\x93NUMPY";
 constexpr std::size_t kAlignment = 64;  // of the array in the file, as NumPy does it
 
-// NumPy's own spelling: "<u1" and "u1" are "|u1", "=f4" and "f4" are "<f4". An array of bytes has
-// no order of bytes, and on this kind of machine the native one is little-endian.
+// NumPy's own spelling: "<u1" and "u1" are "|u1", "=f4" and "f4" are "<f4". Single bytes have no
+// byte order, and the native one is little-endian here.
 std::string plain_dtype(std::string text) {
   if (text.empty()) return text;
   const bool has_order = std::string_view("<>=|").find(text.front()) != std::string_view::npos;

@@ -21,7 +21,7 @@ class NpyReader {
   const std::string& path() const { return path_; }
   const NpyHeader& header() const { return header_; }
 
-  // The file holds the whole array, of items of item_bytes, and nothing else.
+  // Throws unless the file holds exactly the header and an array of items of item_bytes.
   void require_size(std::size_t item_bytes) const;
 
   // The next `bytes` of the array.

@@ -20,7 +20,7 @@ class OutputFile {
   void write(std::string_view text);
   // Replaces what stands at the beginning of the file, of the same length.
   void rewrite_front(std::string_view text);
-  // All is on the disk: what is left for commit() is to give the file its name.
+  // Flushes everything to the disk; what is left for commit() is to rename the file.
   void finish();
   void commit();
 

@@ -27,7 +27,7 @@ bool is_open_file(const std::filesystem::path& path, int fd) {
 StagedFile::StagedFile(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code ignored;
   const std::filesystem::file_status there = std::filesystem::status(path_, ignored);
-  // A file takes its place: a device or a pipe would be gone. A link stays, what it names is new.
+  // What is there will be replaced, and a device or a pipe would be lost. Of a link the target is.
   if (std::filesystem::is_directory(there)) fail("could not be created", EISDIR);
   if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
     fail("is not a regular file", 0);
@@ -39,7 +39,7 @@ StagedFile::StagedFile(std::filesystem::path path) : path_(std::move(path)) {
     fd_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
     if (fd_ < 0) fail("could not be created", errno);
     lock();
-  } while (!is_open_file(partial_, fd_));  // somebody gave it its name, or removed it, in between
+  } while (!is_open_file(partial_, fd_));  // another program has renamed or removed it meanwhile
   if (::ftruncate(fd_, 0) != 0 && errno != EINVAL) fail("could not be created", errno);
 }
 
@@ -55,8 +55,8 @@ std::filesystem::path StagedFile::target(const std::filesystem::path& path) {
   throw IoError(path.string() + " could not be created: " + std::strerror(ELOOP) + ".");
 }
 
-// Two programs must not write to one file. File systems that know no locks do without. The lock
-// belongs to the open file: HDF5 opens the same file by its name, and closes it again.
+// Two programs must not write to one file; on file systems without locks nothing prevents it. The
+// lock belongs to the open file, because HDF5 opens the same file by its name and closes it again.
 void StagedFile::lock() {
   struct flock whole {};
   whole.l_type = F_WRLCK;
@@ -69,7 +69,7 @@ void StagedFile::lock() {
 
 StagedFile::~StagedFile() {
   if (fd_ < 0) return;
-  // Before another program may lock it, unless it is that program's already.
+  // While the lock is held, and not if the name is another program's file by now.
   if (is_open_file(partial_, fd_)) ::unlink(partial_.c_str());
   ::close(fd_);
 }

@@ -17,20 +17,20 @@ class StagedFile {
   StagedFile& operator=(const StagedFile&) = delete;
   ~StagedFile();  // without commit() the temporary file is removed
 
-  // What PATH names: itself, or what it links to, whether or not that is there.
+  // PATH or, if it is a link, its target, which need not exist.
   static std::filesystem::path target(const std::filesystem::path& path);
-  // What PATH, if it is no link, is called until it is whole.
+  // The temporary name of PATH, which is no link.
   static std::filesystem::path partial_name(const std::filesystem::path& path) {
     return path.string() + ".partial";
   }
 
-  const std::filesystem::path& path() const { return path_; }  // what PATH names
+  const std::filesystem::path& path() const { return path_; }  // target(PATH)
   const std::filesystem::path& partial() const { return partial_; }
   int fd() const { return fd_; }  // open for writing until commit()
 
   // Waits until the disk has the contents.
   void sync();
-  // The same, and gives the file its name.
+  // The same, then renames the file to path().
   void commit();
 
   // Throws IoError "PATH <what>: <reason>." with the text of `error_number`, or without a reason

@@ -127,7 +127,7 @@ bool FrameReader::next(TimeUs& t_us, std::vector<float>& luminance) {
 }
 
 void FrameReader::check_luminance(const std::vector<float>& luminance) const {
-  // All pixels at once is fast; which one it was is looked for only when there is one.
+  // A check of all pixels at once is fast; the bad one is looked for only if there is one.
   const auto bad = [](float value) {
     return !((value >= 0) & (value <= std::numeric_limits<float>::max()));
   };

@@ -6,7 +6,7 @@
 namespace dodgesim {
 
 std::optional<RangeReading> RangeSensor::sample(TimeUs t_us, double true_range_m) {
-  // Drawn in any case: what is below must not shift the noise of later readings.
+  // Drawn even if there is no reading, so that the noise of later readings does not shift.
   const double noise = random_.normal();
   if (!(true_range_m >= spec_.min_range_m && true_range_m <= spec_.max_range_m)) {
     return std::nullopt;

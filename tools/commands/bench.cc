@@ -37,7 +37,7 @@ void run(const BenchArguments& arguments, const std::string& command_line) {
   if (!arguments.options.plots_dir.empty() && std::none_of(cases.begin(), cases.end(), draws)) {
     throw ScenarioError("--plots draws the times of the pilot: name a case of it, or none.");
   }
-  std::optional<OutputFile> json;  // opened first: not to be able to write it is known at once
+  std::optional<OutputFile> json;  // opened first, so that a failure shows at once
   if (!arguments.json.empty()) json.emplace(arguments.json);
   const auto measurements = measure(cases, arguments.options, [](const Measurement& measurement) {
     std::cout << line(measurement) << std::endl;

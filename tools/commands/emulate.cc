@@ -75,8 +75,7 @@ struct Counts {
   std::int64_t off = 0;
 };
 
-// What is done with a video: its events go to the file, with their causes or else with the time
-// that they take.
+// Makes a video's events and writes them to the file; notes their causes or else measures the time.
 class Emulation {
  public:
   Emulation(EventCamera& camera, bool causes, TimedEmulation& timed, EventWriter& writer)
@@ -87,7 +86,7 @@ class Emulation {
     camera_.reset(t_us, {luminance.data(), shown_.data()});
   }
 
-  // `between`: two frames, and no frame itself.
+  // `between`: a picture between two frames of the video.
   void show(TimeUs t_us, const std::vector<float>& luminance, bool between) {
     if (asked_to_stop()) throw std::runtime_error("The emulation was stopped; nothing is written.");
     events_.clear();
@@ -158,7 +157,7 @@ void report(const FrameReader& video, const EventCamera& camera, const Counts& c
   std::printf("emulation takes %.3f of the time of cv::log\n", timed.emulation_s() / timed.log_s());
 }
 
-// Neither the output nor what it is called until it is whole may be an input.
+// Neither the output nor its temporary file may be an input.
 void refuse_same_file(const std::string& out, const std::string& input) {
   std::error_code ignored;
   if (!std::filesystem::equivalent(out, input, ignored) &&
@@ -171,8 +170,8 @@ void refuse_same_file(const std::string& out, const std::string& input) {
 
 void emulate(const EmulateArguments& arguments) {
   watch_stop_signals();
-  // All events between two pictures are held at once: rather say that they are too many than be
-  // killed.
+  // All events between two pictures are held at once. With a limit, too many are an error; without,
+  // the system would kill the program.
   limit_memory(physical_memory_mb());
   const EventCameraSpec spec = named_event_camera(arguments.camera);
   FrameReader video(arguments.frames, arguments.times);

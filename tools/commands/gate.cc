@@ -167,7 +167,7 @@ void expect_gateable(const Scenario& scenario, const GateArguments& arguments) {
   }
 }
 
-// Before anything is flown for it.
+// Checked before hours of flying.
 void expect_writable(const std::string& option, const fs::path& value, const fs::path& where) {
   fs::path there = fs::absolute(where);
   while (!fs::exists(there)) there = there.parent_path();
@@ -207,7 +207,7 @@ std::optional<Baseline> find_baseline(const GateArguments& arguments) {
   }
 }
 
-// An earlier report will be replaced.
+// Only an earlier report may be replaced.
 void expect_report_or_nothing(const fs::path& junit) {
   if (!fs::is_directory(fs::absolute(junit).parent_path())) {
     throw IoError("--junit " + junit.string() + " cannot be written: there is no such folder.");

@@ -30,10 +30,10 @@ Scenario scenario_of(const PaperFlight& flight, const std::string& models_dir) {
                        flight.settings);
 }
 
-// The experiments' own seeds are smaller and lie side by side: no sum of one is another's.
+// More than the experiments' own seeds, so that own + kSeedStep * n is different for each.
 constexpr std::uint64_t kSeedStep = 1'000'000;
 
-// Moves the seed: throws that were the same in two flights stay the same, and all are new.
+// Moves the seed: all throws are new, and flights that shared their throws still do.
 void add_to_seed(const Setting& seed, const std::string& models_dir, PaperFlight& flight) {
   const std::uint64_t own = scenario_of(flight, models_dir).seed;
   flight.settings.push_back(seed);
@@ -67,8 +67,8 @@ std::string table_command(const PaperArguments& arguments) {
   return line;
 }
 
-// Flights keep those who fly again from writing over tables; a table that is only measured has no
-// flights.
+// Tables with flights are protected by these against being overwritten; those that are only
+// measured have none.
 void protect_measured(const PaperArguments& arguments,
                       const std::vector<PaperExperiment>& experiments) {
   if (arguments.options.force || arguments.options.resume) return;

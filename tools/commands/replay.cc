@@ -120,7 +120,7 @@ class FlightProgress : public FlightObserver {
   explicit FlightProgress(TimeUs duration_us)
       : progress_(duration_us / kUsPerMs, ::isatty(STDERR_FILENO) == 1, "ms of flight") {}
   void on_tick(const World& world) override {
-    // By then what the first pictures cost weighs little.
+    // Before, the cost of the first pictures would spoil the estimate of the time that is left.
     if (world.snapshot().t_us >= kFirstUs) progress_.show(world.snapshot().t_us / kUsPerMs);
   }
   void finish() { progress_.finish(); }
@@ -130,7 +130,7 @@ class FlightProgress : public FlightObserver {
   Progress progress_;
 };
 
-// With other models or, if one flies it, another plug-in it would be another throw.
+// With other models, or with another plug-in if that is the pilot, it would be another throw.
 void expect_models(const Scenario& campaign, const std::string& pilot, const std::string& directory,
                    const JournalIndex& index) {
   CampaignIdentity now = index.identity;
@@ -141,8 +141,8 @@ void expect_models(const Scenario& campaign, const std::string& pilot, const std
                       "; --models and --plugin say where those are that it was flown with.");
 }
 
-// What became of this throw, from the journal, which also a campaign under way has; nothing if its
-// worker died, as it may again.
+// The result of this throw, from the journal, which a campaign under way has, too; nothing if its
+// worker died.
 std::optional<ThrowResult> recorded_result(const std::filesystem::path& directory,
                                            const JournalIndex& index, int throw_index) {
   const auto record = index.throws.find(throw_index);
@@ -183,7 +183,7 @@ std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
 // Everything that looks on, as the arguments ask for.
 class Onlookers {
  public:
-  // `duration_us`: how long the flight is, as far as anybody knows.
+  // `duration_us`: how long the flight is, if known.
   Onlookers(const Scenario& scenario, const ReplayArguments& arguments,
             std::optional<TimeUs> duration_us)
       : arguments_(arguments), poster_(intrinsics(scenario.sensors.camera)) {

@@ -35,7 +35,7 @@ void watch_stop_signals() {
   for (const int signal : kSignals) {
     struct sigaction before {};
     ::sigaction(signal, nullptr, &before);
-    // What nohup ignores goes on without its terminal.
+    // Under nohup, which ignores it, the program goes on without its terminal.
     if (signal == SIGHUP && before.sa_handler == SIG_IGN) continue;
     ::sigaction(signal, &action, nullptr);
   }
