@@ -5,51 +5,7 @@
 namespace dodge {
 
 namespace {
-
-constexpr std::size_t kRateSamples = 2048;  // half a second at 4 kHz
-constexpr double kMostBins = 4096;          // of faster turns events are misplaced by more
-
-Eigen::Vector3d interpolate(const ImuSample& a, const ImuSample& b, TimeUs t_us) {
-  if (b.t_us <= a.t_us) return b.w_WB_B;
-  const double s = static_cast<double>(t_us - a.t_us) / static_cast<double>(b.t_us - a.t_us);
-  return a.w_WB_B + s * (b.w_WB_B - a.w_WB_B);
-}
-
-}  // namespace
-
-RateHistory::RateHistory() : samples_(kRateSamples) {}
-
-void RateHistory::add(const ImuSample& sample) {
-  if (!sample.w_WB_B.allFinite()) return;
-  if (samples_.size() == samples_.capacity()) samples_.pop_front();
-  samples_.push_back(sample);
-}
-
-Eigen::Vector3d RateHistory::at(TimeUs t_us) const {
-  if (t_us <= samples_.front().t_us) return samples_.front().w_WB_B;
-  if (t_us >= samples_.back().t_us) return samples_.back().w_WB_B;
-  std::size_t i = samples_.size() - 1;
-  while (samples_[i - 1].t_us > t_us) --i;
-  return interpolate(samples_[i - 1], samples_[i], t_us);
-}
-
-Eigen::Vector3d RateHistory::mean(TimeUs begin_us, TimeUs end_us) const {
-  if (samples_.empty()) return Eigen::Vector3d::Zero();
-  if (end_us <= begin_us) return at(end_us);
-  // Trapezoids from the end backwards: the samples needed are the newest ones.
-  Eigen::Vector3d integral = Eigen::Vector3d::Zero();
-  TimeUs t_us = end_us;
-  Eigen::Vector3d rate = at(end_us);
-  const auto add_piece = [&](TimeUs to_us, const Eigen::Vector3d& to_rate) {
-    integral += 0.5 * static_cast<double>(t_us - to_us) * (rate + to_rate);
-    t_us = to_us;
-    rate = to_rate;
-  };
-  for (std::size_t i = samples_.size(); i-- > 0 && samples_[i].t_us > begin_us;) {
-    if (samples_[i].t_us < end_us) add_piece(samples_[i].t_us, samples_[i].w_WB_B);
-  }
-  add_piece(begin_us, at(begin_us));
-  return integral / static_cast<double>(end_us - begin_us);
+constexpr double kMostBins = 4096;  // of faster turns events are misplaced by more
 }
 
 Eigen::Matrix3d rodrigues(const Eigen::Vector3d& v) {

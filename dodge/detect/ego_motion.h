@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "dodge/camera_model.h"
-#include "dodge/detect/ring_buffer.h"
 #include "dodge/types.h"
 
 namespace dodge {
@@ -35,22 +34,6 @@ struct EgoMotionConfig {
       "more than this. Of the bins there are 4096 at most, enough for 41 rad/s in a window of "
       "10 ms by default.");
   }
-};
-
-// Angular rates of the recent past.
-class RateHistory {
- public:
-  RateHistory();
-  void add(const ImuSample& sample);  // in ascending time; a rate that is not finite is no sample
-
-  // Time-weighted mean of w_WB_B over [begin_us, end_us], linear between samples and constant
-  // outside of them. Zero as long as there is no sample. Requires begin_us <= end_us.
-  Eigen::Vector3d mean(TimeUs begin_us, TimeUs end_us) const;
-
- private:
-  Eigen::Vector3d at(TimeUs t_us) const;
-
-  RingBuffer<ImuSample> samples_;
 };
 
 // exp([v]x), Rodrigues' formula, for a rotation vector v [rad].

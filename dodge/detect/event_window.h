@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "dodge/detect/ring_buffer.h"
+#include "dodge/ring_buffer.h"
 #include "dodge/types.h"
 
 namespace dodge {

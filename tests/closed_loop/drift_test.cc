@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dodge/detect/state_history.h"
 #include "dodge/dodger.h"
+#include "dodge/history.h"
 #include "tests/closed_loop/flights.h"
 
 namespace dodgesim {

@@ -31,40 +31,6 @@ TEST(Rodrigues, AgreesWithTheAngleAxisForm) {
   EXPECT_EQ(rodrigues(Eigen::Vector3d::Zero()), Eigen::Matrix3d::Identity());
 }
 
-TEST(RateHistory, IsZeroWithoutSamplesAndConstantOutsideOfThem) {
-  RateHistory rates;
-  EXPECT_EQ(rates.mean(0, 1000), Eigen::Vector3d::Zero());
-  rates.add({.t_us = 5000, .w_WB_B = {1, 2, 3}});
-  EXPECT_EQ(rates.mean(0, 1000), Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(rates.mean(9000, 9000), Eigen::Vector3d(1, 2, 3));
-}
-
-TEST(RateHistory, LeavesOutRatesThatAreNotFinite) {
-  RateHistory rates;
-  rates.add({.t_us = 0, .w_WB_B = {1, 2, 3}});
-  rates.add({.t_us = 500, .w_WB_B = {1, std::nan(""), 3}});
-  rates.add({.t_us = 900, .w_WB_B = {-INFINITY, 2, 3}});
-  EXPECT_EQ(rates.mean(0, 1000), Eigen::Vector3d(1, 2, 3));
-}
-
-TEST(RateHistory, WeighsIrregularSamplesByTime) {
-  // A rate that grows linearly has its mean at the middle of the window, whatever the sampling.
-  RateHistory rates;
-  for (const TimeUs t : {0, 10, 900, 1000, 4000, 4100, 7000, 15000}) {
-    rates.add({.t_us = t, .w_WB_B = Eigen::Vector3d(static_cast<double>(t), 0, 0)});
-  }
-  EXPECT_NEAR(rates.mean(500, 6500).x(), 3500, 1e-9);
-  EXPECT_NEAR(rates.mean(4000, 4100).x(), 4050, 1e-9);
-}
-
-TEST(RateHistory, KeepsTheNewestSamplesOfALongFlight) {
-  RateHistory rates;
-  for (TimeUs t = 0; t < 5000000; t += 1000) {
-    rates.add({.t_us = t, .w_WB_B = Eigen::Vector3d(t < 4000000 ? 1 : 2, 0, 0)});
-  }
-  EXPECT_EQ(rates.mean(4980000, 4990000).x(), 2);
-}
-
 TEST(EgoMotion, LeavesPixelsInPlaceWithoutRotation) {
   const CameraModel camera;
   EgoMotion ego_motion({}, camera);
