@@ -43,6 +43,19 @@ void check_less(const Parameter& smaller, const Parameter& larger) {
   if (smaller.value >= larger.value) refuse_order(smaller, "be less than", larger);
 }
 
+void check_not_more(const Parameter& smaller, const Parameter& larger) {
+  if (smaller.value > larger.value) refuse_order(smaller, "not exceed", larger);
+}
+
+void check_repulsive(const RepulsiveConfig& config) {
+  if (config.field != "khosla" || config.gamma >= 1) return;
+  std::ostringstream sentence;
+  sentence
+      << "The parameter repulsive.gamma is " << config.gamma
+      << " but must be at least 1 for the khosla field; below, its force is infinite at eta_0.";
+  fail(sentence.str());
+}
+
 bool is_rotation(const Eigen::Matrix3d& R) {
   return (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() <= kRotationTolerance &&
          R.determinant() > 0;
@@ -119,17 +132,16 @@ void validate(const Config& config) {
              {"position.max_size_m", config.position.max_size_m});
   check_less({"range_sensor.min_range_m", config.range_sensor.min_range_m},
              {"range_sensor.max_range_m", config.range_sensor.max_range_m});
-  validate(config.repulsive);
-  validate(config.escape);
+  check_repulsive(config.repulsive);
+  check_not_more({"escape.keep_probability", config.escape.keep_probability},
+                 {"escape.min_probability", config.escape.min_probability});
   if (config.escape.law != "potential_field" && decay_lifetime_s(config.repulsive) <= 0) {
     // By any law an obstacle is remembered until its repulsive constant has decayed.
     refuse_order({"repulsive.k_r0", config.repulsive.k_r0}, "exceed",
                  {"repulsive.k_tau", config.repulsive.k_tau});
   }
-  if (config.landing.touchdown_mps > config.landing.descent_mps) {
-    refuse_order({"landing.touchdown_mps", config.landing.touchdown_mps}, "not exceed",
+  check_not_more({"landing.touchdown_mps", config.landing.touchdown_mps},
                  {"landing.descent_mps", config.landing.descent_mps});
-  }
 
   if (!config.p_BR.allFinite()) fail("The range sensor's place p_BR is not finite.");
   const std::size_t needed = config.position.depth == "stereo" ? 2 : 1;

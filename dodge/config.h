@@ -75,6 +75,10 @@ struct Config {
 // Throws std::invalid_argument, with a sentence that names the parameter or camera, if a value is
 // out of its range, parameters contradict each other, a calibration is not finite or its pose no
 // rigid motion, or the cameras do not fit the way depth is measured.
+//
+// This is the one place that checks: Dodger's constructor calls it, as the simulator does before it
+// flies any pilot. The single stages take their parameters as they are. Who uses one by itself
+// calls this first, or check_ranges() for its parameters alone.
 void validate(const Config& config);
 
 }  // namespace dodge

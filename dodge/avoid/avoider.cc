@@ -4,8 +4,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "dodge/check_ranges.h"
-
 namespace dodge {
 namespace {
 
@@ -39,8 +37,6 @@ Avoider::Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attra
       ramp_(limit),
       escape_(escape, limit.max_speed_mps),
       predicts_(escape.law == "closest_approach") {
-  check_ranges(attractive, "attractive.");
-  check_ranges(limit, "velocity_limit.");
   acting_.reserve(Tracker::kUsualObstacles);
 }
 

@@ -16,7 +16,6 @@ namespace dodge {
 
 class Avoider {
  public:
-  // Throws std::invalid_argument on values out of range.
   Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attractive,
           const VelocityLimitConfig& limit, const EscapeConfig& escape);
 

@@ -4,9 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
-
-#include "dodge/check_ranges.h"
 
 namespace dodge {
 namespace {
@@ -97,14 +94,6 @@ Vector3d upward_across(const Vector3d& along) {
 
 }  // namespace
 
-void validate(const EscapeConfig& config) {
-  check_ranges(config, "escape.");
-  if (config.keep_probability > config.min_probability) {
-    throw std::invalid_argument(
-        "The parameter escape.keep_probability must not exceed escape.min_probability.");
-  }
-}
-
 // In strips along the axis of the smaller standard deviation, each of which is exact.
 double hit_probability(const Meeting& meeting) {
   const Vector3d a = meeting.along_W.unitOrthogonal(), b = meeting.along_W.cross(a);
@@ -132,9 +121,7 @@ double hit_probability(const Meeting& meeting) {
 EscapePlanner::EscapePlanner(const EscapeConfig& config, double speed_mps)
     : config_(config),
       speed_mps_(speed_mps),
-      lowest_z_(-std::sin(config.steepest_descent_deg * std::numbers::pi / 180)) {
-  validate(config);
-}
+      lowest_z_(-std::sin(config.steepest_descent_deg * std::numbers::pi / 180)) {}
 
 bool EscapePlanner::is_thrown(const TrackedObstacle& tracked) const {
   return tracked.confirmed && tracked.obstacle.v_WO.norm() >= config_.min_speed_mps;

@@ -57,9 +57,6 @@ struct EscapeConfig {
   }
 };
 
-// Throws std::invalid_argument on values out of range or that contradict each other.
-void validate(const EscapeConfig& config);
-
 // What the vehicle will be commanded.
 struct Intent {
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // velocity [m/s]
@@ -83,7 +80,7 @@ double hit_probability(const Meeting& meeting);
 
 class EscapePlanner {
  public:
-  // `speed_mps` is that of an escape. Throws std::invalid_argument on values out of range.
+  // `speed_mps` is that of an escape.
   EscapePlanner(const EscapeConfig& config, double speed_mps);
 
   // The velocity command of an escape, or nothing while no confirmed obstacle will, within the

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-
-#include "dodge/check_ranges.h"
 
 namespace dodge {
 namespace {
@@ -22,17 +19,6 @@ Eigen::Vector3d without_component_along(const Eigen::Vector3d& v, const Eigen::V
 
 }  // namespace
 
-void validate(const RepulsiveConfig& config) {
-  check_ranges(config, "repulsive.");
-  if (config.field == "khosla" && config.gamma < 1) {
-    std::ostringstream sentence;
-    sentence << "The parameter repulsive.gamma is " << config.gamma
-             << " but must be at least 1 for the khosla field; below, its force is infinite at "
-                "eta_0.";
-    throw std::invalid_argument(sentence.str());
-  }
-}
-
 double decay_lifetime_s(const RepulsiveConfig& config) {
   return std::max(0.0, std::log(config.k_r0 / config.k_tau) / config.lambda_decay_1ps);
 }
@@ -42,9 +28,7 @@ RepulsiveField::RepulsiveField(const RepulsiveConfig& config)
       khosla_(config.field == "khosla"),
       cross_(config.direction == "cross"),
       gradient_(config.direction == "gradient"),
-      steep_sine_(std::sin(config.steep_deg * std::numbers::pi / 180)) {
-  validate(config);
-}
+      steep_sine_(std::sin(config.steep_deg * std::numbers::pi / 180)) {}
 
 double RepulsiveField::k_r(double since_detection_s) const {
   return config_.k_r0 * std::exp(-config_.lambda_decay_1ps * std::max(0.0, since_detection_s));

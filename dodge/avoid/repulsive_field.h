@@ -73,12 +73,8 @@ struct VehicleMotion {
       Eigen::Vector3d::UnitX();  // unit, horizontal: B's x axis without tilt
 };
 
-// Throws std::invalid_argument on values out of range or that contradict each other.
-void validate(const RepulsiveConfig& config);
-
 class RepulsiveField {
  public:
-  // Throws std::invalid_argument on values out of range.
   explicit RepulsiveField(const RepulsiveConfig& config);
 
   // Repulsive constant (33) a time since the last detection.

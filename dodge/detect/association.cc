@@ -5,8 +5,6 @@
 #include <limits>
 #include <tuple>
 
-#include "dodge/check_ranges.h"
-
 namespace dodge {
 
 namespace {
@@ -15,7 +13,6 @@ constexpr std::size_t kUsual = 1024;  // pairs that fit, detections and obstacle
 }  // namespace
 
 Associator::Associator(const AssociationConfig& config) : config_(config) {
-  check_ranges(config, "association.");
   pairs_.reserve(kUsual);
   obstacle_of_.reserve(kUsual);
   taken_.reserve(kUsual);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "dodge/check_ranges.h"
-
 namespace dodge {
 namespace {
 
@@ -36,7 +34,6 @@ TrackedObstacle known_obstacle(int id, TimeUs t_us, const Eigen::Vector3d& p_WO,
 Tracker::Tracker(const AssociationConfig& association, const KalmanConfig& kalman,
                  double lifetime_s)
     : association_(association), kalman_(kalman), associator_(association) {
-  check_ranges(kalman, "kalman.");
   if (!(lifetime_s >= 0)) {
     throw std::invalid_argument("The lifetime of an obstacle must not be negative.");
   }

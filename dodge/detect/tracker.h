@@ -29,7 +29,7 @@ class Tracker {
   static constexpr std::size_t kUsualObstacles = 256;
 
   // lifetime_s: how long an obstacle lives after its last detection (decay_lifetime_s of the
-  // repulsive field, (33)). Throws std::invalid_argument on values out of range.
+  // repulsive field, (33)). Throws std::invalid_argument if it is negative.
   Tracker(const AssociationConfig& association, const KalmanConfig& kalman, double lifetime_s);
 
   // Takes in the detections of one look (none: it has missed all obstacles), fills their

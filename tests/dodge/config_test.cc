@@ -69,6 +69,22 @@ TEST(Config, RefusesKernelsWithoutACentreAndEmptyRanges) {
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("min_size_m"));
 }
 
+TEST(Config, RefusesAFieldWhoseForceIsInfinite) {
+  Config config = valid();
+  config.repulsive.gamma = 0.5;
+  EXPECT_EQ(complaint(config), "");
+  config.repulsive.field = "khosla";
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("repulsive.gamma is 0.5"));
+}
+
+TEST(Config, RefusesAnEscapeThatEndsAsSoonAsItStarts) {
+  Config config = valid();
+  config.escape.keep_probability = 2 * config.escape.min_probability;
+  EXPECT_EQ(complaint(config),
+            "The parameter escape.keep_probability is 0.6 but must not exceed "
+            "escape.min_probability, which is 0.3.");
+}
+
 TEST(Config, StereoNeedsARectifiedVerticalPair) {
   Config config = valid();
   config.cameras.pop_back();

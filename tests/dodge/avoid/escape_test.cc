@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dodge/avoid/avoider.h"
+#include "dodge/check_ranges.h"
 
 namespace dodge {
 namespace {
@@ -336,13 +337,10 @@ TEST(Avoider, EscapesFromWhatItWouldDriftInto) {
 TEST(EscapeConfig, RefusesValuesThatMakeNoSense) {
   EscapeConfig config;
   config.law = "panic";
-  EXPECT_THROW(EscapePlanner(config, kSpeedMps), std::invalid_argument);
+  EXPECT_THROW(check_ranges(config), std::invalid_argument);
   config = {};
   config.acceleration_mps2 = 0;
-  EXPECT_THROW(EscapePlanner(config, kSpeedMps), std::invalid_argument);
-  config = {};
-  config.keep_probability = 2 * config.min_probability;  // it would end as soon as it starts
-  EXPECT_THROW(EscapePlanner(config, kSpeedMps), std::invalid_argument);
+  EXPECT_THROW(check_ranges(config), std::invalid_argument);
 }
 
 }  // namespace
