@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace dodge {
 namespace {
@@ -65,39 +66,14 @@ bool improve_weights(const FitPoints& points, Weights& u) {
   return true;
 }
 
-// Closest point of an axis-aligned ellipsoid to y, all in the first orthant, semi-axes descending,
-// of the first `n` dimensions. Eberly's case distinction, Newton in place of bisection: the
-// function is convex and falling, so that Newton from the left end never oversteps.
-void closest_in_first_orthant(const Eigen::Vector3d& e, const Eigen::Vector3d& y, int n,
-                              Eigen::Vector3d& x) {
+// The functions below take the first n coordinates of an axis-aligned ellipsoid's semi-axes e,
+// descending, and of a point y in the first orthant. The others of the closest point are 0.
+
+// The closest point for a y off the plane of the shortest axis, as the root of a function. That is
+// convex and falling, so that Newton from the left end, in place of Eberly's bisection, never
+// oversteps.
+Eigen::Vector3d by_root(const Eigen::Vector3d& e, const Eigen::Vector3d& y, int n) {
   const int last = n - 1;
-  if (y[last] <= kOnPlane * e[last]) {
-    x[last] = 0;
-    if (n == 1) {
-      x[0] = e[0];
-      return;
-    }
-    // On the plane of the shortest axis: the closest point may lie off the plane.
-    double rest = 1;
-    bool off_plane = true;
-    Eigen::Vector3d candidate = Eigen::Vector3d::Zero();
-    for (int i = 0; i < last && off_plane; ++i) {
-      const double numerator = e[i] * y[i];
-      const double denominator = e[i] * e[i] - e[last] * e[last];
-      off_plane = numerator < denominator;
-      if (!off_plane) break;
-      const double ratio = numerator / denominator;
-      candidate[i] = e[i] * ratio;
-      rest -= ratio * ratio;
-    }
-    if (off_plane && rest > 0) {
-      x.head(last) = candidate.head(last);
-      x[last] = e[last] * std::sqrt(rest);
-    } else {
-      closest_in_first_orthant(e, y, last, x);
-    }
-    return;
-  }
   Eigen::Array3d r, z;
   for (int i = 0; i < n; ++i) {
     r[i] = (e[i] / e[last]) * (e[i] / e[last]);
@@ -115,7 +91,37 @@ void closest_in_first_orthant(const Eigen::Vector3d& e, const Eigen::Vector3d& y
     if (!(next > s)) break;
     s = next;
   }
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
   for (int i = 0; i < n; ++i) x[i] = r[i] * y[i] / (s + r[i]);
+  return x;
+}
+
+// For a y on that plane: the closest point if it lies off the plane, as it does near the centre.
+std::optional<Eigen::Vector3d> off_plane(const Eigen::Vector3d& e, const Eigen::Vector3d& y,
+                                         int n) {
+  const int last = n - 1;
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  double rest = 1;
+  for (int i = 0; i < last; ++i) {
+    const double numerator = e[i] * y[i];
+    const double denominator = e[i] * e[i] - e[last] * e[last];
+    if (!(numerator < denominator)) return std::nullopt;
+    const double ratio = numerator / denominator;
+    x[i] = e[i] * ratio;
+    rest -= ratio * ratio;
+  }
+  if (!(rest > 0)) return std::nullopt;
+  x[last] = e[last] * std::sqrt(rest);
+  return x;
+}
+
+// Eberly's case distinction. It ends at n = 1, where off_plane() always has a point.
+Eigen::Vector3d closest_in_first_orthant(const Eigen::Vector3d& e, const Eigen::Vector3d& y,
+                                         int n) {
+  const bool on_plane = y[n - 1] <= kOnPlane * e[n - 1];
+  if (!on_plane) return by_root(e, y, n);
+  const std::optional<Eigen::Vector3d> x = off_plane(e, y, n);
+  return x ? *x : closest_in_first_orthant(e, y, n - 1);
 }
 
 }  // namespace
@@ -179,8 +185,7 @@ SurfaceDistance distance_to_surface(const Ellipsoid& ellipsoid, const Eigen::Vec
     e[i] = semi_axes[axis];
     y[i] = std::abs(local[axis]);
   }
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();
-  closest_in_first_orthant(e, y, 3, x);
+  const Eigen::Vector3d x = closest_in_first_orthant(e, y, kDimension);
 
   // The normal from the surface equation is defined also where the point lies on the surface.
   Eigen::Vector3d normal;
