@@ -31,7 +31,7 @@ namespace dodge {
 // the speed (VelocityLimitConfig).
 struct Config {
   // Set by whatever carries the core; not parameters of the pilot. Stereo needs two cameras, the
-  // upper one first; mono uses the first. The range sensor sits at p_BR and looks along -z of B.
+  // upper one first; mono uses the first. The range sensor at p_BR [m] looks along -z of B.
   std::vector<CameraModel> cameras;
   Eigen::Vector3d p_BR = Eigen::Vector3d::Zero();
 

@@ -64,18 +64,18 @@ class Dodger : public Pilot {
   void set_goal(const Goal& goal) override;
 
   // Until the first state estimate the command is zero. A landing, once begun, goes on for ever.
-  // Neither this nor handing over data allocates memory, unless a window's events or the obstacles
-  // exceed both what is reserved for and every earlier number, or images are captured.
+  // Neither this nor handing over data allocates memory, unless images are captured, or a window
+  // has more events, or there are more obstacles, than ever before and than memory is reserved for.
   VelocityCommand update(TimeUs now_us) override;
 
   std::span<const Detection> detections() const override { return detections_; }
   std::span<const Obstacle> obstacles() const override { return obstacles_; }
 
-  // Since the start, of events as of the last update, for who watches the sensors: the pilot flies
-  // on, whatever is missing. It does not see a camera whose newest event is older than
-  // window.window_us + window.event_timeout_us, nor, in stereo, one that lags behind the other by
-  // window.window_us or more (a clock that is behind, say); and it carries an old state on at
-  // constant velocity. An event is dropped if it is older than one before it, or more than
+  // For whoever watches the sensors, since the start; of events, as of the last update. The pilot
+  // flies on, whatever is missing: it gets nothing from a camera whose newest event is older than
+  // window.window_us + window.event_timeout_us, nor, in stereo, from one that lags behind the other
+  // by window.window_us or more (because its clock is behind, say), and it carries an old state on
+  // at constant velocity. An event is dropped if it is older than one before it, or more than
   // kMostAheadUs later than the update. Nothing for a camera that is not used.
   static constexpr TimeUs kMostAheadUs = 10000;
   std::optional<TimeUs> newest_event_us(int camera) const;
@@ -88,7 +88,8 @@ class Dodger : public Pilot {
 
   const HeightMonitor& height_monitor() const { return height_monitor_; }
 
-  // Whether the stages' images are kept from the next update on. They are valid until the next one.
+  // Whether the stages' images are kept from the next update on. Those of an update are valid until
+  // the one after it.
   void set_capture(bool capture) { capture_ = capture; }
   const StageImages& stage_images(int camera) const;
 

@@ -17,8 +17,8 @@ class Pilot {
  public:
   virtual ~Pilot() = default;
 
-  // Data arrive late, and each kind (of events, each camera's) in the order of its own time stamps;
-  // there is no order across kinds. The events are there during the call only.
+  // Data arrive late, and each kind (of events, each camera's) in the order of its time stamps;
+  // there is no order across kinds. The events are valid during the call only.
   virtual void add_events(int camera, std::span<const Event> events) = 0;
   virtual void add_imu(const ImuSample& sample) = 0;
   virtual void add_state(const StateEstimate& state) = 0;
@@ -31,8 +31,8 @@ class Pilot {
   // first state estimate or event; without an intention of its own, a pilot returns velocity zero.
   virtual VelocityCommand update(TimeUs now_us) = 0;
 
-  // Of the last update, for logs and pictures. What the spans show lives until the next update(),
-  // and may be asked for several times or never.
+  // Of the last update, for logs and pictures. The spans are valid until the next update(). They
+  // may be asked for several times or never.
   virtual std::span<const Detection> detections() const = 0;
   virtual std::span<const Obstacle> obstacles() const = 0;
 };

@@ -12,9 +12,9 @@
 namespace dodge {
 
 // Makes the pilot of one flight. `config` has the calibration (the upper camera first) and the keys
-// of `dodger`; `parameters` is the text of the key `plugin_parameters`. Both are there during the
-// call only: copy what you need. What is wrong with either is thrown as a std::exception with a
-// sentence.
+// of `dodger`; `parameters` is the text of the key `plugin_parameters`. Both are valid during
+// the call only: copy what you need. If something is wrong with either, throw a std::exception with
+// a sentence that says so.
 //
 // What the simulator does with a pilot:
 // - Just before each update() it hands over all that has arrived: the IMU's samples, then state
@@ -50,7 +50,7 @@ inline constexpr std::uint64_t kPluginInterface = [] {
 
 }  // namespace dodge
 
-// Stands once in the library, outside of namespaces; `make` is a dodge::MakePilot.
+// Write this once in the library, outside of namespaces; `make` is a dodge::MakePilot.
 #define DODGE_PLUGIN(make)                                                                   \
   extern "C" __attribute__((visibility("default"))) std::uint64_t dodge_plugin_interface() { \
     return dodge::kPluginInterface;                                                          \

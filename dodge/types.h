@@ -30,7 +30,7 @@ struct ImuSample {
 };
 
 struct StateEstimate {
-  TimeUs t_us = 0;                                           // the instant the estimate speaks of
+  TimeUs t_us = 0;                                           // the instant it describes
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();            // [m]
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();  // unit; takes vectors from B to W
   Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();            // [m/s]
@@ -57,12 +57,12 @@ struct VelocityCommand {
 
 // One obstacle measured in one update.
 struct Detection {
-  TimeUs t_us = 0;                     // the instant the position speaks of
+  TimeUs t_us = 0;                     // the instant p_W and centre_W describe
   std::array<Eigen::Vector3d, 6> p_W;  // four corners, near and far centre (eq. 12) [m]
   Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();  // [m]
   double depth_m = 0;                                  // along the camera's optical axis
   double depth_sigma_m = 0;                            // its standard deviation
-  double distance_per_depth = 1;                       // of centre_W from the camera
+  double distance_per_depth = 1;                       // |centre_W - camera| / depth_m
   double size_m = 0;     // longer side of the rotated rectangle at that depth (eq. 9)
   int obstacle_id = -1;  // the track it was associated with
 };
@@ -70,12 +70,12 @@ struct Detection {
 // One tracked obstacle.
 struct Obstacle {
   int id = 0;
-  TimeUs t_us = 0;  // the instant p_WO and v_WO speak of
+  TimeUs t_us = 0;  // the instant p_WO and v_WO describe
   TimeUs last_detection_us = 0;
   int detections = 0;
   Eigen::Vector3d p_WO = Eigen::Vector3d::Zero();  // [m]
   Eigen::Vector3d v_WO = Eigen::Vector3d::Zero();  // [m/s]
-  double size_m = 0;                               // of the last detection, as there
+  double size_m = 0;                               // as in the last detection
 };
 
 }  // namespace dodge

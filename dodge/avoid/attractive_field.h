@@ -1,4 +1,4 @@
-// The force towards the goal: Falanga et al. 2020, equation (36), the slope of the potential (35).
+// The velocity towards the goal: Falanga et al. 2020, (36), the slope of the potential (35).
 #pragma once
 
 #include <Eigen/Dense>
@@ -19,8 +19,10 @@ struct AttractiveConfig {
   }
 };
 
-// Force (36), in units of velocity (39).
-Eigen::Vector3d attractive_force(const AttractiveConfig& config, double k_a,
-                                 const Eigen::Vector3d& e);
+// What the paper calls the attractive force (36), which (39) adds up as a velocity: in W [m/s].
+// speed_mps, its k_a, is the cruise speed: from e_0_m outwards the velocity has this length, and
+// less nearer the goal. to_goal_W, its e, leads from the vehicle to the goal [m].
+Eigen::Vector3d attractive_velocity(const AttractiveConfig& config, double speed_mps,
+                                    const Eigen::Vector3d& to_goal_W);
 
 }  // namespace dodge

@@ -53,7 +53,7 @@ VelocityCommand Avoider::command(TimeUs now, const StateEstimate& state, const G
 
 VelocityCommand Avoider::decide(TimeUs now, const VehicleMotion& vehicle, const Goal& goal) {
   const Eigen::Vector3d attractive_W =
-      attractive_force(attractive_, goal.speed_mps, goal.p_WG - vehicle.p_W);
+      attractive_velocity(attractive_, goal.speed_mps, goal.p_WG - vehicle.p_W);
   if (!predicts_) {
     return velocity_command(limit_, now, repulsion(now, vehicle), attractive_W);
   }

@@ -80,10 +80,10 @@ double hit_probability(const Meeting& meeting);
 
 class EscapePlanner {
  public:
-  // `speed_mps` is that of an escape.
+  // speed_mps: of an escape.
   EscapePlanner(const EscapeConfig& config, double speed_mps);
 
-  // The velocity command of an escape, or nothing while no confirmed obstacle will, within the
+  // The velocity of an escape [m/s], or nothing while no confirmed obstacle will, within the
   // horizon, probably hit a vehicle that follows `intent`. `vehicle` is the state at `now`. Call
   // once a cycle: what has been answered decides which probability counts.
   std::optional<Eigen::Vector3d> escape(TimeUs now, const VehicleMotion& vehicle,

@@ -62,7 +62,7 @@ struct RepulsiveConfig {
   }
 };
 
-// How long an obstacle lives after its last detection: k_r (33) reaches k_tau.
+// How long an obstacle is remembered after its last detection: until k_r (33) has decayed to k_tau.
 double decay_lifetime_s(const RepulsiveConfig& config);
 
 // What the field must know of the vehicle.
@@ -77,15 +77,16 @@ class RepulsiveField {
  public:
   explicit RepulsiveField(const RepulsiveConfig& config);
 
-  // Repulsive constant (33) a time since the last detection.
+  // Repulsive constant (33), so long after the last detection.
   double k_r(double since_detection_s) const;
 
-  // |F| for a distance eta between the vehicle's hull and the obstacle, (28) or (27), without |v|.
-  // eta < 0 (touching) counts as 0.
+  // |F| without |v|, (28) or (27), for a distance eta between the vehicle's hull and the obstacle:
+  // in (m/s) per (m/s), or in m/s where the force does not scale with speed. eta < 0 (touching)
+  // counts as 0.
   double magnitude(double eta_m, double k_r) const;
 
   // Unit escape direction for the gradient of the distance (unit, away from the obstacle) and the
-  // velocity that counts. Cross: (29), (30), orthogonal to the heading and made a unit vector
+  // obstacle's velocity [m/s]. Cross: (29), (30), orthogonal to the heading and made a unit vector
   // again, so that (28) alone sets the magnitude: as printed, an obstacle that crosses from the
   // side would hardly push. Where (29) or (30) vanish (head-on), the escape is upward, or sideways
   // if the obstacle flies steeply: to the left, or to the right if the left would go down. All of
@@ -95,8 +96,8 @@ class RepulsiveField {
   Eigen::Vector3d direction(const Eigen::Vector3d& grad_eta_W, const Eigen::Vector3d& v_W,
                             const Eigen::Vector3d& heading_W) const;
 
-  // The force (32) in W, in units of velocity (39). Zero for an obstacle without motion when the
-  // force scales with speed.
+  // The force (32) in W, a velocity for (39) [m/s]. Zero for an obstacle without motion when the
+  // force scales with speed. v_obstacle_W in m/s.
   Eigen::Vector3d force(const VehicleMotion& vehicle, const Ellipsoid& obstacle,
                         const Eigen::Vector3d& v_obstacle_W, double since_detection_s) const;
 

@@ -27,7 +27,8 @@ struct VelocityLimitConfig {
   }
 };
 
-// Sum of the forces as a velocity (39), shortened to the limit; its direction is kept.
+// Sum (39) of the two virtual forces, which are velocities [m/s], shortened to the limit; its
+// direction is kept.
 VelocityCommand velocity_command(const VelocityLimitConfig& config, TimeUs t_us,
                                  const Eigen::Vector3d& repulsive_W,
                                  const Eigen::Vector3d& attractive_W);
@@ -38,7 +39,7 @@ class CommandRamp {
  public:
   explicit CommandRamp(const VelocityLimitConfig& config) : config_(config) {}
 
-  // Call once a cycle. `v_WB` is the vehicle's velocity.
+  // Call once a cycle. v_WB: the vehicle's velocity [m/s].
   VelocityCommand ramped(VelocityCommand command, const Eigen::Vector3d& v_WB);
 
   // How fast the next command will change unless it evades [m/s^2]; 0: at once.
@@ -49,7 +50,7 @@ class CommandRamp {
 
   VelocityLimitConfig config_;
   bool braking_ = false;  // an escape has ended, and the command is not yet the one asked for
-  std::optional<VelocityCommand> last_;  // since the escape
+  std::optional<VelocityCommand> last_;  // the command of the last cycle, if since the escape
 };
 
 }  // namespace dodge

@@ -78,10 +78,10 @@ struct DepthConfig {
   }
 };
 
-// What a camera contributes.
+// What a camera contributes: its stages' results of the last window.
 struct View {
-  const std::vector<Cluster>* clusters;
-  const cv::Mat1f* averaged_rho;
+  const std::vector<Cluster>* clusters;  // of Clusterer
+  const cv::Mat1f* averaged_rho;         // of TimeImage
 };
 
 class DepthEstimator {

@@ -49,14 +49,15 @@ Eigen::Matrix3d measurement_covariance(const KalmanConfig& config, const Detecti
 // Position and velocity in W, [m] and [m/s].
 class Kalman {
  public:
+  // z_W: the position measured at t_us [m]; R: its covariance [m^2].
   Kalman(const KalmanConfig& config, TimeUs t_us, const Eigen::Vector3d& z_W,
          const Eigen::Matrix3d& R);
 
   // (21), (22) up to t_us; an instant in the past leaves the state as it is.
   void predict(TimeUs t_us);
 
-  // (21) to (25) with the position measured at t_us. One before the state's instant is held
-  // against where the state says the obstacle was then, as if no noise had acted since.
+  // (21) to (25) with the position measured at t_us. One from before the state's instant is
+  // compared with where the state says the obstacle was then, as if no noise had acted since.
   void update(TimeUs t_us, const Eigen::Vector3d& z_W, const Eigen::Matrix3d& R);
 
   struct Position {
@@ -69,7 +70,7 @@ class Kalman {
   TimeUs t_us() const { return t_us_; }
   Eigen::Vector3d position() const { return x_.head<3>(); }
   Eigen::Vector3d velocity() const { return x_.tail<3>(); }
-  const Matrix6d& covariance() const { return P_; }
+  const Matrix6d& covariance() const { return P_; }  // of (position, velocity) [m, m/s]
 
  private:
   Eigen::Vector3d past_position(double age_s) const;

@@ -14,7 +14,7 @@ inline float longer_side(const cv::RotatedRect& r) { return std::max(r.size.widt
 
 class MinAreaRectangle {
  public:
-  // Allocates no more unless there are more points than max_points.
+  // Memory is allocated here, and later only for more than max_points points.
   explicit MinAreaRectangle(std::size_t max_points);
 
   // A rectangle with a side along an edge of the hull; the last one that the calipers meet if

@@ -55,7 +55,8 @@ PredictedObstacle Tracker::predicted(const Track& track, TimeUs t_us) {
   return {position.mean_W, position.covariance_W, track.detections, seconds(unseen_us)};
 }
 
-// A look sees an obstacle once. Detections that are not finite take no track from the others.
+// In one look an obstacle is detected at most once, so that each detection has a track of its own.
+// Those that are not finite are left out before, and take no track from the others.
 void Tracker::update(TimeUs now, std::span<Detection> detections) {
   remove_stale(now);
   for (Track& track : tracks_) track.missed = true;

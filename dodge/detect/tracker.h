@@ -25,16 +25,16 @@ TrackedObstacle known_obstacle(int id, TimeUs t_us, const Eigen::Vector3d& p_WO,
 
 class Tracker {
  public:
-  // Room for so many from the start.
+  // Memory for so many is reserved from the start.
   static constexpr std::size_t kUsualObstacles = 256;
 
   // lifetime_s: how long an obstacle lives after its last detection (decay_lifetime_s of the
   // repulsive field, (33)). Throws std::invalid_argument if it is negative.
   Tracker(const AssociationConfig& association, const KalmanConfig& kalman, double lifetime_s);
 
-  // Takes in the detections of one look (none: it has missed all obstacles), fills their
-  // obstacle_id, removes obstacles that were not seen for too long, and predicts all to `now`.
-  // Detections that are not finite are ignored and keep id -1.
+  // Takes in the detections of one look (if there are none, it has missed all obstacles), fills in
+  // their obstacle_id, removes obstacles that were not seen for too long, and predicts all to
+  // `now`. Detections that are not finite are ignored and keep id -1.
   void update(TimeUs now, std::span<Detection> detections);
 
   // The same without a look, between the cameras' data.

@@ -12,24 +12,24 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(AttractiveForce, IsTheDesiredSpeedBeyondTheCrossover) {
+TEST(AttractiveVelocity, IsTheDesiredSpeedBeyondTheCrossover) {
   const AttractiveConfig config;  // e_0 = 0.2 m, gamma_a = 2
-  EXPECT_TRUE(attractive_force(config, 1.5, {3, 0, 4}).isApprox(Vector3d(0.9, 0, 1.2)));
-  EXPECT_TRUE(attractive_force(config, 1.5, {0, 0.2, 0}).isApprox(Vector3d(0, 1.5, 0)));
+  EXPECT_TRUE(attractive_velocity(config, 1.5, {3, 0, 4}).isApprox(Vector3d(0.9, 0, 1.2)));
+  EXPECT_TRUE(attractive_velocity(config, 1.5, {0, 0.2, 0}).isApprox(Vector3d(0, 1.5, 0)));
 }
 
-TEST(AttractiveForce, FallsToZeroAtTheGoal) {
+TEST(AttractiveVelocity, FallsToZeroAtTheGoal) {
   const AttractiveConfig config;
-  EXPECT_TRUE(attractive_force(config, 1.5, {0.1, 0, 0}).isApprox(Vector3d(0.375, 0, 0)));
-  EXPECT_EQ(attractive_force(config, 1.5, Vector3d::Zero()), Vector3d::Zero());
-  EXPECT_TRUE(attractive_force(config, 1.5, {1e-300, 0, 0}).allFinite());
-  EXPECT_NEAR(attractive_force(config, 1.5, {0.2 - 1e-9, 0, 0}).x(), 1.5, 1e-6);
+  EXPECT_TRUE(attractive_velocity(config, 1.5, {0.1, 0, 0}).isApprox(Vector3d(0.375, 0, 0)));
+  EXPECT_EQ(attractive_velocity(config, 1.5, Vector3d::Zero()), Vector3d::Zero());
+  EXPECT_TRUE(attractive_velocity(config, 1.5, {1e-300, 0, 0}).allFinite());
+  EXPECT_NEAR(attractive_velocity(config, 1.5, {0.2 - 1e-9, 0, 0}).x(), 1.5, 1e-6);
 }
 
-TEST(AttractiveForce, HasAConstantMagnitudeForAnExponentOfZero) {
+TEST(AttractiveVelocity, HasAConstantMagnitudeForAnExponentOfZero) {
   const AttractiveConfig config{0.2, 0.0};
-  EXPECT_TRUE(attractive_force(config, 1.5, {0, 1e-3, 0}).isApprox(Vector3d(0, 1.5, 0)));
-  EXPECT_EQ(attractive_force(config, 1.5, Vector3d::Zero()), Vector3d::Zero());
+  EXPECT_TRUE(attractive_velocity(config, 1.5, {0, 1e-3, 0}).isApprox(Vector3d(0, 1.5, 0)));
+  EXPECT_EQ(attractive_velocity(config, 1.5, Vector3d::Zero()), Vector3d::Zero());
 }
 
 // Potential (35). As printed it jumps at e_0; the inner branch is raised by k_a e_0 gamma_a /
@@ -47,14 +47,14 @@ TEST(AttractivePotential, IsContinuousAtTheCrossover) {
   EXPECT_NEAR(attractive_potential(config, 1.5, {0.2 - 1e-12, 0, 0}), 0.3, 1e-9);
 }
 
-TEST(AttractivePotential, HasTheForceAsItsSlope) {
+TEST(AttractivePotential, HasTheVelocityAsItsSlope) {
   const AttractiveConfig config;
   for (const double distance : {0.01, 0.1, 0.199, 0.201, 0.5, 3.0}) {
     const Vector3d e = distance * Vector3d(2, -1, 2) / 3, step = 1e-6 * Vector3d(2, -1, 2) / 3;
     const double slope = (attractive_potential(config, 1.5, e + step) -
                           attractive_potential(config, 1.5, e - step)) /
                          2e-6;
-    EXPECT_NEAR(attractive_force(config, 1.5, e).norm(), slope, 1e-6) << distance;
+    EXPECT_NEAR(attractive_velocity(config, 1.5, e).norm(), slope, 1e-6) << distance;
   }
 }
 
