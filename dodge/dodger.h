@@ -86,8 +86,6 @@ class Dodger : public Pilot {
   const std::vector<Cluster>& clusters(int camera) const;
   const StageTimes& stage_times() const { return stage_times_; }
 
-  const HeightMonitor& height_monitor() const { return height_monitor_; }
-
   // Whether the stages' images are kept from the next update on. Those of an update are valid until
   // the one after it.
   void set_capture(bool capture) { capture_ = capture; }

@@ -49,7 +49,6 @@ class EventWindow {
 
   bool empty() const { return events_.empty(); }
   TimeUs newest_us() const { return events_.back().t_us; }  // requires !empty()
-  std::size_t capacity() const { return events_.capacity(); }
 
   // Since the start.
   std::optional<TimeUs> last_taken_us() const { return last_taken_us_; }  // forgotten or not

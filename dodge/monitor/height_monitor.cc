@@ -12,8 +12,7 @@ HeightMonitor::HeightMonitor(const HeightMonitorConfig& config) : config_(config
 void HeightMonitor::add(TimeUs t_us, double estimated_m, double measured_m) {
   const double ground_m = estimated_m - measured_m;
   if (!ground_m_) return learn(ground_m);
-  discrepancy_m_ = ground_m - *ground_m_;
-  if (std::abs(*discrepancy_m_) <= config_.threshold_m) {
+  if (std::abs(ground_m - *ground_m_) <= config_.threshold_m) {
     apart_since_us_.reset();
   } else {
     if (!apart_since_us_ || t_us - last_us_ > config_.max_gap_us) apart_since_us_ = t_us;

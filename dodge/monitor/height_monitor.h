@@ -50,17 +50,12 @@ class HeightMonitor {
   // The estimate has drifted; once true it stays true.
   bool drifted() const { return drifted_; }
 
-  // Of the last call: by how much the estimate has risen against the range sensor since the start.
-  // Empty while the ground is being learned.
-  std::optional<double> discrepancy_m() const { return discrepancy_m_; }
-
  private:
   void learn(double ground_m);
 
   HeightMonitorConfig config_;
   std::vector<double> first_grounds_m_;
   std::optional<double> ground_m_;  // in W, where the estimate put it at the start
-  std::optional<double> discrepancy_m_;
   std::optional<TimeUs> apart_since_us_;
   TimeUs last_us_ = 0;
   bool drifted_ = false;

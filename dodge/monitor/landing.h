@@ -46,9 +46,6 @@ class Landing {
   // Straight down.
   VelocityCommand command(TimeUs now_us) const;
 
-  // How fast the height estimate rises against the range sensor [m/s].
-  double drift_mps() const { return drift_mps_; }
-
  private:
   LandingConfig config_;
   // Of the last reading; none before the first.
@@ -56,7 +53,7 @@ class Landing {
   double height_m_ = 0;
   // Second-order filter of the ground's height in the estimate, which a drift makes rise or sink.
   double ground_m_ = 0;
-  double drift_mps_ = 0;
+  double drift_mps_ = 0;  // how fast the height estimate rises against the range sensor
 };
 
 }  // namespace dodge

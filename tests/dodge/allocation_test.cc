@@ -135,6 +135,22 @@ TEST_P(Allocation, NoneFromTheFirstCycleOn) {
   EXPECT_GT(evading, 5);
 }
 
+TEST(EventWindow, AllocatesNothingOnceItHasHeldAsManyEvents) {
+  if (!DODGESIM_OWN_MALLOC) GTEST_SKIP() << "malloc cannot be counted in this build.";
+  EventWindow window;
+  long growing = 0, steady = 0;
+  for (TimeUs t = 0; t < 500000; t += 1000) {
+    const std::vector<Event> packet(6000, Event{.t_us = t});
+    const long before = allocations;
+    window.add(packet);
+    window.take(t);
+    window.forget_until(t - 10000);
+    (t <= 20000 ? growing : steady) += allocations - before;
+  }
+  EXPECT_GT(growing, 0);
+  EXPECT_EQ(steady, 0);
+}
+
 TEST(AllocationCount, SeesOperatorNewAndOpencv) {
   if (!DODGESIM_OWN_MALLOC) GTEST_SKIP() << "malloc cannot be counted in this build.";
   long before = allocations;

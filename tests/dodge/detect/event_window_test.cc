@@ -56,18 +56,6 @@ TEST(EventWindow, KeepsTheOrderAcrossTheEndOfItsMemory) {
   }
 }
 
-TEST(EventWindow, StopsGrowingInSteadyState) {
-  EventWindow window;
-  std::size_t capacity = 0;
-  for (TimeUs begin = 0; begin < 500000; begin += 1000) {
-    window.add(std::vector<Event>(3000, Event{.t_us = begin}));
-    window.take(begin);
-    window.forget_until(begin - 10000);
-    if (begin == 20000) capacity = window.capacity();
-  }
-  EXPECT_EQ(window.capacity(), capacity);
-}
-
 TEST(EventWindow, DropsWhatIsOlderThanOneBeforeIt) {
   EventWindow window;
   window.add(std::vector<Event>{{.t_us = 100}, {.t_us = 300}, {.t_us = 200}, {.t_us = 300}});

@@ -27,6 +27,14 @@ std::optional<TimeUs> lands_at(HeightMonitor& monitor, TimeUs end_us, const OfTi
 
 double none(double) { return 0; }
 
+// Lands at the first reading that is farther off than `threshold_m`.
+HeightMonitorConfig at_once(double threshold_m) {
+  HeightMonitorConfig config;
+  config.threshold_m = threshold_m;
+  config.persist_us = 0;
+  return config;
+}
+
 // A change of `by` between two times.
 OfTime between(double from_s, double to_s, double by) {
   return [=](double t_s) { return t_s >= from_s && t_s < to_s ? by : 0.0; };
@@ -34,12 +42,10 @@ OfTime between(double from_s, double to_s, double by) {
 
 TEST(HeightMonitor, AConstantErrorOfTheHeightIsNoDrift) {
   for (const double offset_m : {-5.0, -0.4, 0.4, 1.7, 100.0}) {
-    HeightMonitor monitor({});
+    HeightMonitor monitor(at_once(1e-9));
     EXPECT_FALSE(lands_at(
         monitor, 20000000, [&](double) { return offset_m; }, none))
         << offset_m;
-    ASSERT_TRUE(monitor.discrepancy_m());
-    EXPECT_NEAR(*monitor.discrepancy_m(), 0, 1e-9);
   }
 }
 
@@ -56,7 +62,6 @@ TEST(HeightMonitor, LandsWithinTheTimeThatADriftNeedsUpAndDownAlike) {
     EXPECT_GT(*rises, reaches_us + config.persist_us - 1);
     EXPECT_LE(*rises, reaches_us + config.persist_us + kPeriodUs + 1);
     EXPECT_EQ(lands_at(mirrored, 60000000, drift(-1), none), rises);
-    EXPECT_NEAR(*monitor.discrepancy_m(), -*mirrored.discrepancy_m(), 1e-12);
   }
 }
 
@@ -89,11 +94,12 @@ TEST(HeightMonitor, WhatStaysBelowLandsTheVehicle) {
 }
 
 TEST(HeightMonitor, OneOutlierChangesNothing) {
-  HeightMonitor monitor({});
-  EXPECT_FALSE(lands_at(monitor, 3000000, none, [](double t_s) {
-    return std::abs(t_s - 0.1) < 1e-3 || std::abs(t_s - 2) < 1e-3 ? 40.0 : 0.0;
-  }));
-  EXPECT_NEAR(*monitor.discrepancy_m(), 0, 1e-9);  // nor one while it learned
+  const auto outlier_at = [](double at_s) {
+    return [=](double t_s) { return std::abs(t_s - at_s) < 1e-3 ? 40.0 : 0.0; };
+  };
+  HeightMonitor flying({}), learning(at_once(1e-9));
+  EXPECT_FALSE(lands_at(flying, 3000000, none, outlier_at(2)));
+  EXPECT_FALSE(lands_at(learning, 3000000, none, outlier_at(0.1)));
 }
 
 TEST(HeightMonitor, OneReadingThatAgreesBreaksTheDiscrepancy) {
@@ -131,20 +137,21 @@ TEST(HeightMonitor, OnceDriftedItStaysSo) {
   HeightMonitor monitor({});
   ASSERT_TRUE(lands_at(monitor, 5000000, between(1, 3, 0.5), none));
   for (TimeUs t = 5000000; t < 7000000; t += kPeriodUs) monitor.add(t, 2, 2);
-  EXPECT_NEAR(*monitor.discrepancy_m(), 0, 1e-9);
   EXPECT_TRUE(monitor.drifted());
 }
 
 TEST(HeightMonitor, SaysNothingWhileItLearnsTheGround) {
-  HeightMonitorConfig config;
-  config.learn_readings = 10;
-  HeightMonitor monitor(config);
-  for (TimeUs t = 0; t < 10; ++t) {
-    EXPECT_FALSE(monitor.discrepancy_m());
-    monitor.add(t * kPeriodUs, 2, 1.9);
-  }
-  monitor.add(10 * kPeriodUs, 2.25, 1.9);
-  EXPECT_NEAR(monitor.discrepancy_m().value(), 0.25, 1e-12);
+  const auto lands = [](double threshold_m) {
+    HeightMonitorConfig config = at_once(threshold_m);
+    config.learn_readings = 11;
+    HeightMonitor monitor(config);
+    for (int i = 0; i < 11; ++i) monitor.add(i * kPeriodUs, 2 + 0.1 * (i - 5), 1.9);
+    EXPECT_FALSE(monitor.drifted());
+    monitor.add(11 * kPeriodUs, 2.25, 1.9);
+    return monitor.drifted();
+  };
+  EXPECT_TRUE(lands(0.25 - 1e-9));
+  EXPECT_FALSE(lands(0.25 + 1e-9));
 }
 
 }  // namespace
