@@ -1,5 +1,7 @@
 #include "sim/world/mjcf.h"
 
+#include <tinyxml2.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,6 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
-#include <string_view>
 
 #include "sim/base/error.h"
 #include "sim/base/names.h"
@@ -22,110 +23,42 @@ constexpr std::uintmax_t kMaxModelBytes = 1 << 20;
 constexpr std::uintmax_t kMaxAssetBytes = 32 << 20;
 constexpr std::uint32_t kMaxTexturePx = 4096;
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+[[noreturn]] void fail(const std::string& label, int line, const std::string& what) {
+  throw ScenarioError(label + ":" + std::to_string(line) + ": " + what);
+}
 
-// Reads one file from front to back.
-class Reader {
- public:
-  Reader(const std::string& text, const std::string& label) : text_(text), label_(label) {}
-
-  std::vector<MjcfTag> read() {
-    std::vector<MjcfTag> tags;
-    for (skip_space(); at_ < text_.size(); skip_space()) {
-      if (starts_with("<!--")) {
-        skip_past("-->");
-      } else if (starts_with("<?")) {
-        skip_past("?>");
-      } else {
-        tags.push_back(read_tag());
-      }
-    }
-    return tags;
-  }
-
- private:
-  bool starts_with(std::string_view s) const { return text_.compare(at_, s.size(), s) == 0; }
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw ScenarioError(label_ + ":" + std::to_string(line()) + ": " + what);
-  }
-
-  // Counted on from where it was asked last.
-  int line() const {
-    for (const std::size_t end = std::min(at_, text_.size()); counted_ < end; ++counted_) {
-      if (text_[counted_] == '\n') ++line_;
-    }
-    return line_;
-  }
-
-  void expect(char c) {
-    if (at_ >= text_.size() || text_[at_] != c) {
-      fail(std::string("The model is not valid XML: '") + c + "' is expected here.");
-    }
-    ++at_;
-  }
-
-  void skip_space() {
-    while (at_ < text_.size() && is_space(text_[at_])) ++at_;
-  }
-
-  void skip_past(std::string_view end) {
-    const std::size_t found = text_.find(end, at_);
-    if (found == std::string::npos) fail("The model is not valid XML: a comment does not end.");
-    at_ = found + end.size();
-  }
-
-  std::string read_name() {
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && is_name_character(text_[at_])) ++at_;
-    if (at_ == begin) fail("The model is not valid XML: a name is expected here.");
-    return text_.substr(begin, at_ - begin);
-  }
-
-  std::pair<std::string, std::string> read_attribute() {
-    std::string name = read_name();
-    skip_space();
-    expect('=');
-    skip_space();
-    const char quote = at_ < text_.size() && text_[at_] == '\'' ? '\'' : '"';
-    expect(quote);
-    const std::size_t end = text_.find(quote, at_);
-    if (end == std::string::npos) fail("The model is not valid XML: a quoted value does not end.");
-    std::string value = text_.substr(at_, end - at_);
+std::vector<MjcfTag::Attribute> attributes_of(const tinyxml2::XMLElement& element,
+                                              const std::string& label) {
+  std::vector<MjcfTag::Attribute> attributes;
+  for (const auto* each = element.FirstAttribute(); each != nullptr; each = each->Next()) {
+    const std::string name = each->Name(), value = each->Value();
     // Entities would let a value mean something else than what is checked here.
     if (value.find_first_of("<&\"") != std::string::npos) {
-      fail("The value of '" + name + "' holds a character that model files must not use.");
+      fail(label, each->GetLineNum(),
+           "The value of '" + name + "' holds a character that model files must not use.");
     }
-    at_ = end + 1;
-    return {std::move(name), std::move(value)};
+    attributes.emplace_back(name, value);
   }
+  return attributes;
+}
 
-  MjcfTag read_tag() {
-    MjcfTag tag;
-    tag.line = line();
-    expect('<');
-    if (starts_with("/")) {
-      ++at_;
-      tag.kind = MjcfTag::Kind::kClose;
+// As deep as tinyxml2 reads: 100 elements.
+void add_tags(const tinyxml2::XMLNode& parent, const std::string& label,
+              std::vector<MjcfTag>& tags) {
+  for (const auto* node = parent.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (node->ToComment() != nullptr || node->ToDeclaration() != nullptr) continue;
+    const tinyxml2::XMLElement* element = node->ToElement();
+    if (element == nullptr) {
+      fail(label, node->GetLineNum(), "A model file holds elements and comments, nothing else.");
     }
-    tag.name = read_name();
-    for (skip_space(); at_ < text_.size() && is_name_character(text_[at_]); skip_space()) {
-      tag.attributes.push_back(read_attribute());
-    }
-    if (starts_with("/") && tag.kind == MjcfTag::Kind::kOpen) {
-      ++at_;
-      tag.kind = MjcfTag::Kind::kSelfClose;
-    }
-    expect('>');
-    return tag;
+    const bool closed = element->ClosingType() == tinyxml2::XMLElement::CLOSED;
+    tags.push_back({closed ? MjcfTag::Kind::kSelfClose : MjcfTag::Kind::kOpen,
+                    element->GetLineNum(), element->Name(), attributes_of(*element, label)});
+    if (closed) continue;
+    add_tags(*element, label, tags);
+    tags.push_back({MjcfTag::Kind::kClose, tags.back().line, element->Name(), {}});
   }
-
-  const std::string& text_;
-  const std::string& label_;
-  std::size_t at_ = 0;
-  mutable std::size_t counted_ = 0;
-  mutable int line_ = 1;
-};
+}
 
 // Width and height of a PNG file; nothing for any other file.
 std::optional<std::array<std::uint32_t, 2>> png_size(const std::string& path) {
@@ -228,7 +161,14 @@ const std::string* MjcfTag::find(const std::string& attribute) const {
 }
 
 std::vector<MjcfTag> parse_mjcf(const std::string& text, const std::string& label) {
-  return Reader(text, label).read();
+  tinyxml2::XMLDocument document(false);  // entities stay as they are, to be refused
+  if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+    fail(label, std::max(1, document.ErrorLineNum()),
+         std::string("The model is not valid XML (") + document.ErrorName() + ").");
+  }
+  std::vector<MjcfTag> tags;
+  add_tags(document, label, tags);
+  return tags;
 }
 
 std::string print_mjcf(const std::vector<MjcfTag>& tags) {

@@ -1,5 +1,5 @@
-// The little of XML that MJCF needs: enough to put several model files together into one, with
-// names kept apart and objects scaled. MuJoCo 2.2.2 itself can only include a file once.
+// Model files as lists of tags: enough to put several of them together into one, with names kept
+// apart and objects scaled. MuJoCo 2.2.2 itself can only include a file once.
 #pragma once
 
 #include <string>
@@ -11,18 +11,21 @@ namespace dodgesim {
 // An opening, closing or self-closing tag. MJCF has no text between tags.
 struct MjcfTag {
   enum class Kind { kOpen, kClose, kSelfClose };
+  using Attribute = std::pair<std::string, std::string>;  // name and value
+
   Kind kind = Kind::kOpen;
-  int line = 1;  // in its file
+  int line = 1;  // in its file; of a closing tag, that of the tag before it
   std::string name;
-  std::vector<std::pair<std::string, std::string>> attributes;
+  std::vector<Attribute> attributes;
 
   const std::string* find(const std::string& attribute) const;
 };
 
 // The tags of `text` in order, without comments and the XML declaration. `label` names the file in
-// errors. Throws ScenarioError when the text is not made of tags.
+// errors. Throws ScenarioError, naming file and line, when the text is not valid XML, is more than
+// 100 elements deep, or holds text, entities or a DOCTYPE.
 std::vector<MjcfTag> parse_mjcf(const std::string& text, const std::string& label);
-// Tags come out on the lines that they had, so that MuJoCo's messages name lines of the file.
+// Elements begin on the lines that they had, so that MuJoCo's messages name lines of the file.
 std::string print_mjcf(const std::vector<MjcfTag>& tags);
 
 // Numbers separated by blanks. Throws ScenarioError if one is not a finite number.
