@@ -92,7 +92,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
       range_sensor_(scenario.sensors.range, scenario.seed, index()),
       computer_(scenario.delays, make_pilot()),
       witness_(world_, witness_setup()),
-      observer_(observer),
+      observer_(observer != nullptr ? *observer : nobody_),
       rig_(make_rig()),
       mission_(scenario.mission),
       controller_states_(scenario.delays.state_estimate_us),
@@ -110,7 +110,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
   computer_.set_goal(mission_.goal());
   record_.sightings.resize(plan_.launches.size());
   referee_.reset();
-  if (observer_ != nullptr) observer_->on_start(computer_.pilot());
+  observer_.on_start(computer_.pilot());
   if (!rig_) return;
   rig_->start();
   for (const auto& launch : plan_.launches) rig_->require(launch.toss.launch_us);
@@ -152,7 +152,7 @@ std::unique_ptr<EventRig> Flight::make_rig() const {
   setup.events = scenario_.sensors.events;
   setup.sampling = scenario_.sensors.sampling;
   setup.packet_us = scenario_.delays.packet_us;
-  setup.keep_causes = observer_ != nullptr && observer_->wants_causes();
+  setup.keep_causes = observer_.wants_causes();
   setup.cameras = cameras();
   setup.seed = scenario_.seed;
   setup.throw_index = index();
@@ -190,29 +190,29 @@ void Flight::move() {
   if (launched && rig_) rig_->rebase();
   before_ = world_.snapshot();
   world_.step(motors_.step(start_us));
-  if (observer_ != nullptr) observer_->on_tick(world_);
+  observer_.on_tick(world_);
 }
 
 void Flight::sense() {
   const Snapshot& now = world_.snapshot();
   gyro_B_radps_ = flight_controller_imu_.sample_gyro(now);
   // A pilot that knows the truth asks neither for the IMU nor for the range; a recording has both.
-  const bool asked = truth_pilot_ == nullptr || observer_ != nullptr;
+  const bool asked = truth_pilot_ == nullptr || &observer_ != &nobody_;
   if (asked && imu_.due(now.t_us)) {
     const ImuReading imu = imu_.sample(now);
     computer_.send_imu(imu);
-    if (observer_ != nullptr) observer_->on_imu(imu);
+    observer_.on_imu(imu);
   }
   if (state_estimator_.due(now.t_us)) {
     const StateReading state = state_estimator_.sample(now);
     computer_.send_state(state);
     controller_states_.push(now.t_us, state);
-    if (observer_ != nullptr) observer_->on_state(state);
+    observer_.on_state(state);
   }
   if (asked && range_sensor_.due(now.t_us)) {
     if (const auto reading = range_sensor_.sample(now.t_us, true_range_m())) {
       computer_.send_range(*reading);
-      if (observer_ != nullptr) observer_->on_range(*reading);
+      observer_.on_range(*reading);
     }
   }
 }
@@ -224,7 +224,7 @@ void Flight::see() {
   require_packet();
   rig_->advance(before_, now, [this](int camera, const Packet& packet) {
     computer_.send_events(camera, packet.end_us, packet.events);
-    if (observer_ != nullptr) observer_->on_events(camera, packet);
+    observer_.on_events(camera, packet);
   });
   history_.add(now);
 }
@@ -247,13 +247,13 @@ void Flight::decide() {
   if (computer_.run_cycle(now_us())) {
     note_detections();
     note_told();
-    if (observer_ != nullptr) observer_->on_cycle(now_us(), computer_.pilot());
+    observer_.on_cycle(now_us(), computer_.pilot());
   }
   if (const auto command = computer_.take_command(now_us())) {
     reference_ = {command->v_W, command->evading};
     evasion_arrived_ = command->evading;
     if (command->landing && !record_.landing_us) record_.landing_us = now_us();
-    if (observer_ != nullptr) observer_->on_velocity(now_us(), *command);
+    observer_.on_velocity(now_us(), *command);
   }
   timing_.pilot_s += seconds_since(start);
 }
@@ -274,7 +274,7 @@ void Flight::control() {
   rate_commands_.deliver(now, [&](const SentCommand& sent) {
     rate_command_ = sent.command;
     const bool evading = sent.reference.evading;
-    if (observer_ != nullptr) observer_->on_command(now, evading);
+    observer_.on_command(now, evading);
     if (evading && !record_.first_command_us) record_.first_command_us = now;
     witness_.add_command(world_.snapshot(), sent.reference);
   });
@@ -311,7 +311,7 @@ void Flight::note_detections() {
     }
     if (located.of_object && !has_detected_) {
       has_detected_ = true;
-      if (observer_ != nullptr) observer_->on_first_detection();
+      observer_.on_first_detection();
     }
     detections_.push(now_us(), located);
   }

@@ -116,6 +116,8 @@ class Flight {
  public:
   // The observer may be null. Throws ScenarioError (models) and SimulationError.
   Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver* observer);
+  Flight(const Flight&) = delete;  // observer_ may be its own nobody_
+  Flight& operator=(const Flight&) = delete;
 
   TimeUs now_us() const { return world_.snapshot().t_us; }
   // The end is reached, or the vehicle was hit, has crashed or has landed.
@@ -173,7 +175,8 @@ class Flight {
   TruthPilot* truth_pilot_ = nullptr;  // owned by computer_, when the pilot knows the truth
   OnboardComputer computer_;
   Witness witness_;
-  FlightObserver* observer_;       // may be null
+  FlightObserver nobody_;  // looks on if no observer is given
+  FlightObserver& observer_;
   std::unique_ptr<EventRig> rig_;  // none for pilots that need no eyes
 
   Snapshot before_;  // the tick's start
