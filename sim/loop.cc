@@ -114,25 +114,29 @@ Approach approach(const FlightRecord& record, int object) {
 void copy_object(const FlightRecord& record, ObjectRow& row) {
   copy_approach(approach(record, row.object), row);
   const auto i = static_cast<std::size_t>(row.object);
-  if (i >= record.sightings.size()) return;
-  row.first_detection_us = record.sightings[i].first_us;
-  row.first_detection_distance_m = record.sightings[i].distance_m;
+  if (i >= record.detections.first_of_object.size()) return;
+  const auto& first = record.detections.first_of_object[i];
+  if (!first) return;
+  row.first_detection_us = first->output_us;
+  row.first_detection_distance_m = first->distance_m;
 }
 
 void copy_record(const FlightRecord& record, ThrowResult& result) {
-  result.first_detection_us = record.first_detection_us;
-  result.first_detection_t_us = record.first_detection_t_us;
-  result.first_detection_distance_m = record.first_detection_distance_m;
+  if (const auto& first = record.detections.first) {
+    result.first_detection_us = first->output_us;
+    result.first_detection_t_us = first->t_us;
+    result.first_detection_distance_m = first->distance_m;
+  }
   result.first_command_us = record.first_command_us;
   result.evaded = record.first_command_us.has_value();
   result.landing_us = record.landing_us;
   if (record.verdict.landed) result.landed_us = record.verdict.landed_us;
-  result.detections = record.detections;
+  result.detections = static_cast<int>(record.detections.rows.size());
   result.events = record.events;
   result.events_lost = record.events_lost;
   result.events_hash = record.events_hash;
   result.duration_us = record.last.t_us;
-  result.detection_rows = record.rows;
+  result.detection_rows = record.detections.rows;
 }
 
 }  // namespace
@@ -194,7 +198,7 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
     }
   }
   for (ObjectRow& row : result.object_rows) copy_object(record, row);
-  for (DetectionRow& row : record.rows) row.throw_index = index;
+  for (DetectionRow& row : record.detections.rows) row.throw_index = index;
   copy_record(record, result);
   if (result.flown.ok()) {
     explain_throw(plan, result.none.ok() ? &none : nullptr, record, result);

@@ -32,8 +32,6 @@ void expect_free_launch(const World& world, std::size_t object) {
   throw SimulationError(message.str());
 }
 
-std::array<double, 3> to_array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 }  // namespace
 
 WorldSpec world_spec(const Scenario& scenario, const std::vector<FlightPlan::Launch>& launches) {
@@ -97,7 +95,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
       mission_(scenario.mission),
       controller_states_(scenario.delays.state_estimate_us),
       rate_commands_(scenario.delays.command_us + scenario.delays.flight_controller_us),
-      detections_(scenario.delays.pilot_us()) {
+      detection_log_(world_, scenario.delays.pilot_us()) {
   const MissionSpec& mission = scenario.mission;
   const VehicleParameters& vehicle = world_.vehicle();
   world_.reset(mission.start_m, mission.heading_deg * std::numbers::pi / 180,
@@ -108,7 +106,6 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
   record_.command_delay_us = scenario.delays.command_us + scenario.delays.flight_controller_us;
   rate_command_.thrust_mps2 = kGravityMps2;
   computer_.set_goal(mission_.goal());
-  record_.sightings.resize(plan_.launches.size());
   referee_.reset();
   observer_.on_start(computer_.pilot());
   if (!rig_) return;
@@ -226,7 +223,7 @@ void Flight::see() {
     computer_.send_events(camera, packet.end_us, packet.events);
     observer_.on_events(camera, packet);
   });
-  history_.add(now);
+  detection_log_.observe(now);
 }
 
 // The last packet that a cycle of the pilot will have must be complete by then. With a slow link
@@ -244,11 +241,7 @@ void Flight::require_packet() {
 
 void Flight::decide() {
   const auto start = WallClock::now();
-  if (computer_.run_cycle(now_us())) {
-    note_detections();
-    note_told();
-    observer_.on_cycle(now_us(), computer_.pilot());
-  }
+  if (computer_.run_cycle(now_us())) note_cycle();
   if (const auto command = computer_.take_command(now_us())) {
     reference_ = {command->v_W, command->evading};
     evasion_arrived_ = command->evading;
@@ -282,7 +275,9 @@ void Flight::control() {
 }
 
 void Flight::judge() {
-  detections_.deliver(now_us(), [&](const LocatedDetection& detection) { log(detection); });
+  detection_log_.log(now_us(), [this](const DetectionRow& row, bool true_object) {
+    witness_.add_detection(row, true_object);
+  });
   referee_.observe(world_, record_.landing_us.has_value());
   witness_.observe(world_, reference_);
 }
@@ -294,77 +289,22 @@ double Flight::true_range_m() const {
   return hit ? hit->distance : std::numeric_limits<double>::infinity();
 }
 
-void Flight::note_detections() {
-  const TimeUs output_us = now_us() + scenario_.delays.pilot_us();
-  for (const dodge::Detection& detection : computer_.pilot().detections()) {
-    DetectionRow row;
-    row.t_us = detection.t_us;
-    row.output_us = output_us;
-    row.obstacle_id = detection.obstacle_id;
-    row.p_W = to_array(detection.centre_W);
-    row.size_m = detection.size_m;
-    row.depth_m = detection.depth_m;
-    row.depth_sigma_m = detection.depth_sigma_m;
-    LocatedDetection located{row};
-    if (const std::optional<Snapshot> truth = history_.at(detection.t_us)) {
-      located = with_truth(*truth, detection, row);
+void Flight::note_cycle() {
+  const dodge::Pilot& pilot = computer_.pilot();
+  if (detection_log_.find(now_us(), pilot.detections())) observer_.on_first_detection();
+  if (truth_pilot_ != nullptr) {  // it detects nothing: it is told
+    for (const dodge::Obstacle& obstacle : truth_pilot_->obstacles()) {
+      witness_.add_told(obstacle.id, now_us() + scenario_.delays.pilot_us());
     }
-    if (located.of_object && !has_detected_) {
-      has_detected_ = true;
-      observer_.on_first_detection();
-    }
-    detections_.push(now_us(), located);
   }
-}
-
-// A pilot that knows the truth detects nothing: it is told.
-void Flight::note_told() {
-  if (truth_pilot_ == nullptr) return;
-  for (const dodge::Obstacle& obstacle : truth_pilot_->obstacles()) {
-    witness_.add_told(obstacle.id, now_us() + scenario_.delays.pilot_us());
-  }
-}
-
-Flight::LocatedDetection Flight::with_truth(const Snapshot& truth,
-                                            const dodge::Detection& detection,
-                                            DetectionRow row) const {
-  const Eigen::Isometry3d X_WC = truth.vehicle.pose() * world_.vehicle().X_BC.front();
-  for (std::size_t i = 0; i < truth.objects.size(); ++i) {
-    if (!truth.launched[i]) continue;
-    const Eigen::Vector3d& p_W = truth.objects[i].p_W;
-    const double error_m = (detection.centre_W - p_W).norm();
-    if (row.position_error_m && error_m >= *row.position_error_m) continue;
-    row.object = static_cast<int>(i);
-    row.true_p_W = to_array(p_W);
-    row.position_error_m = error_m;
-    row.true_depth_m = (X_WC.inverse() * p_W).z();
-  }
-  if (!row.object) return {row};
-  const double radius_m = world_.object(*row.object).bounding_radius_m;
-  const Eigen::Vector3d& p_W = truth.objects[static_cast<std::size_t>(*row.object)].p_W;
-  return {row, *row.position_error_m < true_detection_m(radius_m),
-          (p_W - X_WC.translation()).norm()};
-}
-
-void Flight::log(const LocatedDetection& detection) {
-  const DetectionRow& row = detection.row;
-  ++record_.detections;
-  record_.rows.push_back(row);
-  witness_.add_detection(row, detection.of_object);
-  if (!detection.of_object) return;
-  if (!record_.first_detection_us) {
-    record_.first_detection_us = row.output_us;
-    record_.first_detection_t_us = row.t_us;
-    record_.first_detection_distance_m = detection.distance_m;
-  }
-  Sighting& sighting = record_.sightings[static_cast<std::size_t>(*row.object)];
-  if (!sighting.first_us) sighting = {row.output_us, detection.distance_m};
+  observer_.on_cycle(now_us(), pilot);
 }
 
 FlightRecord Flight::record() const {
   FlightRecord record = record_;
   record.verdict = referee_.verdict();
   record.last = world_.snapshot();
+  record.detections = detection_log_.logged();
   record.testimony = witness_.testimony();
   record.agility = agility_of(world_.vehicle(), scenario_.motors);
   record.hull = referee_.hull();

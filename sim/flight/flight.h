@@ -12,6 +12,7 @@
 #include "sim/config/scenario.h"
 #include "sim/control/flight_controller.h"
 #include "sim/control/velocity_controller.h"
+#include "sim/flight/detection_log.h"
 #include "sim/flight/event_rig.h"
 #include "sim/flight/mission.h"
 #include "sim/flight/witness.h"
@@ -73,29 +74,18 @@ std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
 // What a pilot that sees is given: the keys of dodger, and the vehicle's calibration.
 dodge::Config core_config(const Scenario& scenario, const VehicleParameters& vehicle);
 
-// The first detection of an object.
-struct Sighting {
-  std::optional<TimeUs> first_us;    // its output
-  std::optional<double> distance_m;  // true distance object to camera then
-};
-
 // What a flight leaves behind.
 struct FlightRecord {
   Verdict verdict;
   Snapshot last;
   Testimony testimony;
   Agility agility;
-  std::vector<Convex> hull;                  // of the vehicle, in B
-  std::vector<std::vector<Convex>> shapes;   // of each object, in its frame
-  std::optional<TimeUs> first_detection_us;  // output of the first detection of a true object
-  std::optional<TimeUs> first_detection_t_us;
-  std::optional<double> first_detection_distance_m;
-  std::vector<Sighting> sightings;         // of each object
+  std::vector<Convex> hull;                 // of the vehicle, in B
+  std::vector<std::vector<Convex>> shapes;  // of each object, in its frame
+  LoggedDetections detections;
   std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
   std::optional<TimeUs> landing_us;        // first command to land at the controller
   TimeUs command_delay_us = 0;             // from a command's output to the flight controller
-  int detections = 0;
-  std::vector<DetectionRow> rows;
   std::array<std::int64_t, 2> events{};
   std::array<std::int64_t, 2> events_lost{};  // by the saturated readout
   std::uint64_t events_hash = 0;
@@ -149,17 +139,7 @@ class Flight {
   Witness::Setup witness_setup() const;
   void require_packet();
   double true_range_m() const;
-  // What the pilot has just detected, which it gives out when its cycle is over.
-  struct LocatedDetection {
-    DetectionRow row;
-    bool of_object = false;
-    double distance_m = 0;  // of that object, from the camera
-  };
-  void note_detections();
-  void note_told();
-  LocatedDetection with_truth(const Snapshot& truth, const dodge::Detection& detection,
-                              DetectionRow row) const;
-  void log(const LocatedDetection& detection);
+  void note_cycle();  // of the pilot
 
   Scenario scenario_;
   FlightPlan plan_;
@@ -184,13 +164,11 @@ class Flight {
   Eigen::Vector3d gyro_B_radps_ = Eigen::Vector3d::Zero();
   DelayLine<StateReading> controller_states_;
   DelayLine<SentCommand> rate_commands_;
-  DelayLine<LocatedDetection> detections_;        // until the pilot gives them out
-  bool has_detected_ = false;                     // a true object
+  DetectionLog detection_log_;
   std::optional<StateReading> controller_state_;  // the last one
   VelocityReference reference_;
   bool evasion_arrived_ = false;  // and the controller has not acted since
   RateThrustCommand rate_command_;
-  SnapshotHistory history_;  // for the truth at the instant of a detection
   FlightRecord record_;
   FlightTiming timing_;
   WallClock::time_point constructed_ = WallClock::now();

@@ -2,7 +2,6 @@
 // commands, and the course for the eye.
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -13,9 +12,6 @@
 #include "sim/world/world.h"
 
 namespace dodgesim {
-
-// A detection nearer than this to the centre of an object of that radius is one of it.
-inline double true_detection_m(double radius_m) { return std::max(0.5, radius_m + 0.35); }
 
 struct Testimony {
   struct Object {

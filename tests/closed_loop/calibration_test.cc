@@ -28,7 +28,7 @@ double disparity_error_rad(const std::string& turn_deg) {
   const FlightRecord record = fly(s, plan);
   constexpr double kBaselineM = 0.15;
   std::vector<double> errors;
-  for (const DetectionRow& row : record.rows) {
+  for (const DetectionRow& row : record.detections.rows) {
     const double true_m = row.true_depth_m.value();
     errors.push_back((1 / row.depth_m - 1 / true_m) * kBaselineM);
   }

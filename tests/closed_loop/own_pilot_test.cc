@@ -36,7 +36,7 @@ Sight sight_of(const std::string& cluster) {
       cluster + "}\n");
   Sight sight;
   for (int i = 0; i < kThrows; ++i) {
-    for (const DetectionRow& row : fly(s, plan_throw(s, i)).rows) {
+    for (const DetectionRow& row : fly(s, plan_throw(s, i)).detections.rows) {
       if (row.object) ++(row.size_m < 1.5 * kBallM ? sight.whole : sight.too_large);
     }
   }

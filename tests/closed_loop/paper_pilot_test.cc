@@ -22,7 +22,7 @@ TEST(PaperPilot, DetectsAThrowThenEvades) {
   const Throw& toss = plan.launches.at(0).toss;
   Diary diary;
   const FlightRecord record = fly(s, plan, &diary);
-  ASSERT_TRUE(record.first_detection_us);
+  ASSERT_TRUE(record.detections.first);
   ASSERT_TRUE(record.first_command_us);
   EXPECT_GT(record.events[0], 1000);
   EXPECT_GT(record.events[1], 1000);
@@ -30,16 +30,15 @@ TEST(PaperPilot, DetectsAThrowThenEvades) {
   // Nothing acts before light, link, computer and command could have done their part.
   const DelaySpec& d = s.delays;
   const TimeUs latency_us = s.sensors.events.latency_us;
-  EXPECT_GT(*record.first_detection_us,
+  EXPECT_GT(record.detections.first->output_us,
             toss.launch_us + latency_us + d.transport_us + d.compute_us);
   EXPECT_GE(*record.first_command_us,
-            *record.first_detection_us + d.command_us + d.flight_controller_us);
+            record.detections.first->output_us + d.command_us + d.flight_controller_us);
   EXPECT_LT(*record.first_command_us, toss.arrival_us());
 
-  ASSERT_GT(record.rows.size(), 2u);
-  EXPECT_EQ(static_cast<int>(record.rows.size()), record.detections);
+  ASSERT_GT(record.detections.rows.size(), 2u);
   std::vector<double> errors_m;
-  for (const DetectionRow& row : record.rows) {
+  for (const DetectionRow& row : record.detections.rows) {
     EXPECT_GT(row.t_us, toss.launch_us);
     EXPECT_GE(row.output_us, row.t_us + d.transport_us + d.compute_us);
     ASSERT_TRUE(row.object && row.true_p_W && row.position_error_m && row.true_depth_m);
@@ -63,10 +62,9 @@ TEST(PaperPilot, HasNotDetectedWhatItWouldHaveSaidAfterTheHit) {
   const Scenario s = scenario(late + "fly_oracle: false\n");
   const FlightRecord record = fly(s, plan_throw(s, 0));
   ASSERT_TRUE(record.verdict.nearest.hit);
-  for (const DetectionRow& row : record.rows) EXPECT_LE(row.output_us, record.last.t_us);
-  EXPECT_EQ(record.detections, static_cast<int>(record.rows.size()));
-  EXPECT_FALSE(record.first_detection_us);
-  EXPECT_FALSE(record.sightings.at(0).first_us);
+  for (const DetectionRow& row : record.detections.rows) EXPECT_LE(row.output_us, record.last.t_us);
+  EXPECT_FALSE(record.detections.first);
+  EXPECT_FALSE(record.detections.first_of_object.at(0));
 }
 
 // Ends the flight early: the plan says when.
@@ -83,13 +81,13 @@ TEST(PaperPilot, TheSameThrowGivesTheSameEventsAndDetections) {
   EXPECT_EQ(a.events_hash, b.events_hash);
   EXPECT_EQ(a.events, b.events);
   EXPECT_EQ(a.last.vehicle.p_W, b.last.vehicle.p_W);
-  ASSERT_EQ(a.rows.size(), b.rows.size());
-  EXPECT_GT(a.rows.size(), 1u);
-  for (std::size_t i = 0; i < a.rows.size(); ++i) {
-    EXPECT_EQ(a.rows[i].t_us, b.rows[i].t_us);
-    EXPECT_EQ(a.rows[i].p_W, b.rows[i].p_W);
-    EXPECT_EQ(a.rows[i].size_m, b.rows[i].size_m);
-    EXPECT_EQ(a.rows[i].position_error_m, b.rows[i].position_error_m);
+  ASSERT_EQ(a.detections.rows.size(), b.detections.rows.size());
+  EXPECT_GT(a.detections.rows.size(), 1u);
+  for (std::size_t i = 0; i < a.detections.rows.size(); ++i) {
+    EXPECT_EQ(a.detections.rows[i].t_us, b.detections.rows[i].t_us);
+    EXPECT_EQ(a.detections.rows[i].p_W, b.detections.rows[i].p_W);
+    EXPECT_EQ(a.detections.rows[i].size_m, b.detections.rows[i].size_m);
+    EXPECT_EQ(a.detections.rows[i].position_error_m, b.detections.rows[i].position_error_m);
   }
   s.seed = 2;
   EXPECT_NE(first_part(s, plan).events_hash, a.events_hash);

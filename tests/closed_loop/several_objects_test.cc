@@ -133,11 +133,11 @@ TEST(SeveralObjects, ThePapersPilotSeesBothOfTwo) {
   FlightPlan plan = plan_throw(s, 0);
   plan.end_us = 240000;
   const FlightRecord record = fly(s, plan);
-  ASSERT_EQ(record.sightings.size(), 2u);
-  for (const Sighting& sighting : record.sightings) {
-    ASSERT_TRUE(sighting.first_us.has_value());
-    EXPECT_GE(*sighting.first_us, *record.first_detection_us);
-    EXPECT_NEAR(sighting.distance_m.value_or(0), 2.5, 0.2);
+  ASSERT_EQ(record.detections.first_of_object.size(), 2u);
+  for (const auto& first : record.detections.first_of_object) {
+    ASSERT_TRUE(first.has_value());
+    EXPECT_GE(first->output_us, record.detections.first->output_us);
+    EXPECT_NEAR(first->distance_m, 2.5, 0.2);
   }
 }
 

@@ -97,8 +97,8 @@ TEST(FlightObserver, HearsOfTheFirstDetectionBeforeItsCycle) {
   FirstDetection first;
   const FlightRecord record = fly(s, plan_throw(s, 0), &first);
   EXPECT_EQ(first.count_, 1);
-  ASSERT_TRUE(first.cycle_us_ && record.first_detection_us);
-  EXPECT_EQ(*first.cycle_us_ + s.delays.pilot_us(), *record.first_detection_us);
+  ASSERT_TRUE(first.cycle_us_ && record.detections.first);
+  EXPECT_EQ(*first.cycle_us_ + s.delays.pilot_us(), record.detections.first->output_us);
 }
 
 }  // namespace
