@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "sim/bench/bench_case.h"
+#include "sim/flight/plan.h"
 #include "sim/loop.h"
 
 namespace dodgesim {
@@ -25,8 +26,9 @@ struct Flights {
     double simulated_s = 0;
     FlightTiming sum;
     for (const FlightPlan& plan : plans) {
-      FlightTiming timing;
-      simulated_s += seconds(fly(scenario, plan, nullptr, &timing).last.t_us);
+      const FlightRecord record = fly(scenario, plan);
+      const FlightTiming& timing = record.timing;
+      simulated_s += seconds(record.last.t_us);
       sum.total_s += timing.total_s;
       sum.render_s += timing.render_s;
       sum.emulate_s += timing.emulate_s;

@@ -8,6 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/bench/bench_case.h"
 #include "sim/bench/stage_curves.h"
+#include "sim/flight/plan.h"
 #include "sim/loop.h"
 
 namespace dodgesim {

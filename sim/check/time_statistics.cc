@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "sim/flight/plan.h"
 #include "sim/loop.h"
 #include "sim/observers/event_truth.h"
 

@@ -248,7 +248,7 @@ void Flight::decide() {
     if (command->landing && !record_.landing_us) record_.landing_us = now_us();
     observer_.on_velocity(now_us(), *command);
   }
-  timing_.pilot_s += seconds_since(start);
+  pilot_s_ += seconds_since(start);
 }
 
 // The controller acts at each state estimate, and at once when it is to evade.
@@ -314,12 +314,14 @@ FlightRecord Flight::record() const {
     record.events_lost = {rig_->lost_count(0), rig_->lost_count(1)};
     record.events_hash = rig_->events_hash();
   }
+  record.timing = timing();
   return record;
 }
 
 FlightTiming Flight::timing() const {
-  FlightTiming timing = timing_;
+  FlightTiming timing;
   timing.total_s = seconds_since(constructed_);
+  timing.pilot_s = pilot_s_;
   if (rig_) {
     timing.render_s = rig_->render_s();
     timing.emulate_s = rig_->emulate_s();

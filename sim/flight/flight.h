@@ -1,9 +1,9 @@
-// Everything that takes part in one throw flown by one pilot. loop.h says in which order it acts.
+// Everything that takes part in one throw flown by one pilot. sim/loop.cc says in which order it
+// acts.
 #pragma once
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "sim/base/wall_clock.h"
@@ -15,6 +15,7 @@
 #include "sim/flight/detection_log.h"
 #include "sim/flight/event_rig.h"
 #include "sim/flight/mission.h"
+#include "sim/flight/plan.h"
 #include "sim/flight/witness.h"
 #include "sim/motors/motors.h"
 #include "sim/outcome/collision_cause.h"
@@ -23,22 +24,9 @@
 #include "sim/sensors/range_sensor.h"
 #include "sim/sensors/state_estimator.h"
 #include "sim/world/referee.h"
-#include "sim/world/throw.h"
 #include "sim/world/world.h"
 
 namespace dodgesim {
-
-// Which throw is flown, how, and until when.
-struct FlightPlan {
-  int throw_index = 0;
-  std::string pilot = kPaperPilot;  // of those in sim/config/pilot.h
-  struct Launch {
-    Throw toss;
-    BodyState state;  // at toss.launch_us
-  };
-  std::vector<Launch> launches;  // object i of the world is launch i
-  TimeUs end_us = 0;
-};
 
 // Looks on, for pictures and logs. Nothing that it does changes the flight.
 class FlightObserver {
@@ -74,6 +62,17 @@ std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
 // What a pilot that sees is given: the keys of dodger, and the vehicle's calibration.
 dodge::Config core_config(const Scenario& scenario, const VehicleParameters& vehicle);
 
+// Wall-clock time by stage [s], for reports only.
+struct FlightTiming {
+  double total_s = 0;
+  double render_s = 0;
+  double emulate_s = 0;
+  double pilot_s = 0;
+  std::int64_t keys = 0;      // pictures of the room that were drawn
+  std::int64_t pictures = 0;  // whole pictures that were shown to the cameras
+  std::int64_t regions = 0;   // pictures of an object's region only
+};
+
 // What a flight leaves behind.
 struct FlightRecord {
   Verdict verdict;
@@ -89,17 +88,7 @@ struct FlightRecord {
   std::array<std::int64_t, 2> events{};
   std::array<std::int64_t, 2> events_lost{};  // by the saturated readout
   std::uint64_t events_hash = 0;
-};
-
-// Wall-clock time by stage [s], for reports only.
-struct FlightTiming {
-  double total_s = 0;
-  double render_s = 0;
-  double emulate_s = 0;
-  double pilot_s = 0;
-  std::int64_t keys = 0;      // pictures of the room that were drawn
-  std::int64_t pictures = 0;  // whole pictures that were shown to the cameras
-  std::int64_t regions = 0;   // pictures of an object's region only
+  FlightTiming timing;
 };
 
 class Flight {
@@ -122,8 +111,6 @@ class Flight {
   void judge();    // the referee
 
   FlightRecord record() const;
-  FlightTiming timing() const;
-  const World& world() const { return world_; }
 
  private:
   struct SentCommand {
@@ -140,6 +127,7 @@ class Flight {
   void require_packet();
   double true_range_m() const;
   void note_cycle();  // of the pilot
+  FlightTiming timing() const;
 
   Scenario scenario_;
   FlightPlan plan_;
@@ -170,7 +158,7 @@ class Flight {
   bool evasion_arrived_ = false;  // and the controller has not acted since
   RateThrustCommand rate_command_;
   FlightRecord record_;
-  FlightTiming timing_;
+  double pilot_s_ = 0;
   WallClock::time_point constructed_ = WallClock::now();
 };
 

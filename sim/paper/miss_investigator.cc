@@ -1,7 +1,7 @@
 #include "sim/paper/miss_investigator.h"
 
 #include "sim/config/expand.h"
-#include "sim/loop.h"
+#include "sim/flight/fly_throw.h"
 
 namespace dodgesim {
 

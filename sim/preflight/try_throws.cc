@@ -9,6 +9,7 @@
 
 #include "sim/base/error.h"
 #include "sim/config/expand.h"
+#include "sim/flight/plan.h"
 #include "sim/loop.h"
 #include "sim/preflight/placed.h"
 

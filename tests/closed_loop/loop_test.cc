@@ -1,36 +1,20 @@
 // Whole flights of the pilots that need no eyes: physics, delays, controller, throws, referee.
 #include "sim/loop.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <limits>
 
 #include "sim/base/error.h"
 #include "tests/closed_loop/flights.h"
-#include "tests/models.h"
 
 namespace dodgesim {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::HasSubstr;
 
-constexpr const char* kHover = "mission: {start_m: [-1, 0, 2], heading_deg: 30}\n";
 constexpr const char* kGoalFlight =
     "mission: {type: goal, start_m: [-5, 0, 2], goal_m: [4, 1, 2], speed_mps: 1.5}\n";
-
-// Throws from everywhere that the room allows, at the vehicle's centre moved by the offset.
-Scenario thrown_at(const std::string& mission, const std::string& offset_m) {
-  return scenario(mission +
-                  "throw: {distance_m: !uniform [1.5, 3], speed_mps: !uniform [3, 8],\n"
-                  "  bearing_deg: !uniform [-60, 60], size_m: !choice [0.1, 0.2],\n"
-                  "  spin_radps: 20, launch_height_m: !uniform [1, 2.5],\n"
-                  "  launch_s: !uniform [0.2, 1.5], aim_offset_m: " +
-                  offset_m + "}\nafter_s: 0.1\n");
-}
 
 FlightRecord fly_as(const std::string& pilot, const Scenario& scenario, FlightPlan plan,
                     FlightObserver* observer = nullptr) {
@@ -43,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(Missions, Throws, ::testing::Values(kHover, kGoalFlight
                          [](const auto& info) { return info.index == 0 ? "Hover" : "GoalFlight"; });
 
 TEST_P(Throws, HitAVehicleThatDoesNotDodgeWhenTheyAreAimedAtIt) {
-  const Scenario s = thrown_at(GetParam(), "0");
+  const Scenario s = thrown_from_everywhere(GetParam(), "0");
   for (int k = 0; k < 4; ++k) {
     const FlightPlan plan = plan_throw(s, k);
     const Throw& toss = plan.launches.at(0).toss;
@@ -58,31 +42,8 @@ TEST_P(Throws, HitAVehicleThatDoesNotDodgeWhenTheyAreAimedAtIt) {
   }
 }
 
-// A vehicle whose flight cannot be computed.
-class DivergingVehicle : public ::testing::Test {
- protected:
-  DivergingVehicle() { testing::make_diverging(models_); }
-
-  const testing::TemporaryDirectory own_;
-  const std::filesystem::path models_ = testing::copy_models(own_.path());
-};
-
-// The plan of a throw flies the vehicle to find out where it will be.
-TEST_F(DivergingVehicle, FailsTheThrowThatItCannotEvenPlan) {
-  const Scenario s =
-      parse_scenario("pilot: none\nthrow: {size_m: 0.13}\n", "test.yaml", models_.string());
-  EXPECT_THROW(plan_throw(s, 2), SimulationError);
-  const ThrowResult result = fly_throw(s, 2);
-  EXPECT_TRUE(result.flown.failed());
-  EXPECT_THAT(result.flown.error, HasSubstr("The simulation diverged: "));
-  EXPECT_EQ(result.none.status, "not flown");
-  EXPECT_EQ(result.index, 2);
-  EXPECT_EQ(result.object, "ball");
-  EXPECT_EQ(result.size_m, 0.13);
-}
-
 TEST_P(Throws, PassTheVehicleAtTheAimOffsetAtThePlannedInstant) {
-  const Scenario s = thrown_at(GetParam(), "[1, 0.5]");
+  const Scenario s = thrown_from_everywhere(GetParam(), "[1, 0.5]");
   for (int k = 0; k < 4; ++k) {
     const FlightPlan plan = plan_throw(s, k);
     Diary diary;
@@ -106,7 +67,7 @@ TEST_P(Throws, PassTheVehicleAtTheAimOffsetAtThePlannedInstant) {
 }
 
 TEST_P(Throws, AreLaunchedOnTheirTickInTheirState) {
-  const Scenario s = thrown_at(GetParam(), "0");
+  const Scenario s = thrown_from_everywhere(GetParam(), "0");
   const FlightPlan plan = plan_throw(s, 1);
   const auto& [toss, launch] = plan.launches.at(0);
   ASSERT_EQ(toss.launch_us % kTickUs, 0);
@@ -202,7 +163,7 @@ void expect_equal(const FlightRecord& a, const FlightRecord& b) {
 }
 
 TEST(Loop, AFlightIsTheSameBitForBitWhateverWasFlownBefore) {
-  const Scenario s = thrown_at(kHover, "!uniform [-0.2, 0.2]");
+  const Scenario s = thrown_from_everywhere(kHover, "!uniform [-0.2, 0.2]");
   const FlightRecord first = fly_as("oracle", s, plan_throw(s, 2));
   const FlightRecord again = fly_as("oracle", s, plan_throw(s, 2));
   expect_equal(first, again);
@@ -238,7 +199,7 @@ TEST(Loop, EveryThrowAndEverySeedHasItsOwnNoise) {
 }
 
 TEST(Loop, AnObserverChangesNothing) {
-  const Scenario s = thrown_at(kHover, "0.1");
+  const Scenario s = thrown_from_everywhere(kHover, "0.1");
   Diary diary;
   const FlightPlan plan = plan_throw(s, 3);
   expect_equal(fly_as("oracle", s, plan, &diary), fly_as("oracle", s, plan));
@@ -286,79 +247,11 @@ TEST(Loop, GoalFlightCruisesAtItsSpeedAndStopsAtTheGoal) {
   }
 }
 
-TEST(Loop, ALaunchFromBehindAWallCostsThatThrowOnly) {
-  const Scenario s = scenario(
-      "mission: {start_m: [3, 0, 2]}\nthrow: {distance_m: !uniform [2, 4], launch_s: 0.2}\n"
-      "pilot: none\n");
-  int refused = 0;
-  for (int k = 0; k < 8; ++k) {
-    const ThrowResult result = fly_throw(s, k);
-    const bool behind = result.distance_m > 3;  // the wall
-    EXPECT_EQ(result.flown.status, behind ? "error" : "ok") << k;
-    if (!behind) continue;
-    ++refused;
-    EXPECT_THAT(result.flown.error, HasSubstr("wall_front"));
-    EXPECT_THAT(result.flown.error, HasSubstr("throw.distance_m"));
-    EXPECT_THROW(plan_throw(s, k), ScenarioError);
-  }
-  EXPECT_GT(refused, 0);
-  EXPECT_LT(refused, 8);
-}
-
-TEST(Loop, AnErrorInsideTheSimulationCostsThatFlightOnly) {
-  Scenario s = thrown_at(kHover, "0");
-  s.pilot = "oracle";
-  s.fly_oracle = false;
-  // The controller's answer to the first evasive command is not a number.
-  s.controller.evading_velocity_gain_1ps = std::numeric_limits<double>::infinity();
-  const ThrowResult result = fly_throw(s, 0);
-  EXPECT_EQ(result.flown.status, "error");
-  EXPECT_THAT(result.flown.error, HasSubstr("diverged"));
-  EXPECT_EQ(result.none.status, "ok");
-  EXPECT_TRUE(result.none.hit);
-}
-
 TEST(Loop, DivergedPhysicsEndTheFlightWithTheReason) {
-  const Scenario s = thrown_at(kHover, "0");
+  const Scenario s = thrown_from_everywhere(kHover, "0");
   FlightPlan plan = plan_throw(s, 0);
   plan.launches[0].state.v_W.x() = 1e12;
   EXPECT_THROW(fly_as("none", s, plan), SimulationError);
-}
-
-TEST(Loop, AResultSaysWhatWasThrownAndHowItEnded) {
-  Scenario s = thrown_at(kHover, "[0.1, -0.05]");
-  s.pilot = "oracle";
-  const ThrowResult result = fly_throw(s, 4);
-  const FlightPlan plan = plan_throw(s, 4);
-  const Throw& toss = plan.launches[0].toss;
-  EXPECT_EQ(result.index, 4);
-  EXPECT_EQ(result.object, "ball");
-  EXPECT_EQ(result.size_m, toss.object.size_m);
-  EXPECT_EQ(result.speed_mps, toss.speed_mps);
-  EXPECT_EQ(result.distance_m, toss.distance_m);
-  EXPECT_EQ(result.bearing_deg, toss.bearing_deg);
-  EXPECT_THAT(result.aim_offset_m, ::testing::ElementsAre(0.1, -0.05));
-  EXPECT_EQ(result.launch_us, toss.launch_us);
-  EXPECT_TRUE(result.none.hit);
-  EXPECT_EQ(result.none.clearance_m, 0);
-  EXPECT_EQ(result.none.closest_us, result.none.hit_us);
-  EXPECT_EQ(result.flown.clearance_m, result.oracle.clearance_m);  // the same pilot
-  EXPECT_TRUE(result.evaded);
-  EXPECT_GT(*result.first_command_us, result.launch_us);
-  s.fly_oracle = false;
-  EXPECT_EQ(fly_throw(s, 4).oracle.status, "not flown");
-}
-
-TEST(Loop, WithoutAThrowOnlyTheScenariosPilotFlies) {
-  const Scenario s = scenario(std::string(kHover) + "duration_s: 0.3\npilot: oracle\n");
-  const ThrowResult result = fly_throw(s, 0);
-  EXPECT_FALSE(result.thrown());
-  EXPECT_EQ(result.flown.status, "ok");
-  EXPECT_FALSE(result.flown.clearance_m);
-  EXPECT_EQ(result.none.status, "not flown");
-  EXPECT_EQ(result.oracle.status, "not flown");
-  EXPECT_EQ(result.duration_us, 300000);
-  EXPECT_FALSE(result.evaded);
 }
 
 }  // namespace

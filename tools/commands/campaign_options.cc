@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "sim/campaign/text_table.h"
-#include "sim/loop.h"
+#include "sim/flight/fly_throw.h"
 #include "sim/observers/event_truth.h"
 #include "sim/preflight/try_models.h"
 #include "sim/render/osmesa_context.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/loop.h"
+#include "sim/flight/fly_throw.h"
 #include "sim/paper/miss_investigator.h"
 #include "tests/sim/paper/synthetic_passage.h"
 
