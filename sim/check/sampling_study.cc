@@ -8,7 +8,8 @@
 #include "sim/check/film.h"
 #include "sim/check/prescribed_throw.h"
 #include "sim/check/quantile.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/setup.h"
+#include "sim/world/world.h"
 
 namespace dodgesim {
 

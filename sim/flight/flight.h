@@ -14,6 +14,7 @@
 #include "sim/control/velocity_controller.h"
 #include "sim/flight/detection_log.h"
 #include "sim/flight/event_rig.h"
+#include "sim/flight/flight_observer.h"
 #include "sim/flight/mission.h"
 #include "sim/flight/plan.h"
 #include "sim/flight/witness.h"
@@ -27,40 +28,6 @@
 #include "sim/world/world.h"
 
 namespace dodgesim {
-
-// Looks on, for pictures and logs. Nothing that it does changes the flight.
-class FlightObserver {
- public:
-  virtual ~FlightObserver() = default;
-  // Whether the packets of on_events() must say why each event happened; asked once.
-  virtual bool wants_causes() const { return false; }
-  virtual void on_start(dodge::Pilot& /*pilot*/) {}
-  virtual void on_tick(const World& /*world*/) {}
-  virtual void on_imu(const ImuReading& /*reading*/) {}
-  virtual void on_state(const StateReading& /*reading*/) {}
-  virtual void on_range(const RangeReading& /*reading*/) {}
-  virtual void on_events(int /*camera*/, const Packet& /*packet*/) {}
-  // The cycle that on_cycle() tells of next is the first to detect a true object.
-  virtual void on_first_detection() {}
-  virtual void on_cycle(TimeUs /*now_us*/, const dodge::Pilot& /*pilot*/) {}
-  // A command of the pilot arrives at the controller.
-  virtual void on_velocity(TimeUs /*now_us*/, const dodge::VelocityCommand& /*command*/) {}
-  // A command of the controller arrives at the flight controller.
-  virtual void on_command(TimeUs /*now_us*/, bool /*evading*/) {}
-};
-
-// The world in which a scenario's objects fly.
-WorldSpec world_spec(const Scenario& scenario, const std::vector<FlightPlan::Launch>& launches);
-
-// The event cameras' geometry.
-Intrinsics intrinsics(const CameraSpec& camera);
-
-// The cameras as the pilot is told of them, without lower_camera_turn_deg.
-std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
-                                              const VehicleParameters& vehicle);
-
-// What a pilot that sees is given: the keys of dodger, and the vehicle's calibration.
-dodge::Config core_config(const Scenario& scenario, const VehicleParameters& vehicle);
 
 // Wall-clock time by stage [s], for reports only.
 struct FlightTiming {

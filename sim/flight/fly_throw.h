@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sim/config/scenario.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/flight_observer.h"
 #include "sim/outcome/result.h"
 
 namespace dodgesim {

@@ -6,6 +6,7 @@
 
 #include "sim/base/error.h"
 #include "sim/config/resolve_throw.h"
+#include "sim/flight/setup.h"
 #include "sim/loop.h"
 #include "sim/world/ray.h"
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "dodge/dodger.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/flight_observer.h"
 #include "sim/outcome/result.h"
 
 namespace dodgesim {

@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "sim/camera/camera.h"
 #include "sim/files/mp4_file.h"
 #include "sim/files/staged_file.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/flight_observer.h"
 #include "sim/observers/onlooker.h"
 #include "sim/render/scene_pictures.h"
 

@@ -16,10 +16,12 @@
 #include <string>
 #include <vector>
 
+#include "sim/camera/camera.h"
 #include "sim/files/mcap_writer.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/flight_observer.h"
 #include "sim/observers/film.h"
 #include "sim/observers/foxglove.h"
+#include "sim/outcome/result.h"
 
 namespace dodgesim {
 

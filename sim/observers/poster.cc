@@ -11,6 +11,7 @@
 #include "sim/files/output_file.h"
 #include "sim/files/png.h"
 #include "sim/observers/stage_panels.h"
+#include "sim/render/luminance_renderer.h"
 
 namespace dodgesim {
 

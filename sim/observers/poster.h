@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/flight/flight.h"
+#include "sim/camera/camera.h"
+#include "sim/flight/flight_observer.h"
 #include "sim/observers/onlooker.h"
 #include "sim/render/scene_pictures.h"
 

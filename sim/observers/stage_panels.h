@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dodge/dodger.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/flight_observer.h"
 
 namespace dodgesim {
 

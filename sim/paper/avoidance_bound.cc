@@ -7,9 +7,10 @@
 #include "sim/base/error.h"
 #include "sim/base/gravity.h"
 #include "sim/base/time.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/setup.h"
 #include "sim/outcome/agility.h"
 #include "sim/world/referee.h"
+#include "sim/world/world.h"
 
 namespace dodgesim {
 

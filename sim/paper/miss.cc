@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/flight/setup.h"
+
 namespace dodgesim {
 
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dodge/detect/depth.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/flight_observer.h"
 #include "sim/observers/event_truth.h"
 #include "sim/paper/passage.h"
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/flight/flight.h"
+#include "sim/flight/setup.h"
+#include "sim/world/world.h"
 
 namespace dodgesim {
 

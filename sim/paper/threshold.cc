@@ -3,7 +3,7 @@
 
 #include "dodge/presets.h"
 #include "sim/config/pilot.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/setup.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/rate_grid.h"
 

@@ -16,11 +16,13 @@
 #include "sim/config/numbers.h"
 #include "sim/config/pilot.h"
 #include "sim/control/mixer.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/setup.h"
+#include "sim/motors/motors.h"
 #include "sim/preflight/placed.h"
 #include "sim/render/scene_geometry.h"
 #include "sim/world/model_trial.h"
 #include "sim/world/models_digest.h"
+#include "sim/world/world.h"
 
 namespace dodgesim {
 

@@ -4,10 +4,13 @@
 
 #include "sim/base/child_process.h"
 #include "sim/base/error.h"
+#include "sim/bridge/plugin.h"
 #include "sim/config/expand.h"
+#include "sim/config/pilot.h"
 #include "sim/config/writer.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/setup.h"
 #include "sim/preflight/placed.h"
+#include "sim/world/world.h"
 
 namespace dodgesim {
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/flight/setup.h"
 #include "tests/closed_loop/flights.h"
 
 namespace dodgesim {

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 
+#include "sim/flight/setup.h"
 #include "tests/closed_loop/flights.h"
 
 namespace dodgesim {

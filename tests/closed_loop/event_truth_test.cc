@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "sim/flight/setup.h"
 #include "tests/closed_loop/flights.h"
 
 namespace dodgesim {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/flight/event_rig.h"
+#include "sim/flight/setup.h"
 #include "sim/world/ray.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/sim/events/moving_plane.h"

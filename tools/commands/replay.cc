@@ -20,6 +20,7 @@
 #include "sim/config/expand.h"
 #include "sim/config/pilot.h"
 #include "sim/flight/fly_throw.h"
+#include "sim/flight/setup.h"
 #include "sim/gate/csv_table.h"
 #include "sim/observers/event_truth.h"
 #include "sim/observers/film.h"

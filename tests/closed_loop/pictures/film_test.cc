@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "sim/base/error.h"
+#include "sim/flight/setup.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/closed_loop/pictures/decoded.h"
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/files/json.h"
+#include "sim/flight/setup.h"
 #include "sim/loop.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/closed_loop/pictures/decoded.h"

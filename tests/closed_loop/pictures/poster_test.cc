@@ -5,6 +5,7 @@
 #include <array>
 
 #include "dodge/dodger.h"
+#include "sim/flight/setup.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/closed_loop/pictures/decoded.h"
 #include "tests/sim/files/temporary_directory.h"

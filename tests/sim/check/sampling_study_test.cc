@@ -9,7 +9,7 @@
 
 #include "sim/check/prescribed_throw.h"
 #include "sim/check/time_statistics.h"
-#include "sim/flight/flight.h"
+#include "sim/flight/setup.h"
 
 namespace dodgesim {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sim/flight/flight.h"
+#include "sim/flight/setup.h"
 #include "sim/outcome/agility.h"
 #include "sim/world/referee.h"
 #include "tests/sim/paper/synthetic_passage.h"
