@@ -28,11 +28,11 @@ class Statistician : public EventTruth {
  public:
   explicit Statistician(TimeStatistics& out) : out_(out) {}
 
-  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override {
+  void on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) override {
     const std::size_t rows_before = rows().size();
-    EventTruth::on_cycle(now_us, pilot);
+    EventTruth::on_dodger_cycle(now_us, dodger);
     if (rows().size() == rows_before) return;
-    const dodge::StageImages& stages = dynamic_cast<const dodge::Dodger&>(pilot).stage_images(0);
+    const dodge::StageImages& stages = dodger.stage_images(0);
     std::vector<unsigned char> shown(stages.rho.total(), kNothing);
     for (const WindowEvent& event : window(0)) {
       if (event.pixel < 0) continue;

@@ -22,10 +22,6 @@ bool same(const dodge::Event& a, const Event& b) {
 
 }  // namespace
 
-void EventTruth::on_start(dodge::Pilot& pilot) {
-  if (auto* dodger = dynamic_cast<dodge::Dodger*>(&pilot)) dodger->set_capture(true);
-}
-
 void EventTruth::on_tick(const World& world) {
   object_in_flight_ = world.snapshot().any_launched();
 }
@@ -37,10 +33,8 @@ void EventTruth::on_events(int camera, const Packet& packet) {
   }
 }
 
-void EventTruth::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
-  const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);
-  if (dodger == nullptr) return;
-  for (std::size_t camera = 0; camera < windows_.size(); ++camera) label_window(camera, *dodger);
+void EventTruth::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
+  for (std::size_t camera = 0; camera < windows_.size(); ++camera) label_window(camera, dodger);
   if (!object_in_flight_) return;
   EventTruthRow row{0, now_us, evading_, {}};
   for (const auto& window : windows_) {

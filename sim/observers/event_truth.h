@@ -13,8 +13,7 @@
 #include <deque>
 #include <vector>
 
-#include "dodge/dodger.h"
-#include "sim/flight/flight_observer.h"
+#include "sim/observers/dodger_observer.h"
 #include "sim/outcome/result.h"
 
 namespace dodgesim {
@@ -27,13 +26,12 @@ struct WindowEvent {
   bool found = false;  // taken for an obstacle's
 };
 
-class EventTruth : public FlightObserver {
+class EventTruth : public DodgerObserver {
  public:
   bool wants_causes() const override { return true; }
-  void on_start(dodge::Pilot& pilot) override;
   void on_tick(const World& world) override;
   void on_events(int camera, const Packet& packet) override;
-  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
+  void on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) override;
   void on_command(TimeUs /*now_us*/, bool evading) override { evading_ = evading_ || evading; }
 
   // One for each cycle with an object in flight.

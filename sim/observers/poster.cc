@@ -6,7 +6,6 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "dodge/dodger.h"
 #include "sim/base/error.h"
 #include "sim/files/output_file.h"
 #include "sim/files/png.h"
@@ -42,10 +41,6 @@ cv::Mat3b log_picture(const World& world, const Intrinsics& intrinsics) {
 
 }  // namespace
 
-void Poster::on_start(dodge::Pilot& pilot) {
-  if (auto* dodger = dynamic_cast<dodge::Dodger*>(&pilot)) dodger->set_capture(true);
-}
-
 void Poster::on_tick(const World& world) {
   world_ = &world;
   const Snapshot& now = world.snapshot();
@@ -74,14 +69,13 @@ void Poster::draw_scene(const World& world, const PictureView& view) {
   cv::cvtColor(scene_, scene_, cv::COLOR_RGB2BGR);
 }
 
-void Poster::on_cycle(TimeUs /*now_us*/, const dodge::Pilot& pilot) {
-  const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);
-  if (dodger == nullptr || world_ == nullptr || looked_last_ || trail_.empty()) return;
+void Poster::on_dodger_cycle(TimeUs /*now_us*/, const dodge::Dodger& dodger) {
+  if (world_ == nullptr || looked_last_ || trail_.empty()) return;
   looked_last_ = detected_;
   if (!detected_ && nearest_m_ > kNearer * looked_at_m_) return;
   looked_at_m_ = nearest_m_;
   constexpr int kWidth = kPosterSceneWidth / kPanels;
-  const std::vector<cv::Mat3b> stages = stage_panels(*dodger, 0, kWidth);
+  const std::vector<cv::Mat3b> stages = stage_panels(dodger, 0, kWidth);
   if (stages.empty()) return;
   const cv::Mat3b seen = titled_panel(log_picture(*world_, intrinsics_), kWidth, "luminance");
   cv::hconcat(std::vector<cv::Mat3b>{seen, stages[0], stages[2], stages[4]}, strip_);

@@ -9,20 +9,19 @@
 #include <vector>
 
 #include "sim/camera/camera.h"
-#include "sim/flight/flight_observer.h"
+#include "sim/observers/dodger_observer.h"
 #include "sim/observers/onlooker.h"
 #include "sim/render/scene_pictures.h"
 
 namespace dodgesim {
 
-class Poster : public FlightObserver {
+class Poster : public DodgerObserver {
  public:
   explicit Poster(const Intrinsics& intrinsics) : intrinsics_(intrinsics) {}
 
-  void on_start(dodge::Pilot& pilot) override;
   void on_tick(const World& world) override;
   void on_first_detection() override { detected_ = true; }
-  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
+  void on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) override;
 
   // Throws IoError if the file cannot be written, ScenarioError if nothing was thrown. Of a pilot
   // that is no dodge::Dodger there are the flight paths only.

@@ -68,19 +68,14 @@ StageFilm::StageFilm(std::string directory) : directory_(std::move(directory)) {
   make_directory(directory_);
 }
 
-void StageFilm::on_start(dodge::Pilot& pilot) {
-  if (auto* dodger = dynamic_cast<dodge::Dodger*>(&pilot)) dodger->set_capture(true);
-}
-
 void StageFilm::on_tick(const World& world) { object_in_flight_ = world.snapshot().any_launched(); }
 
-void StageFilm::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
-  const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);
-  if (dodger == nullptr || !object_in_flight_) return;
+void StageFilm::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
+  if (!object_in_flight_) return;
   cv::Mat3b picture;
   for (int camera = 0; camera < 2; ++camera) {
-    const int width = std::max(kLeastPanelWidth, dodger->stage_images(camera).events.cols);
-    const std::vector<cv::Mat3b> panels = stage_panels(*dodger, camera, width);
+    const int width = std::max(kLeastPanelWidth, dodger.stage_images(camera).events.cols);
+    const std::vector<cv::Mat3b> panels = stage_panels(dodger, camera, width);
     if (panels.empty()) continue;  // mono
     cv::Mat3b row;
     cv::hconcat(panels, row);

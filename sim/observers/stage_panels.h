@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dodge/dodger.h"
-#include "sim/flight/flight_observer.h"
+#include "sim/observers/dodger_observer.h"
 
 namespace dodgesim {
 
@@ -26,14 +25,13 @@ std::vector<cv::Mat3b> stage_panels(const dodge::Dodger& pilot, int camera, int 
 
 // Writes one PNG a cycle of the paper's pilot while an object is in flight: a row of stages for
 // each camera.
-class StageFilm : public FlightObserver {
+class StageFilm : public DodgerObserver {
  public:
   // Makes the directory. Throws IoError if it cannot.
   explicit StageFilm(std::string directory);
 
-  void on_start(dodge::Pilot& pilot) override;
   void on_tick(const World& world) override;
-  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
+  void on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) override;
 
   int pictures() const { return pictures_; }
 

@@ -91,11 +91,10 @@ Sight MissObserver::sight(const Snapshot& state, std::size_t camera) const {
 }
 
 // The pilot's window ends with the newest packet that has come through the cable.
-void MissObserver::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
-  truth_.on_cycle(now_us, pilot);
-  const auto* dodger = dynamic_cast<const dodge::Dodger*>(&pilot);
+void MissObserver::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
+  truth_.on_dodger_cycle(now_us, dodger);
   const std::optional<Snapshot> state = state_at(scenario_.delays.newest_packet_end_us(now_us));
-  if (dodger == nullptr || !state) return;
+  if (!state) return;
   CycleSight cycle;
   const Sight both = sight_of(rig_, state->vehicle.pose(), state->objects.front().p_W, radius_m_);
   cycle.t_us = state->t_us;
@@ -108,12 +107,12 @@ void MissObserver::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
     cycle.events[i] = static_cast<int>(std::count_if(
         window.begin(), window.end(), [](const WindowEvent& e) { return of_object(e.cause); }));
     const Sight one = sight(*state, i);
-    for (const dodge::Cluster& cluster : dodger->clusters(camera)) {
+    for (const dodge::Cluster& cluster : dodger.clusters(camera)) {
       const cv::Point2f middle = cluster.rectangle.center;
       if (on_outline(one, rig_.intrinsics, middle.x, middle.y)) ++cycle.clusters[i];
     }
   }
-  cycle.location = locate(*state, *dodger);
+  cycle.location = locate(*state, dodger);
   cycles_.push_back(cycle);
 }
 

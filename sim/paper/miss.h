@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "dodge/detect/depth.h"
-#include "sim/flight/flight_observer.h"
+#include "sim/observers/dodger_observer.h"
 #include "sim/observers/event_truth.h"
 #include "sim/paper/passage.h"
 
@@ -41,15 +41,14 @@ std::string miss_text(Miss miss);
 Miss miss_of(std::span<const CycleSight> cycles, const dodge::DepthConfig& limits, int min_events);
 
 // Watches a flight of the paper's pilot.
-class MissObserver : public FlightObserver {
+class MissObserver : public DodgerObserver {
  public:
   explicit MissObserver(const Scenario& scenario);
 
   bool wants_causes() const override { return true; }
-  void on_start(dodge::Pilot& pilot) override { truth_.on_start(pilot); }
   void on_tick(const World& world) override;
   void on_events(int camera, const Packet& packet) override { truth_.on_events(camera, packet); }
-  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
+  void on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) override;
 
   // Of the cycles with the object in flight.
   const std::vector<CycleSight>& cycles() const { return cycles_; }

@@ -92,9 +92,8 @@ TEST_F(CausesTest, DoNotChangeTheEvents) {
 // Checks each cycle against the pilot's own counts.
 class CheckedTruth : public EventTruth {
  public:
-  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override {
-    EventTruth::on_cycle(now_us, pilot);
-    const auto& dodger = dynamic_cast<const dodge::Dodger&>(pilot);
+  void on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) override {
+    EventTruth::on_dodger_cycle(now_us, dodger);
     for (int camera = 0; camera < 2; ++camera) {
       EXPECT_EQ(dodger.dropped_events(camera), 0);
       std::map<int, int> count;  // by compensated pixel
