@@ -10,12 +10,12 @@ std::array<double, 3> to_array(const Eigen::Vector3d& v) { return {v.x(), v.y(),
 
 }  // namespace
 
-DetectionLog::DetectionLog(const World& world, TimeUs output_delay_us)
+DetectionLogger::DetectionLogger(const World& world, TimeUs output_delay_us)
     : world_(world), output_delay_us_(output_delay_us), found_(output_delay_us) {
-  logged_.first_of_object.resize(static_cast<std::size_t>(world.object_count()));
+  log_.first_of_object.resize(static_cast<std::size_t>(world.object_count()));
 }
 
-bool DetectionLog::find(TimeUs now_us, std::span<const dodge::Detection> detections) {
+bool DetectionLogger::find(TimeUs now_us, std::span<const dodge::Detection> detections) {
   const bool found_before = found_object_;
   for (const dodge::Detection& detection : detections) {
     DetectionRow row;
@@ -35,8 +35,8 @@ bool DetectionLog::find(TimeUs now_us, std::span<const dodge::Detection> detecti
 
 // Beside the object that was nearest; without one, or if nobody knows that instant any more, as it
 // is.
-DetectionLog::Found DetectionLog::with_truth(const dodge::Detection& detection,
-                                             DetectionRow row) const {
+DetectionLogger::Found DetectionLogger::with_truth(const dodge::Detection& detection,
+                                                   DetectionRow row) const {
   const std::optional<Snapshot> truth = history_.at(detection.t_us);
   if (!truth) return {row};
   const Eigen::Isometry3d X_WC = truth->vehicle.pose() * world_.vehicle().X_BC.front();
@@ -57,13 +57,13 @@ DetectionLog::Found DetectionLog::with_truth(const dodge::Detection& detection,
           (p_W - X_WC.translation()).norm()};
 }
 
-void DetectionLog::add(const Found& found) {
+void DetectionLogger::add(const Found& found) {
   const DetectionRow& row = found.row;
-  logged_.rows.push_back(row);
+  log_.rows.push_back(row);
   if (!found.true_object) return;
-  const LoggedDetections::First first{row.output_us, row.t_us, found.distance_m};
-  if (!logged_.first) logged_.first = first;
-  auto& of_object = logged_.first_of_object[static_cast<std::size_t>(*row.object)];
+  const DetectionLog::First first{row.output_us, row.t_us, found.distance_m};
+  if (!log_.first) log_.first = first;
+  auto& of_object = log_.first_of_object[static_cast<std::size_t>(*row.object)];
   if (!of_object) of_object = first;
 }
 

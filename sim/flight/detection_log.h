@@ -17,7 +17,7 @@ namespace dodgesim {
 inline double true_detection_m(double radius_m) { return std::max(0.5, radius_m + 0.35); }
 
 // All detections of a flight.
-struct LoggedDetections {
+struct DetectionLog {
   // The first one of an object.
   struct First {
     TimeUs output_us = 0;
@@ -31,10 +31,10 @@ struct LoggedDetections {
 
 // A pilot finds detections when a cycle starts and gives them out when it is over: until then the
 // flight may end, and they are not logged.
-class DetectionLog {
+class DetectionLogger {
  public:
   // output_delay_us: from the start of a cycle of the pilot to its output.
-  DetectionLog(const World& world, TimeUs output_delay_us);
+  DetectionLogger(const World& world, TimeUs output_delay_us);
 
   // Call after each tick.
   void observe(const Snapshot& now) { history_.add(now); }
@@ -45,14 +45,14 @@ class DetectionLog {
   // Logs what the pilot has given out by now, and calls logged(row, true_object) for each:
   // true_object says whether the detection is one of row.object.
   template <class Logged>
-  void log(TimeUs now_us, Logged logged) {
+  void log_outputs(TimeUs now_us, Logged logged) {
     found_.deliver(now_us, [&](const Found& found) {
       add(found);
       logged(found.row, found.true_object);
     });
   }
 
-  const LoggedDetections& logged() const { return logged_; }
+  const DetectionLog& log() const { return log_; }
 
  private:
   struct Found {
@@ -69,7 +69,7 @@ class DetectionLog {
   SnapshotHistory history_;  // for the truth at the instant of a detection
   DelayLine<Found> found_;   // until the pilot gives them out
   bool found_object_ = false;
-  LoggedDetections logged_;
+  DetectionLog log_;
 };
 
 }  // namespace dodgesim

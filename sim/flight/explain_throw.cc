@@ -23,12 +23,12 @@ Encounter encounter(const FlightRecord& none) {
   return contact;
 }
 
-using Commands = std::span<const Testimony::Command>;
+using Commands = std::span<const FlightLog::Command>;
 
 // The commands from the first evasive one on.
-Commands answer(const Testimony& testimony, TimeUs from_us) {
-  const Commands all = testimony.commands;
-  const auto first = std::find_if(all.begin(), all.end(), [&](const Testimony::Command& command) {
+Commands answer(const FlightLog& log, TimeUs from_us) {
+  const Commands all = log.commands;
+  const auto first = std::find_if(all.begin(), all.end(), [&](const FlightLog::Command& command) {
     return command.evading && command.t_us >= from_us;
   });
   return {first, all.end()};
@@ -45,7 +45,7 @@ Commands before(TimeUs contact_us, Commands commands) {
 Vector3d mean_evasion(Commands commands) {
   Vector3d sum_W = Vector3d::Zero();
   int count = 0;
-  for (const Testimony::Command& command : commands) {
+  for (const FlightLog::Command& command : commands) {
     if (!command.evading) continue;
     sum_W += command.v_W;
     ++count;
@@ -66,21 +66,21 @@ Vector3d path(Commands commands, TimeUs contact_us) {
 
 // See CollisionEvidence::turned.
 bool turned(Commands commands, const Encounter& undisturbed) {
-  const auto across_W = [&](const Testimony::Command& command) {
+  const auto across_W = [&](const FlightLog::Command& command) {
     return undisturbed.across_flight(command.v_W - commands.front().vehicle_v_W);
   };
   const Vector3d first_W = across_W(commands.front());
-  return std::any_of(commands.begin(), commands.end(), [&](const Testimony::Command& command) {
+  return std::any_of(commands.begin(), commands.end(), [&](const FlightLog::Command& command) {
     return command.evading && across_W(command).dot(first_W) < 0;
   });
 }
 
 // The pilot's answer to an object that it knows of. Commands arrive command_delay_us after their
 // output.
-void add_answer(const Testimony& testimony, const Testimony::Object& object,
-                TimeUs command_delay_us, CollisionEvidence& evidence) {
+void add_answer(const FlightLog& log, const FlightLog::Object& object, TimeUs command_delay_us,
+                CollisionEvidence& evidence) {
   if (!evidence.earliest_command_us) return;
-  Commands commands = answer(testimony, *evidence.earliest_command_us);
+  Commands commands = answer(log, *evidence.earliest_command_us);
   if (commands.empty()) return;
   evidence.command_us = commands.front().t_us;
   if (evidence.undisturbed) commands = before(evidence.undisturbed->contact_us, commands);
@@ -90,7 +90,7 @@ void add_answer(const Testimony& testimony, const Testimony::Object& object,
     evidence.commanded_path_W = path(commands, evidence.undisturbed->contact_us);
     evidence.last_command_W = commands.back().v_W - commands.front().vehicle_v_W;
   }
-  for (const Testimony::Object::Detection& detection : object.detections) {
+  for (const FlightLog::Object::Detection& detection : object.detections) {
     if (detection.output_us + command_delay_us <= *evidence.command_us) {
       evidence.position_error_W = detection.error_W;
     }
@@ -107,41 +107,38 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
   const bool would_hit = none != nullptr && none->verdict.nearest.hit;
   if (!evidence.hit && !would_hit) return evidence;
   const int hitter = (evidence.hit ? flown : *none).verdict.nearest_object;
-  const Testimony& testimony = flown.testimony;
-  const Testimony::Object& object = testimony.objects[static_cast<std::size_t>(hitter)];
+  const FlightLog& log = flown.log;
+  const FlightLog::Object& object = log.objects[static_cast<std::size_t>(hitter)];
   evidence.in_view = object.in_view_us.has_value();
   if (object.known_us) evidence.earliest_command_us = *object.known_us + flown.command_delay_us;
   evidence.another_known_before =
-      std::any_of(testimony.objects.begin(), testimony.objects.end(), [&](const auto& other) {
+      std::any_of(log.objects.begin(), log.objects.end(), [&](const auto& other) {
         return other.known_us && (!object.known_us || *other.known_us < *object.known_us);
       });
   // Of a later object nobody knows how it would have met a vehicle that stayed.
   if (would_hit && none->verdict.nearest_object == hitter) evidence.undisturbed = encounter(*none);
-  add_answer(testimony, object, flown.command_delay_us, evidence);
+  add_answer(log, object, flown.command_delay_us, evidence);
   return evidence;
 }
 
 // The object that was detected first.
-std::optional<std::size_t> first_detected(const Testimony& testimony) {
+std::optional<std::size_t> first_detected(const FlightLog& log) {
   std::optional<std::size_t> first;
-  const auto output_us = [&](std::size_t i) {
-    return testimony.objects[i].detections.front().output_us;
-  };
-  for (std::size_t i = 0; i < testimony.objects.size(); ++i) {
-    if (testimony.objects[i].detections.empty()) continue;
+  const auto output_us = [&](std::size_t i) { return log.objects[i].detections.front().output_us; };
+  for (std::size_t i = 0; i < log.objects.size(); ++i) {
+    if (log.objects[i].detections.empty()) continue;
     if (!first || output_us(i) < output_us(*first)) first = i;
   }
   return first;
 }
 
 // When the object that was detected came into view; if none was, any.
-std::optional<TimeUs> first_in_view_us(const Testimony& testimony,
-                                       std::optional<std::size_t> detected) {
-  if (detected && testimony.objects[*detected].in_view_us) {
-    return testimony.objects[*detected].in_view_us;
+std::optional<TimeUs> first_in_view_us(const FlightLog& log, std::optional<std::size_t> detected) {
+  if (detected && log.objects[*detected].in_view_us) {
+    return log.objects[*detected].in_view_us;
   }
   std::optional<TimeUs> first_us;
-  for (const Testimony::Object& object : testimony.objects) {
+  for (const FlightLog::Object& object : log.objects) {
     if (!object.in_view_us) continue;
     first_us = std::min(*object.in_view_us, first_us.value_or(*object.in_view_us));
   }
@@ -152,8 +149,8 @@ std::optional<TimeUs> first_in_view_us(const Testimony& testimony,
 
 void explain_throw(const FlightPlan& plan, const FlightRecord* none, const FlightRecord& flown,
                    ThrowResult& result) {
-  const std::optional<std::size_t> detected = first_detected(flown.testimony);
-  result.first_in_view_us = first_in_view_us(flown.testimony, detected);
+  const std::optional<std::size_t> detected = first_detected(flown.log);
+  result.first_in_view_us = first_in_view_us(flown.log, detected);
   const std::optional<TimeUs> contact_us =
       result.none.hit_us ? result.none.hit_us : result.none.closest_us;
   if (contact_us && result.first_detection_us && none && detected &&

@@ -49,13 +49,13 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
       state_estimator_(scenario.sensors.state_estimate, scenario.seed, index()),
       range_sensor_(scenario.sensors.range, scenario.seed, index()),
       computer_(scenario.delays, make_pilot()),
-      witness_(world_, witness_setup()),
+      flight_logger_(world_, flight_logger_setup()),
       observer_(observer != nullptr ? *observer : nobody_),
       rig_(make_rig()),
       mission_(scenario.mission),
       controller_states_(scenario.delays.state_estimate_us),
       rate_commands_(scenario.delays.command_us + scenario.delays.flight_controller_us),
-      detection_log_(world_, scenario.delays.pilot_us()) {
+      detection_logger_(world_, scenario.delays.pilot_us()) {
   const MissionSpec& mission = scenario.mission;
   const VehicleParameters& vehicle = world_.vehicle();
   world_.reset(mission.start_m, mission.heading_deg * std::numbers::pi / 180,
@@ -118,8 +118,8 @@ std::unique_ptr<EventRig> Flight::make_rig() const {
 
 int Flight::cameras() const { return scenario_.dodger.position.depth == "stereo" ? 2 : 1; }
 
-Witness::Setup Flight::witness_setup() const {
-  Witness::Setup setup;
+FlightLogger::Setup Flight::flight_logger_setup() const {
+  FlightLogger::Setup setup;
   setup.intrinsics = intrinsics(scenario_.sensors.camera);
   setup.cameras = cameras();
   setup.end_us = plan_.end_us;
@@ -183,7 +183,7 @@ void Flight::see() {
     computer_.send_events(camera, packet.end_us, packet.events);
     observer_.on_events(camera, packet);
   });
-  detection_log_.observe(now);
+  detection_logger_.observe(now);
 }
 
 // The last packet that a cycle of the pilot will have must be complete by then. With a slow link
@@ -229,17 +229,17 @@ void Flight::control() {
     const bool evading = sent.reference.evading;
     observer_.on_command(now, evading);
     if (evading && !record_.first_command_us) record_.first_command_us = now;
-    witness_.add_command(world_.snapshot(), sent.reference);
+    flight_logger_.add_command(world_.snapshot(), sent.reference);
   });
   motors_.set_command(now, flight_controller_.step(now, rate_command_, gyro_B_radps_));
 }
 
 void Flight::judge() {
-  detection_log_.log(now_us(), [this](const DetectionRow& row, bool true_object) {
-    witness_.add_detection(row, true_object);
+  detection_logger_.log_outputs(now_us(), [this](const DetectionRow& row, bool true_object) {
+    flight_logger_.add_detection(row, true_object);
   });
   referee_.observe(world_, record_.landing_us.has_value());
-  witness_.observe(world_, reference_);
+  flight_logger_.observe(world_, reference_);
 }
 
 double Flight::true_range_m() const {
@@ -251,10 +251,10 @@ double Flight::true_range_m() const {
 
 void Flight::note_cycle() {
   const dodge::Pilot& pilot = computer_.pilot();
-  if (detection_log_.find(now_us(), pilot.detections())) observer_.on_first_detection();
+  if (detection_logger_.find(now_us(), pilot.detections())) observer_.on_first_detection();
   if (truth_pilot_ != nullptr) {  // it detects nothing: it is told
     for (const dodge::Obstacle& obstacle : truth_pilot_->obstacles()) {
-      witness_.add_told(obstacle.id, now_us() + scenario_.delays.pilot_us());
+      flight_logger_.add_told(obstacle.id, now_us() + scenario_.delays.pilot_us());
     }
   }
   observer_.on_cycle(now_us(), pilot);
@@ -264,8 +264,8 @@ FlightRecord Flight::record() const {
   FlightRecord record = record_;
   record.verdict = referee_.verdict();
   record.last = world_.snapshot();
-  record.detections = detection_log_.logged();
-  record.testimony = witness_.testimony();
+  record.detections = detection_logger_.log();
+  record.log = flight_logger_.log();
   record.agility = agility_of(world_.vehicle(), scenario_.motors);
   record.hull = referee_.hull();
   for (int i = 0; i < world_.object_count(); ++i) record.shapes.push_back(referee_.shape(i));

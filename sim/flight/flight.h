@@ -14,10 +14,10 @@
 #include "sim/control/velocity_controller.h"
 #include "sim/flight/detection_log.h"
 #include "sim/flight/event_rig.h"
+#include "sim/flight/flight_log.h"
 #include "sim/flight/flight_observer.h"
 #include "sim/flight/mission.h"
 #include "sim/flight/plan.h"
-#include "sim/flight/witness.h"
 #include "sim/motors/motors.h"
 #include "sim/outcome/collision_cause.h"
 #include "sim/outcome/result.h"
@@ -44,11 +44,11 @@ struct FlightTiming {
 struct FlightRecord {
   Verdict verdict;
   Snapshot last;
-  Testimony testimony;
+  FlightLog log;
   Agility agility;
   std::vector<Convex> hull;                 // of the vehicle, in B
   std::vector<std::vector<Convex>> shapes;  // of each object, in its frame
-  LoggedDetections detections;
+  DetectionLog detections;
   std::optional<TimeUs> first_command_us;  // first evasive command at the flight controller
   std::optional<TimeUs> landing_us;        // first command to land at the controller
   TimeUs command_delay_us = 0;             // from a command's output to the flight controller
@@ -90,7 +90,7 @@ class Flight {
   std::unique_ptr<dodge::Pilot> make_seeing_pilot() const;
   std::unique_ptr<EventRig> make_rig() const;
   int cameras() const;  // in use
-  Witness::Setup witness_setup() const;
+  FlightLogger::Setup flight_logger_setup() const;
   void require_packet();
   double true_range_m() const;
   void note_cycle();  // of the pilot
@@ -109,7 +109,7 @@ class Flight {
   RangeSensor range_sensor_;
   TruthPilot* truth_pilot_ = nullptr;  // owned by computer_, when the pilot knows the truth
   OnboardComputer computer_;
-  Witness witness_;
+  FlightLogger flight_logger_;
   FlightObserver nobody_;  // looks on if no observer is given
   FlightObserver& observer_;
   std::unique_ptr<EventRig> rig_;  // none for pilots that need no eyes
@@ -119,7 +119,7 @@ class Flight {
   Eigen::Vector3d gyro_B_radps_ = Eigen::Vector3d::Zero();
   DelayLine<StateReading> controller_states_;
   DelayLine<SentCommand> rate_commands_;
-  DetectionLog detection_log_;
+  DetectionLogger detection_logger_;
   std::optional<StateReading> controller_state_;  // the last one
   VelocityReference reference_;
   bool evasion_arrived_ = false;  // and the controller has not acted since

@@ -126,7 +126,7 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
                                        [](const ObjectRow& row) { return row.none_after_room; });
   if (own.result.ok()) {
     explain_throw(plan, none.result.ok() ? &none.record : nullptr, own.record, result);
-    result.trajectory = to_bytes(own.record.testimony.trajectory);
+    result.trajectory = to_bytes(own.record.log.trajectory);
   }
   return result;
 }

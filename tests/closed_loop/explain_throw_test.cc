@@ -115,12 +115,12 @@ FlightRecord head_on_hit() {
 }
 
 // Why it hits one that is commanded so.
-std::string cause_of(const std::vector<Testimony::Command>& commands) {
+std::string cause_of(const std::vector<FlightLog::Command>& commands) {
   const FlightRecord none = head_on_hit();
   FlightRecord flown = none;
-  flown.testimony.objects.resize(1);
-  flown.testimony.objects[0].known_us = 0;
-  flown.testimony.commands = commands;
+  flown.log.objects.resize(1);
+  flown.log.objects[0].known_us = 0;
+  flown.log.commands = commands;
   flown.first_command_us = commands.front().t_us;
   FlightPlan plan;
   plan.pilot = "oracle";
@@ -176,16 +176,16 @@ ThrowResult two_objects(int hitter, bool second_detected, bool first_detected_la
   FlightRecord none;
   none.verdict.nearest_object = hitter;
   FlightRecord flown = none;
-  flown.testimony.objects.resize(2);
-  flown.testimony.objects[0].in_view_us = 100000;
-  flown.testimony.objects[1].in_view_us = 300000;
-  if (first_detected_later) flown.testimony.objects[0].detections.push_back({600000, {}});
+  flown.log.objects.resize(2);
+  flown.log.objects[0].in_view_us = 100000;
+  flown.log.objects[1].in_view_us = 300000;
+  if (first_detected_later) flown.log.objects[0].detections.push_back({600000, {}});
   FlightPlan plan;
   plan.pilot = "none";
   ThrowResult result;
   result.none.hit_us = 1000000;
   if (second_detected) {
-    flown.testimony.objects[1].detections.push_back({500000, {}});
+    flown.log.objects[1].detections.push_back({500000, {}});
     result.first_detection_us = 500000;
   }
   explain_throw(plan, &none, flown, result);
@@ -205,8 +205,8 @@ TEST(ExplainThrow, TheTimesOfADetectionAreThoseOfTheObjectThatWasDetectedFirst) 
 // Detected at 0.5 s; the first evasive command is on its way for 0.1 s and arrives then.
 bool is_false_alarm(TimeUs first_command_us) {
   FlightRecord flown;
-  flown.testimony.objects.resize(1);
-  flown.testimony.objects[0].detections.push_back({500000, {}});
+  flown.log.objects.resize(1);
+  flown.log.objects[0].detections.push_back({500000, {}});
   flown.command_delay_us = 100000;
   FlightPlan plan;
   plan.pilot = "falanga2020";
@@ -229,10 +229,10 @@ TEST(ExplainThrow, AnAnswerIsSentAfterTheDetection) {
   const FlightRecord none = head_on_hit();
   FlightRecord flown = none;
   flown.command_delay_us = 100000;
-  flown.testimony.objects.resize(1);
-  flown.testimony.objects[0].known_us = 500000;
+  flown.log.objects.resize(1);
+  flown.log.objects[0].known_us = 500000;
   for (TimeUs t_us = 450000; t_us < 900000; t_us += 50000) {
-    flown.testimony.commands.push_back({t_us, true, Eigen::Vector3d::UnitZ(), {0, 0, 0}});
+    flown.log.commands.push_back({t_us, true, Eigen::Vector3d::UnitZ(), {0, 0, 0}});
   }
   FlightPlan plan;
   plan.pilot = "falanga2020";

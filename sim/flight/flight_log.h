@@ -13,7 +13,7 @@
 
 namespace dodgesim {
 
-struct Testimony {
+struct FlightLog {
   struct Object {
     std::optional<TimeUs> in_view_us;  // first
     // Output of the pilot's first cycle that knew of it: that detected it or, of a pilot that is
@@ -38,7 +38,7 @@ struct Testimony {
   Trajectory trajectory;
 };
 
-class Witness {
+class FlightLogger {
  public:
   struct Setup {
     Intrinsics intrinsics;
@@ -46,7 +46,7 @@ class Witness {
     TimeUs start_us = 0, end_us = 0;  // of the trajectory
   };
 
-  Witness(const World& world, const Setup& setup);
+  FlightLogger(const World& world, const Setup& setup);
 
   // Call after each tick, with the velocity that the controller is asked for.
   void observe(const World& world, const VelocityReference& reference);
@@ -57,7 +57,7 @@ class Witness {
   // A command has reached the flight controller.
   void add_command(const Snapshot& now, const VelocityReference& reference);
 
-  Testimony testimony() const;
+  FlightLog log() const;
 
  private:
   // In the image of one of the cameras, and at least a pixel wide. What stands between does not
@@ -66,7 +66,7 @@ class Witness {
   Trajectory::Sample sample(const Snapshot& now, const VelocityReference& reference) const;
 
   Setup setup_;
-  Testimony testimony_;
+  FlightLog log_;
   std::optional<Trajectory::Sample> last_;  // of the last tick, unless it is in the trajectory
 };
 

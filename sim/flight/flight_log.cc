@@ -1,4 +1,4 @@
-#include "sim/flight/witness.h"
+#include "sim/flight/flight_log.h"
 
 #include <algorithm>
 
@@ -13,9 +13,9 @@ Eigen::Vector3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2
 
 }  // namespace
 
-Witness::Witness(const World& world, const Setup& setup) : setup_(setup) {
-  testimony_.objects.resize(static_cast<std::size_t>(world.object_count()));
-  Trajectory& trajectory = testimony_.trajectory;
+FlightLogger::FlightLogger(const World& world, const Setup& setup) : setup_(setup) {
+  log_.objects.resize(static_cast<std::size_t>(world.object_count()));
+  Trajectory& trajectory = log_.trajectory;
   trajectory.start_us = setup.start_us;
   const TimeUs even_us = (setup.end_us - setup.start_us) / kMostSamples / kTickUs * kTickUs;
   trajectory.period_us = std::max(kPeriodUs, even_us + kTickUs);
@@ -24,13 +24,13 @@ Witness::Witness(const World& world, const Setup& setup) : setup_(setup) {
   }
 }
 
-void Witness::observe(const World& world, const VelocityReference& reference) {
+void FlightLogger::observe(const World& world, const VelocityReference& reference) {
   const Snapshot& now = world.snapshot();
-  for (std::size_t i = 0; i < testimony_.objects.size(); ++i) {
-    std::optional<TimeUs>& in_view_us = testimony_.objects[i].in_view_us;
+  for (std::size_t i = 0; i < log_.objects.size(); ++i) {
+    std::optional<TimeUs>& in_view_us = log_.objects[i].in_view_us;
     if (!in_view_us && now.launched[i] && in_view(world, i)) in_view_us = now.t_us;
   }
-  Trajectory& trajectory = testimony_.trajectory;
+  Trajectory& trajectory = log_.trajectory;
   if (now.t_us < trajectory.start_us) return;
   trajectory.end_us = now.t_us;
   if ((now.t_us - trajectory.start_us) % trajectory.period_us == 0) {
@@ -41,7 +41,7 @@ void Witness::observe(const World& world, const VelocityReference& reference) {
   }
 }
 
-bool Witness::in_view(const World& world, std::size_t object) const {
+bool FlightLogger::in_view(const World& world, std::size_t object) const {
   const Snapshot& now = world.snapshot();
   const double diameter_m = 2 * world.object(static_cast<int>(object)).bounding_radius_m;
   for (int camera = 0; camera < setup_.cameras; ++camera) {
@@ -53,7 +53,8 @@ bool Witness::in_view(const World& world, std::size_t object) const {
   return false;
 }
 
-Trajectory::Sample Witness::sample(const Snapshot& now, const VelocityReference& reference) const {
+Trajectory::Sample FlightLogger::sample(const Snapshot& now,
+                                        const VelocityReference& reference) const {
   Trajectory::Sample sample;
   sample.p_W = now.vehicle.p_W;
   sample.q_W = now.vehicle.q_W;
@@ -66,36 +67,35 @@ Trajectory::Sample Witness::sample(const Snapshot& now, const VelocityReference&
   return sample;
 }
 
-void Witness::add_detection(const DetectionRow& row, bool true_object) {
+void FlightLogger::add_detection(const DetectionRow& row, bool true_object) {
   if (true_object) {
-    Testimony::Object& object = testimony_.objects.at(static_cast<std::size_t>(*row.object));
+    FlightLog::Object& object = log_.objects.at(static_cast<std::size_t>(*row.object));
     if (!object.known_us) object.known_us = row.output_us;
     object.detections.push_back({row.output_us, vector(row.p_W) - vector(*row.true_p_W)});
   }
-  std::vector<Trajectory::Detection>& shown = testimony_.trajectory.detections;
+  std::vector<Trajectory::Detection>& shown = log_.trajectory.detections;
   const auto recent = [&](const Trajectory::Detection& d) {
     return d.true_object == true_object &&
-           d.output_us > row.output_us - testimony_.trajectory.period_us / 2;
+           d.output_us > row.output_us - log_.trajectory.period_us / 2;
   };
   if (std::any_of(shown.rbegin(), shown.rend(), recent)) return;
   shown.push_back({row.output_us, vector(row.p_W), true_object});
 }
 
-void Witness::add_told(int object, TimeUs output_us) {
-  std::optional<TimeUs>& known_us =
-      testimony_.objects.at(static_cast<std::size_t>(object)).known_us;
+void FlightLogger::add_told(int object, TimeUs output_us) {
+  std::optional<TimeUs>& known_us = log_.objects.at(static_cast<std::size_t>(object)).known_us;
   if (!known_us) known_us = output_us;
 }
 
-void Witness::add_command(const Snapshot& now, const VelocityReference& reference) {
+void FlightLogger::add_command(const Snapshot& now, const VelocityReference& reference) {
   if (!now.any_launched()) return;
-  testimony_.commands.push_back({now.t_us, reference.evading, reference.v_W, now.vehicle.v_W});
+  log_.commands.push_back({now.t_us, reference.evading, reference.v_W, now.vehicle.v_W});
 }
 
-Testimony Witness::testimony() const {
-  Testimony testimony = testimony_;
-  if (last_) testimony.trajectory.samples.push_back(*last_);
-  return testimony;
+FlightLog FlightLogger::log() const {
+  FlightLog log = log_;
+  if (last_) log.trajectory.samples.push_back(*last_);
+  return log;
 }
 
 }  // namespace dodgesim
