@@ -33,7 +33,7 @@ void EventPicture::clear() { image_.setTo(kNoEventColour); }
 Film::Film(const std::string& path, const Intrinsics& intrinsics, double slow)
     : place_(path),
       picture_every_us_(std::lround(static_cast<double>(kShownEveryUs) / slow / kTickUs) * kTickUs),
-      onlooker_(kSceneDistanceM),
+      chase_camera_(kSceneDistanceM),
       picture_(kSceneHeight,
                kSceneWidth + intrinsics.width * (kSceneHeight / 2) / intrinsics.height,
                cv::Vec3b(0, 0, 0)),
@@ -75,7 +75,7 @@ void Film::extend_trail(const Snapshot& now) {
 
 void Film::compose(const Snapshot& snapshot) {
   cv::Mat3b scene(kSceneHeight, kSceneWidth);
-  scene_->draw(snapshot, onlooker_.follow(snapshot.vehicle), trail_, scene.data);
+  scene_->draw(snapshot, chase_camera_.follow(snapshot.vehicle), trail_, scene.data);
   cv::cvtColor(scene, scene, cv::COLOR_RGB2BGR);
   scene.copyTo(picture_(cv::Rect(0, 0, kSceneWidth, kSceneHeight)));
   const int width = picture_.cols - kSceneWidth, height = kSceneHeight / 2;

@@ -10,7 +10,7 @@
 #include "sim/files/mp4_file.h"
 #include "sim/files/staged_file.h"
 #include "sim/flight/flight_observer.h"
-#include "sim/observers/onlooker.h"
+#include "sim/observers/chase_camera.h"
 #include "sim/render/scene_pictures.h"
 
 namespace dodgesim {
@@ -58,7 +58,7 @@ class Film : public FlightObserver {
   StagedFile place_;
   TimeUs picture_every_us_;  // of flight
   std::unique_ptr<ScenePictures> scene_;
-  Onlooker onlooker_;
+  ChaseCamera chase_camera_;
   std::vector<EventPicture> eyes_;
   std::vector<PictureDot> trail_;  // the newest
   bool evading_ = false;

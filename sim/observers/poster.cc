@@ -50,7 +50,7 @@ void Poster::on_tick(const World& world) {
     distance_m = std::min(distance_m, (now.objects[i].p_W - now.vehicle.p_W).norm());
   }
   if (std::isinf(distance_m)) return;
-  const PictureView& view = onlooker_.follow(now.vehicle);
+  const PictureView& view = chase_camera_.follow(now.vehicle);
   const bool dot = now.t_us % kDotEveryUs == 0;
   if (dot) trail_.push_back({now.vehicle.p_W, 0.015, kVehicleColour});
   for (std::size_t i = 0; i < now.objects.size(); ++i) {

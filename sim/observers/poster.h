@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sim/camera/camera.h"
+#include "sim/observers/chase_camera.h"
 #include "sim/observers/dodger_observer.h"
-#include "sim/observers/onlooker.h"
 #include "sim/render/scene_pictures.h"
 
 namespace dodgesim {
@@ -32,7 +32,7 @@ class Poster : public DodgerObserver {
 
   Intrinsics intrinsics_;
   std::unique_ptr<ScenePictures> scenes_;
-  Onlooker onlooker_{3.6};
+  ChaseCamera chase_camera_{3.6};
   std::vector<PictureDot> trail_;
   const World* world_ = nullptr;  // of the running flight
   double nearest_m_ = 1e9;        // of the object so far

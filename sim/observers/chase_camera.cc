@@ -1,11 +1,11 @@
-#include "sim/observers/onlooker.h"
+#include "sim/observers/chase_camera.h"
 
 #include <cmath>
 #include <numbers>
 
 namespace dodgesim {
 
-const PictureView& Onlooker::follow(const BodyState& vehicle) {
+const PictureView& ChaseCamera::follow(const BodyState& vehicle) {
   constexpr double kAheadM = 1.1;    // of the vehicle: what is looked at
   constexpr double kBesideDeg = 60;  // from the vehicle's heading
   constexpr double kElevationDeg = -15;

@@ -10,12 +10,12 @@
 
 namespace dodgesim {
 
-class Onlooker {
+class ChaseCamera {
  public:
   // How far the vehicle moves before the camera goes along: dodges are seen to be movements.
   static constexpr double kLeashM = 0.8;
 
-  explicit Onlooker(double distance_m) { view_.distance_m = distance_m; }
+  explicit ChaseCamera(double distance_m) { view_.distance_m = distance_m; }
 
   // Call while the vehicle moves. The first call sets where the camera is.
   const PictureView& follow(const BodyState& vehicle);
