@@ -16,16 +16,16 @@ dodge::DepthConfig without_limits(dodge::DepthConfig config) {
 }
 
 // Whether a pixel of one camera lies on the object's outline.
-bool on_outline(const Sight& sight, const Intrinsics& intrinsics, double x, double y) {
+bool on_outline(const ObjectView& view, const Intrinsics& intrinsics, double x, double y) {
   const Eigen::Vector3d ray_C((x - intrinsics.cx()) / intrinsics.f,
                               (y - intrinsics.cy()) / intrinsics.f, 1);
-  return dodgesim::on_outline(sight, sight.X_WC * ray_C);
+  return dodgesim::on_outline(view, view.X_WC * ray_C);
 }
 
-Miss miss_of(const CycleSight& cycle, const dodge::DepthConfig& limits, int min_events) {
+Miss miss_of(const ObservedCycle& cycle, const dodge::DepthConfig& limits, int min_events) {
   const bool stereo = limits.depth == "stereo";
   if (cycle.location) {
-    const CycleSight::Location& found = *cycle.location;
+    const ObservedCycle::Location& found = *cycle.location;
     if (found.range_m < limits.min_range_m || found.range_m > limits.max_range_m)
       return Miss::kRange;
     if (found.size_m < limits.min_size_m || found.size_m > limits.max_size_m) return Miss::kSize;
@@ -60,9 +60,10 @@ std::string miss_text(Miss miss) {
   return "";
 }
 
-Miss miss_of(std::span<const CycleSight> cycles, const dodge::DepthConfig& limits, int min_events) {
+Miss miss_of(std::span<const ObservedCycle> cycles, const dodge::DepthConfig& limits,
+             int min_events) {
   Miss best = Miss::kFewEvents;
-  for (const CycleSight& cycle : cycles) best = std::max(best, miss_of(cycle, limits, min_events));
+  for (const auto& cycle : cycles) best = std::max(best, miss_of(cycle, limits, min_events));
   return best;
 }
 
@@ -85,9 +86,9 @@ std::optional<Snapshot> MissObserver::state_at(TimeUs t_us) const {
   return state && state->launched.front() ? state : std::nullopt;
 }
 
-Sight MissObserver::sight(const Snapshot& state, std::size_t camera) const {
+ObjectView MissObserver::view(const Snapshot& state, std::size_t camera) const {
   const CameraRig one{rig_.intrinsics, {rig_.X_BC[camera]}};
-  return sight_of(one, state.vehicle.pose(), state.objects.front().p_W, radius_m_);
+  return view_of(one, state.vehicle.pose(), state.objects.front().p_W, radius_m_);
 }
 
 // The pilot's window ends with the newest packet that has come through the cable.
@@ -95,8 +96,9 @@ void MissObserver::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
   truth_.on_dodger_cycle(now_us, dodger);
   const std::optional<Snapshot> state = state_at(scenario_.delays.newest_packet_end_us(now_us));
   if (!state) return;
-  CycleSight cycle;
-  const Sight both = sight_of(rig_, state->vehicle.pose(), state->objects.front().p_W, radius_m_);
+  ObservedCycle cycle;
+  const ObjectView both =
+      view_of(rig_, state->vehicle.pose(), state->objects.front().p_W, radius_m_);
   cycle.t_us = state->t_us;
   cycle.range_m = both.range_m();
   cycle.centre_in_view = both.centre_in_view;
@@ -106,7 +108,7 @@ void MissObserver::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
     const auto& window = truth_.window(camera);
     cycle.events[i] = static_cast<int>(std::count_if(
         window.begin(), window.end(), [](const WindowEvent& e) { return of_object(e.cause); }));
-    const Sight one = sight(*state, i);
+    const ObjectView one = view(*state, i);
     for (const dodge::Cluster& cluster : dodger.clusters(camera)) {
       const cv::Point2f middle = cluster.rectangle.center;
       if (on_outline(one, rig_.intrinsics, middle.x, middle.y)) ++cycle.clusters[i];
@@ -116,8 +118,8 @@ void MissObserver::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
   cycles_.push_back(cycle);
 }
 
-std::optional<CycleSight::Location> MissObserver::locate(const Snapshot& state,
-                                                         const dodge::Dodger& pilot) {
+std::optional<ObservedCycle::Location> MissObserver::locate(const Snapshot& state,
+                                                            const dodge::Dodger& pilot) {
   std::vector<dodge::View> views;
   for (std::size_t i = 0; i < rig_.X_BC.size(); ++i) {
     const int camera = static_cast<int>(i);
@@ -131,12 +133,12 @@ std::optional<CycleSight::Location> MissObserver::locate(const Snapshot& state,
   std::vector<dodge::Detection> located;
   unlimited_->locate(views, truth, located);
 
-  std::optional<CycleSight::Location> best;
+  std::optional<ObservedCycle::Location> best;
   double best_error_m = 0;
   for (const dodge::Detection& detection : located) {
     const std::optional<Snapshot> then = state_at(detection.t_us);
     if (!then) continue;
-    const Sight seen = sight(*then, 0);
+    const ObjectView seen = view(*then, 0);
     if (!dodgesim::on_outline(seen, detection.centre_W)) continue;
     const double error_m = (detection.centre_W - then->objects.front().p_W).norm();
     if (best && error_m >= best_error_m) continue;

@@ -15,7 +15,7 @@
 namespace dodgesim {
 
 // One cycle of the pilot and the first object, at the end of the window of events.
-struct CycleSight {
+struct ObservedCycle {
   TimeUs t_us = 0;
   double range_m = 0;
   bool centre_in_view = false;
@@ -38,7 +38,8 @@ std::string miss_text(Miss miss);
 
 // Of cycles while the object was in view; kFewEvents without any. `min_events` is what the pilot
 // asks of a cluster.
-Miss miss_of(std::span<const CycleSight> cycles, const dodge::DepthConfig& limits, int min_events);
+Miss miss_of(std::span<const ObservedCycle> cycles, const dodge::DepthConfig& limits,
+             int min_events);
 
 // Watches a flight of the paper's pilot.
 class MissObserver : public DodgerObserver {
@@ -51,12 +52,12 @@ class MissObserver : public DodgerObserver {
   void on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) override;
 
   // Of the cycles with the object in flight.
-  const std::vector<CycleSight>& cycles() const { return cycles_; }
+  const std::vector<ObservedCycle>& cycles() const { return cycles_; }
 
  private:
   std::optional<Snapshot> state_at(TimeUs t_us) const;
-  Sight sight(const Snapshot& state, std::size_t camera) const;
-  std::optional<CycleSight::Location> locate(const Snapshot& state, const dodge::Dodger& pilot);
+  ObjectView view(const Snapshot& state, std::size_t camera) const;
+  std::optional<ObservedCycle::Location> locate(const Snapshot& state, const dodge::Dodger& pilot);
 
   Scenario scenario_;
   CameraRig rig_;
@@ -64,7 +65,7 @@ class MissObserver : public DodgerObserver {
   std::optional<dodge::DepthEstimator> unlimited_;  // takes any distance and size
   double radius_m_ = 0;
   SnapshotHistory history_;
-  std::vector<CycleSight> cycles_;
+  std::vector<ObservedCycle> cycles_;
 };
 
 }  // namespace dodgesim

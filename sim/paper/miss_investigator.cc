@@ -6,8 +6,8 @@
 namespace dodgesim {
 
 Miss MissInvestigator::reason(int throw_index, const RangeBin& bin, TimeUs from_us, TimeUs to_us) {
-  std::vector<CycleSight> inside;
-  for (const CycleSight& cycle : cycles(throw_index)) {
+  std::vector<ObservedCycle> inside;
+  for (const ObservedCycle& cycle : cycles(throw_index)) {
     if (cycle.centre_in_view && bin.contains(cycle.range_m) && cycle.t_us >= from_us &&
         cycle.t_us < to_us) {
       inside.push_back(cycle);
@@ -17,7 +17,7 @@ Miss MissInvestigator::reason(int throw_index, const RangeBin& bin, TimeUs from_
   return miss_of(inside, dodger.position, dodger.cluster.min_events);
 }
 
-const std::vector<CycleSight>& MissInvestigator::cycles(int throw_index) {
+const std::vector<ObservedCycle>& MissInvestigator::cycles(int throw_index) {
   const auto known = flights_.find(throw_index);
   if (known != flights_.end()) return known->second;
   MissObserver observer(case_of(campaign_.scenario, throw_index).scenario);

@@ -20,10 +20,10 @@ class MissInvestigator {
   Miss reason(int throw_index, const RangeBin& bin, TimeUs from_us, TimeUs to_us);
 
  private:
-  const std::vector<CycleSight>& cycles(int throw_index);
+  const std::vector<ObservedCycle>& cycles(int throw_index);
 
   const LoadedCampaign& campaign_;
-  std::map<int, std::vector<CycleSight>> flights_;
+  std::map<int, std::vector<ObservedCycle>> flights_;
 };
 
 }  // namespace dodgesim

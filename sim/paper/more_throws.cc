@@ -60,8 +60,8 @@ void for_each_flown(const LoadedCampaign& pilot, const LoadedCampaign& oracle_in
 
 // The ball that is first within the range from the reference camera, when it comes there; empty if
 // none does.
-std::optional<Sight> first_within(double range_m, const Trajectory& trajectory,
-                                  const CameraRig& rig) {
+std::optional<ObjectView> first_within(double range_m, const Trajectory& trajectory,
+                                       const CameraRig& rig) {
   constexpr TimeUs kStepUs = 1000;
   std::vector<Passage> passages;
   for (std::size_t i = 0; i < trajectory.sizes_m.size(); ++i) {
@@ -69,8 +69,8 @@ std::optional<Sight> first_within(double range_m, const Trajectory& trajectory,
   }
   for (TimeUs t_us = trajectory.start_us; t_us <= trajectory.end_us; t_us += kStepUs) {
     for (const Passage& passage : passages) {
-      std::optional<Sight> sight = passage.at(t_us);
-      if (sight && sight->range_m() <= range_m) return sight;
+      std::optional<ObjectView> view = passage.at(t_us);
+      if (view && view->range_m() <= range_m) return view;
     }
   }
   return std::nullopt;

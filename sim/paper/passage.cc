@@ -28,31 +28,30 @@ bool whole_in_image(const Intrinsics& intrinsics, const Eigen::Vector3d& p_C, do
   return inside(p_C.x(), intrinsics.width) && inside(p_C.y(), intrinsics.height);
 }
 
-Sight sight_of(const CameraRig& rig, const Eigen::Isometry3d& X_WB, const Eigen::Vector3d& p_W,
-               double radius_m) {
-  Sight sight;
-  sight.X_WC = X_WB * rig.X_BC.front();
-  sight.p_C = sight.X_WC.inverse() * p_W;
-  sight.radius_m = radius_m;
+ObjectView view_of(const CameraRig& rig, const Eigen::Isometry3d& X_WB, const Eigen::Vector3d& p_W,
+                   double radius_m) {
+  ObjectView view;
+  view.X_WC = X_WB * rig.X_BC.front();
+  view.p_C = view.X_WC.inverse() * p_W;
+  view.radius_m = radius_m;
   const auto every_camera = [&](double margin_m) {
     return std::all_of(rig.X_BC.begin(), rig.X_BC.end(), [&](const Eigen::Isometry3d& X_BC) {
       return whole_in_image(rig.intrinsics, (X_WB * X_BC).inverse() * p_W, margin_m);
     });
   };
-  sight.centre_in_view = every_camera(0);
-  sight.whole_in_view = every_camera(radius_m);
-  return sight;
+  view.centre_in_view = every_camera(0);
+  view.whole_in_view = every_camera(radius_m);
+  return view;
 }
 
 Eigen::Vector3d position_of(const DetectionRow& row) {
   return {row.p_W[0], row.p_W[1], row.p_W[2]};
 }
 
-bool on_outline(const Sight& sight, const Eigen::Vector3d& p_W) {
-  const Eigen::Vector3d detected_C = sight.X_WC.inverse() * p_W;
-  const double angle_rad =
-      std::atan2(sight.p_C.cross(detected_C).norm(), sight.p_C.dot(detected_C));
-  const double outline_rad = std::asin(std::min(1.0, sight.radius_m / sight.range_m()));
+bool on_outline(const ObjectView& view, const Eigen::Vector3d& p_W) {
+  const Eigen::Vector3d detected_C = view.X_WC.inverse() * p_W;
+  const double angle_rad = std::atan2(view.p_C.cross(detected_C).norm(), view.p_C.dot(detected_C));
+  const double outline_rad = std::asin(std::min(1.0, view.radius_m / view.range_m()));
   return angle_rad <= outline_rad + kOutlineMarginRad;
 }
 
@@ -64,7 +63,7 @@ TimeUs Passage::sample_us(std::size_t i) const {
                   trajectory_.end_us);
 }
 
-std::optional<Sight> Passage::at(TimeUs t_us) const {
+std::optional<ObjectView> Passage::at(TimeUs t_us) const {
   if (t_us < trajectory_.start_us || t_us > trajectory_.end_us) return std::nullopt;
   if (trajectory_.samples.empty()) return std::nullopt;
   const std::size_t last = trajectory_.samples.size() - 1;
@@ -82,7 +81,7 @@ std::optional<Sight> Passage::at(TimeUs t_us) const {
   X_WB.translation() = a.p_W + share * (b.p_W - a.p_W);
   const Eigen::Vector3d p_W =
       *a.objects[object_] + share * (*b.objects[object_] - *a.objects[object_]);
-  return sight_of(rig_, X_WB, p_W, 0.5 * trajectory_.sizes_m.at(object_));
+  return view_of(rig_, X_WB, p_W, 0.5 * trajectory_.sizes_m.at(object_));
 }
 
 }  // namespace dodgesim

@@ -29,7 +29,7 @@ bool centre_in_image(const Intrinsics& intrinsics, const Eigen::Vector3d& p_C);
 bool whole_in_image(const Intrinsics& intrinsics, const Eigen::Vector3d& p_C, double radius_m);
 
 // An object as the cameras see it at one instant.
-struct Sight {
+struct ObjectView {
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();  // the reference camera
   Eigen::Vector3d p_C = Eigen::Vector3d::Zero();           // the object's centre in it
   double radius_m = 0;
@@ -40,8 +40,8 @@ struct Sight {
   double depth_m() const { return p_C.z(); }  // along the optical axis
 };
 
-Sight sight_of(const CameraRig& rig, const Eigen::Isometry3d& X_WB, const Eigen::Vector3d& p_W,
-               double radius_m);
+ObjectView view_of(const CameraRig& rig, const Eigen::Isometry3d& X_WB, const Eigen::Vector3d& p_W,
+                   double radius_m);
 
 // Where a detection puts the object's centre in the world.
 Eigen::Vector3d position_of(const DetectionRow& row);
@@ -52,7 +52,7 @@ inline constexpr double kOutlineMarginRad = 0.05;
 // Whether a detection at p_W is of the object: the direction to it lies within the object's outline
 // or at most kOutlineMarginRad beyond. Says nothing of the distance, so that an error of the depth,
 // however great, counts as an error and not as another object.
-bool on_outline(const Sight& sight, const Eigen::Vector3d& p_W);
+bool on_outline(const ObjectView& view, const Eigen::Vector3d& p_W);
 
 // An object's flight through the view, between the samples of a trajectory: positions linear (half
 // a millimetre off for free fall), orientations by slerp. The trajectory itself is rounded to a
@@ -65,7 +65,7 @@ class Passage {
   TimeUs end_us() const { return trajectory_.end_us; }
 
   // Empty outside of the trajectory and before the object is launched.
-  std::optional<Sight> at(TimeUs t_us) const;
+  std::optional<ObjectView> at(TimeUs t_us) const;
 
  private:
   TimeUs sample_us(std::size_t i) const;

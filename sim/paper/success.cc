@@ -4,40 +4,40 @@
 
 namespace dodgesim {
 
-bool in_view(const Sight& sight, Visibility visibility) {
-  return visibility == Visibility::kWhole ? sight.whole_in_view : sight.centre_in_view;
+bool in_view(const ObjectView& view, Visibility visibility) {
+  return visibility == Visibility::kWhole ? view.whole_in_view : view.centre_in_view;
 }
 
-Exposure exposure(const Passage& passage, const std::vector<DetectionRow>& detections,
-                  const RangeBin& bin, Visibility visibility) {
+TimeInView time_in_view(const Passage& passage, const std::vector<DetectionRow>& detections,
+                        const RangeBin& bin, Visibility visibility) {
   constexpr TimeUs kStepUs = 1000;
   std::vector<TimeUs> detected_us;
   for (const DetectionRow& row : detections) {
-    const std::optional<Sight> sight = passage.at(row.t_us);
-    if (sight && bin.contains(sight->range_m()) && on_outline(*sight, position_of(row))) {
+    const std::optional<ObjectView> view = passage.at(row.t_us);
+    if (view && bin.contains(view->range_m()) && on_outline(*view, position_of(row))) {
       detected_us.push_back(row.t_us);
     }
   }
-  Exposure exposure;
-  exposure.detections = static_cast<int>(detected_us.size());
+  TimeInView time;
+  time.detections = static_cast<int>(detected_us.size());
   TimeUs piece_us = 0;  // of the piece that grows
   for (TimeUs t_us = passage.start_us(); t_us <= passage.end_us(); t_us += kStepUs) {
-    const std::optional<Sight> sight = passage.at(t_us);
-    if (!sight || !bin.contains(sight->range_m()) || !in_view(*sight, visibility)) {
+    const std::optional<ObjectView> view = passage.at(t_us);
+    if (!view || !bin.contains(view->range_m()) || !in_view(*view, visibility)) {
       piece_us = 0;
       continue;
     }
-    exposure.visible_us += kStepUs;
+    time.visible_us += kStepUs;
     piece_us += kStepUs;
     if (piece_us < kLeastVisibleUs) continue;
     const TimeUs end_us = t_us + kStepUs, begin_us = end_us - piece_us;
     const bool detected = std::any_of(detected_us.begin(), detected_us.end(),
                                       [&](TimeUs at) { return at >= begin_us && at < end_us; });
-    ++exposure.pieces;
-    if (!detected) exposure.missed_us.push_back(begin_us);
+    ++time.pieces;
+    if (!detected) time.missed_us.push_back(begin_us);
     piece_us = 0;
   }
-  return exposure;
+  return time;
 }
 
 }  // namespace dodgesim

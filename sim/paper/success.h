@@ -21,13 +21,13 @@ enum class Visibility {
   kWhole,   // its outline lies wholly in the image of every camera
 };
 
-bool in_view(const Sight& sight, Visibility visibility);
+bool in_view(const ObjectView& view, Visibility visibility);
 
 // In view for less than one window of events it cannot be detected, and does not count.
 inline constexpr TimeUs kLeastVisibleUs = 10000;
 
 // One object, while its distance lies in a bin.
-struct Exposure {
+struct TimeInView {
   TimeUs visible_us = 0;  // counted in milliseconds
   int detections = 0;     // of it (on_outline()), at an instant at which it was in the bin
   // Pieces of kLeastVisibleUs in view without a gap, one after the other, and where those begin
@@ -40,7 +40,7 @@ struct Exposure {
   bool detected() const { return detections > 0; }
 };
 
-Exposure exposure(const Passage& passage, const std::vector<DetectionRow>& detections,
-                  const RangeBin& bin, Visibility visibility);
+TimeInView time_in_view(const Passage& passage, const std::vector<DetectionRow>& detections,
+                        const RangeBin& bin, Visibility visibility);
 
 }  // namespace dodgesim

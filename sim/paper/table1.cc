@@ -87,12 +87,12 @@ std::size_t bin_of(double depth_m) {
   return bin;
 }
 
-void add(const DetectionRow& row, const Sight& sight, int course, ErrorSample& sample) {
+void add(const DetectionRow& row, const ObjectView& view, int course, ErrorSample& sample) {
   const std::size_t bin = bin_of(*row.true_depth_m);
   if (bin == kDepthBins.size()) return;
-  const Eigen::Vector3d detected_C = sight.X_WC.inverse() * position_of(row);
+  const Eigen::Vector3d detected_C = view.X_WC.inverse() * position_of(row);
   sample.errors[bin].push_back({course, *row.position_error_m});
-  sample.depth_error_sums_m[bin] += detected_C.z() - sight.depth_m();
+  sample.depth_error_sums_m[bin] += detected_C.z() - view.depth_m();
 }
 
 void add(const LoadedCampaign& campaign, Selection selection, ErrorSample& sample) {
@@ -102,14 +102,14 @@ void add(const LoadedCampaign& campaign, Selection selection, ErrorSample& sampl
     ++sample.throws;
     const Passage passage(trajectory_from_bytes(result.trajectory), rig);
     for (const DetectionRow& row : result.detection_rows) {
-      const std::optional<Sight> sight = passage.at(row.t_us);
-      if (!sight || !row.true_depth_m || !on_outline(*sight, position_of(row))) {
+      const std::optional<ObjectView> view = passage.at(row.t_us);
+      if (!view || !row.true_depth_m || !on_outline(*view, position_of(row))) {
         ++sample.elsewhere;
         continue;
       }
-      if (selection == Selection::kWhole && !sight->whole_in_view) continue;
+      if (selection == Selection::kWhole && !view->whole_in_view) continue;
       ++sample.of_object;
-      add(row, *sight, result.index, sample);
+      add(row, *view, result.index, sample);
     }
   }
 }

@@ -88,7 +88,7 @@ bool below(const Cells& cells, std::size_t size, std::size_t range) {
 // One ball and one column of a reading.
 struct PassageCase {
   std::size_t size = 0, range = 0;
-  Exposure exposure;
+  TimeInView in_view;
   const ThrowResult* result = nullptr;
 };
 
@@ -100,8 +100,8 @@ std::vector<PassageCase> passages(const LoadedCampaign& campaign, const Reading&
     if (!result.flown.ok()) continue;
     const Passage passage(trajectory_from_bytes(result.trajectory), rig);
     for (std::size_t range = 0; range < kRanges; ++range) {
-      const Exposure seen =
-          exposure(passage, result.detection_rows, reading.ranges[range], reading.visibility);
+      const TimeInView seen =
+          time_in_view(passage, result.detection_rows, reading.ranges[range], reading.visibility);
       if (seen.counts()) {
         cases.push_back({static_cast<std::size_t>(result.cell), range, seen, &result});
       }
@@ -115,16 +115,16 @@ Cells count_passages(const std::vector<PassageCase>& cases) {
   for (const PassageCase& passage : cases) {
     Cell& cell = cells.at(passage.size)[passage.range];
     ++cell.visible;
-    cell.detected += passage.exposure.detected() ? 1 : 0;
+    cell.detected += passage.in_view.detected() ? 1 : 0;
     cell.interval = wilson(cell.detected, cell.visible);
   }
   return cells;
 }
 
 // Of the pieces of the passages of one cell.
-Cell count_pieces(const std::vector<Exposure>& passages) {
+Cell count_pieces(const std::vector<TimeInView>& passages) {
   Cell cell;
-  for (const Exposure& passage : passages) {
+  for (const TimeInView& passage : passages) {
     cell.visible += passage.pieces;
     cell.detected += passage.detected_pieces();
   }
@@ -134,15 +134,15 @@ Cell count_pieces(const std::vector<Exposure>& passages) {
 }
 
 Cells count_pieces(const std::vector<PassageCase>& cases) {
-  std::array<std::array<std::vector<Exposure>, kRanges>, kSizes> exposures;
+  std::array<std::array<std::vector<TimeInView>, kRanges>, kSizes> times;
   for (const PassageCase& passage : cases) {
-    if (passage.exposure.pieces == 0) continue;
-    exposures.at(passage.size)[passage.range].push_back(passage.exposure);
+    if (passage.in_view.pieces == 0) continue;
+    times.at(passage.size)[passage.range].push_back(passage.in_view);
   }
   Cells cells;
   for (std::size_t size = 0; size < kSizes; ++size) {
     for (std::size_t range = 0; range < kRanges; ++range) {
-      cells[size][range] = count_pieces(exposures[size][range]);
+      cells[size][range] = count_pieces(times[size][range]);
     }
   }
   return cells;
@@ -187,10 +187,10 @@ std::string reasons_markdown(const std::vector<PassageCase>& cases,
           investigator.reason(passage.result->index, kDistanceBins[passage.range], from_us, to_us);
       return std::tuple(passage.size, passage.range, miss);
     };
-    if (!passage.exposure.detected()) {
+    if (!passage.in_view.detected()) {
       ++counts[reason(0, std::numeric_limits<TimeUs>::max())][0];
     }
-    for (const TimeUs begin_us : passage.exposure.missed_us) {
+    for (const TimeUs begin_us : passage.in_view.missed_us) {
       const TimeUs from_us = begin_us + kDetectionAgeUs;
       ++counts[reason(from_us, from_us + kLeastVisibleUs)][1];
     }
@@ -211,12 +211,12 @@ std::string misses_markdown(const std::vector<PassageCase>& cases) {
   TextTable table;
   table.head = {"size", "distance", "throw", "ball (m)", "speed (m/s)", "in view (ms)"};
   for (const PassageCase& passage : cases) {
-    if (passage.exposure.detected()) continue;
+    if (passage.in_view.detected()) continue;
     table.rows.push_back({kSizeNames[passage.size], kRangeNames[passage.range],
                           std::to_string(passage.result->index),
                           fixed_text(passage.result->size_m, 3),
                           fixed_text(passage.result->speed_mps, 1),
-                          std::to_string(passage.exposure.visible_us / 1000)});
+                          std::to_string(passage.in_view.visible_us / 1000)});
   }
   return table.rows.empty() ? "" : "Missed passages:\n\n" + table.to_markdown() + "\n";
 }

@@ -14,13 +14,13 @@ namespace {
 constexpr double kBallM = 0.2;
 constexpr int kThrows = 12;
 
-struct Sight {
+struct Detections {
   int whole = 0;      // detections of about the ball's own size
   int too_large = 0;  // with a part of the background
 };
 
 // Of balls of 8 m/s that nobody evades.
-Sight sight_of(const std::string& cluster) {
+Detections detections_of(const std::string& cluster) {
   const Scenario s = scenario(
       "room: field\n"
       "pilot: dodgesim\n"
@@ -34,17 +34,17 @@ Sight sight_of(const std::string& cluster) {
       "        launch_s: 0.1}\n"
       "dodger: {escape: {min_speed_mps: 100}, cluster: " +
       cluster + "}\n");
-  Sight sight;
+  Detections found;
   for (int i = 0; i < kThrows; ++i) {
     for (const DetectionRow& row : fly(s, plan_throw(s, i)).detections.rows) {
-      if (row.object) ++(row.size_m < 1.5 * kBallM ? sight.whole : sight.too_large);
+      if (row.object) ++(row.size_m < 1.5 * kBallM ? found.whole : found.too_large);
     }
   }
-  return sight;
+  return found;
 }
 
 TEST(OwnPilot, KeepsABallApartFromItsBackground) {
-  const Sight own = sight_of("{}"), paper = sight_of("{weight_position_1ppx: 0.2}");
+  const Detections own = detections_of("{}"), paper = detections_of("{weight_position_1ppx: 0.2}");
   EXPECT_GT(own.whole, 30 * kThrows);
   EXPECT_GT(own.whole, 1.1 * paper.whole);
   EXPECT_LT(own.too_large, paper.too_large);

@@ -9,16 +9,16 @@
 namespace dodgesim {
 namespace {
 
-CycleSight cycle(std::array<int, 2> events, std::array<int, 2> clusters,
-                 std::optional<CycleSight::Location> location = std::nullopt) {
-  CycleSight cycle;
+ObservedCycle cycle(std::array<int, 2> events, std::array<int, 2> clusters,
+                    std::optional<ObservedCycle::Location> location = std::nullopt) {
+  ObservedCycle cycle;
   cycle.events = events;
   cycle.clusters = clusters;
   cycle.location = location;
   return cycle;
 }
 
-Miss miss(const std::vector<CycleSight>& cycles, const std::string& depth = "stereo") {
+Miss miss(const std::vector<ObservedCycle>& cycles, const std::string& depth = "stereo") {
   dodge::DepthConfig limits;  // 0.2 to 1.5 m, 3 to 80 cm
   limits.depth = depth;
   return miss_of(cycles, limits, 30);
@@ -30,9 +30,9 @@ TEST(Miss, IsHowFarThePilotGot) {
   EXPECT_EQ(miss({cycle({100, 30}, {0, 0})}), Miss::kNoCluster);
   EXPECT_EQ(miss({cycle({100, 100}, {0, 2})}), Miss::kOneCamera);
   EXPECT_EQ(miss({cycle({100, 100}, {1, 1})}), Miss::kNoMatch);
-  EXPECT_EQ(miss({cycle({100, 100}, {1, 1}, CycleSight::Location{1.51, 0.2})}), Miss::kRange);
-  EXPECT_EQ(miss({cycle({100, 100}, {1, 1}, CycleSight::Location{1.0, 0.9})}), Miss::kSize);
-  EXPECT_EQ(miss({cycle({100, 100}, {1, 1}, CycleSight::Location{1.0, 0.2})}), Miss::kElsewhere);
+  EXPECT_EQ(miss({cycle({100, 100}, {1, 1}, ObservedCycle::Location{1.51, 0.2})}), Miss::kRange);
+  EXPECT_EQ(miss({cycle({100, 100}, {1, 1}, ObservedCycle::Location{1.0, 0.9})}), Miss::kSize);
+  EXPECT_EQ(miss({cycle({100, 100}, {1, 1}, ObservedCycle::Location{1.0, 0.2})}), Miss::kElsewhere);
 }
 
 TEST(Miss, IsTheBestOfAllCycles) {
@@ -42,7 +42,7 @@ TEST(Miss, IsTheBestOfAllCycles) {
 
 TEST(Miss, OfOneCameraAsksForOneCamera) {
   EXPECT_EQ(miss({cycle({30, 0}, {0, 0})}, "mono"), Miss::kNoCluster);
-  EXPECT_EQ(miss({cycle({100, 0}, {0, 0}, CycleSight::Location{2, 0.2})}, "mono"), Miss::kRange);
+  EXPECT_EQ(miss({cycle({100, 0}, {0, 0}, ObservedCycle::Location{2, 0.2})}, "mono"), Miss::kRange);
 }
 
 Scenario passing_ball(const std::string& dodger) {
@@ -57,13 +57,13 @@ Scenario passing_ball(const std::string& dodger) {
 constexpr RangeBin kNear{0, 1};
 
 // Of a pilot with these parameters, while the ball is near.
-std::vector<CycleSight> near_cycles(const std::string& dodger) {
+std::vector<ObservedCycle> near_cycles(const std::string& dodger) {
   const Scenario scenario = passing_ball(dodger);
   MissObserver observer(scenario);
   EXPECT_TRUE(fly_throw(scenario, 0, &observer).flown.ok());
-  std::vector<CycleSight> cycles;
-  for (const CycleSight& sight : observer.cycles()) {
-    if (sight.centre_in_view && kNear.contains(sight.range_m)) cycles.push_back(sight);
+  std::vector<ObservedCycle> cycles;
+  for (const ObservedCycle& cycle : observer.cycles()) {
+    if (cycle.centre_in_view && kNear.contains(cycle.range_m)) cycles.push_back(cycle);
   }
   EXPECT_GT(cycles.size(), 10u);
   return cycles;
@@ -79,16 +79,16 @@ TEST(MissObserver, FindsWhatAFlyingPilotLacks) {
   EXPECT_EQ(investigator.reason(0, kNear, 0, 100000), Miss::kFewEvents) << "before the launch";
   EXPECT_EQ(investigator.reason(0, {5, 6}, 0, 1000000), Miss::kFewEvents) << "never so far";
 
-  const std::vector<CycleSight> good = near_cycles("cluster: {}");
+  const std::vector<ObservedCycle> good = near_cycles("cluster: {}");
   EXPECT_EQ(miss(good), Miss::kElsewhere);
   dodge::DepthConfig limits;
   limits.min_size_m = 0.5;
   EXPECT_EQ(miss_of(good, limits, 30), Miss::kSize);
   limits.max_range_m = 0.3;
   EXPECT_EQ(miss_of(good, limits, 30), Miss::kRange);
-  for (const CycleSight& sight : good) {
-    const double located_m = sight.location ? sight.location->range_m : sight.range_m;
-    EXPECT_NEAR(located_m, sight.range_m, 0.3);
+  for (const ObservedCycle& cycle : good) {
+    const double located_m = cycle.location ? cycle.location->range_m : cycle.range_m;
+    EXPECT_NEAR(located_m, cycle.range_m, 0.3);
   }
 }
 

@@ -52,12 +52,12 @@ TEST(WholeInImage, IsFalseBehindTheCamera) {
   EXPECT_FALSE(centre_in_image({}, {0, 0, -1}));
 }
 
-TEST(Sight, NeedsTheCentreInEveryCamerasImage) {
+TEST(ObjectView, NeedsTheCentreInEveryCamerasImage) {
   const CameraRig rig = stereo_rig();
   const Eigen::Isometry3d at_rest = Eigen::Isometry3d::Identity();
   const double limit_m = 0.5 * 120 / rig.intrinsics.f - 0.075;  // of the lower camera at 0.5 m
-  EXPECT_TRUE(sight_of(rig, at_rest, {0.5, 0, limit_m - 1e-6}, 0.05).centre_in_view);
-  const Sight outside = sight_of(rig, at_rest, {0.5, 0, limit_m + 1e-6}, 0.05);
+  EXPECT_TRUE(view_of(rig, at_rest, {0.5, 0, limit_m - 1e-6}, 0.05).centre_in_view);
+  const ObjectView outside = view_of(rig, at_rest, {0.5, 0, limit_m + 1e-6}, 0.05);
   EXPECT_FALSE(outside.centre_in_view);
   EXPECT_TRUE(centre_in_image(rig.intrinsics, outside.p_C));  // the upper camera's
   EXPECT_NEAR(outside.depth_m(), 0.5, 1e-12);
@@ -65,17 +65,17 @@ TEST(Sight, NeedsTheCentreInEveryCamerasImage) {
 }
 
 TEST(OnOutline, AsksForTheDirectionAndNotForTheDistance) {
-  const Sight sight = sight_of(stereo_rig(), Eigen::Isometry3d::Identity(), {1, 0, 0.075}, 0.1);
-  EXPECT_TRUE(on_outline(sight, {1, 0, 0.075}));
-  EXPECT_TRUE(on_outline(sight, {3, 0, 0.075}));
-  EXPECT_FALSE(on_outline(sight, {-1, 0, 0.075}));
+  const ObjectView view = view_of(stereo_rig(), Eigen::Isometry3d::Identity(), {1, 0, 0.075}, 0.1);
+  EXPECT_TRUE(on_outline(view, {1, 0, 0.075}));
+  EXPECT_TRUE(on_outline(view, {3, 0, 0.075}));
+  EXPECT_FALSE(on_outline(view, {-1, 0, 0.075}));
   const double edge_rad = std::asin(0.1) + kOutlineMarginRad;
   for (const double distance_m : {0.4, 1.0, 2.5}) {
     const auto aside = [&](double angle_rad) {
       return Vector3d(distance_m * std::cos(angle_rad), distance_m * std::sin(angle_rad), 0.075);
     };
-    EXPECT_TRUE(on_outline(sight, aside(edge_rad - 1e-6)));
-    EXPECT_FALSE(on_outline(sight, aside(edge_rad + 1e-6)));
+    EXPECT_TRUE(on_outline(view, aside(edge_rad - 1e-6)));
+    EXPECT_FALSE(on_outline(view, aside(edge_rad + 1e-6)));
   }
 }
 
@@ -90,10 +90,10 @@ TEST(Passage, FollowsAFallingBallToHalfAMillimetre) {
   }
   const Passage passage(trajectory, stereo_rig());
   for (TimeUs t_us = 500000; t_us <= 1500000; t_us += 1700) {
-    const std::optional<Sight> sight = passage.at(t_us);
-    ASSERT_TRUE(sight);
-    EXPECT_LT((sight->X_WC * sight->p_C - position(t_us)).norm(), 0.0006) << t_us;
-    EXPECT_EQ(sight->radius_m, 0.1);
+    const std::optional<ObjectView> view = passage.at(t_us);
+    ASSERT_TRUE(view);
+    EXPECT_LT((view->X_WC * view->p_C - position(t_us)).norm(), 0.0006) << t_us;
+    EXPECT_EQ(view->radius_m, 0.1);
   }
   EXPECT_FALSE(passage.at(499999));
   EXPECT_FALSE(passage.at(1500001));

@@ -15,10 +15,10 @@ constexpr double kSpeedMps = 2;
 constexpr RangeBin kNearBin{0, 0.5}, kMiddleBin{0.5, 1}, kFarBin{1, 1.5};
 
 // At the height of the middle between the cameras.
-Exposure crossing(double depth_m, double size_m, const RangeBin& bin, Visibility visibility,
-                  const std::vector<DetectionRow>& detections = {}) {
+TimeInView crossing(double depth_m, double size_m, const RangeBin& bin, Visibility visibility,
+                    const std::vector<DetectionRow>& detections = {}) {
   const Trajectory trajectory = straight_flight({depth_m, 1, 0}, {0, -kSpeedMps, 0}, size_m);
-  return exposure(Passage(trajectory, stereo_rig()), detections, bin, visibility);
+  return time_in_view(Passage(trajectory, stereo_rig()), detections, bin, visibility);
 }
 
 // Half of the chord in which the distance to the upper camera is at most range_m.
@@ -26,7 +26,7 @@ double half_chord(double depth_m, double range_m) {
   return std::sqrt(std::max(0.0, range_m * range_m - depth_m * depth_m - 0.075 * 0.075));
 }
 
-TEST(Exposure, LastsAsLongAsTheCentreCrossesTheView) {
+TEST(TimeInView, LastsAsLongAsTheCentreCrossesTheView) {
   const double tangent = 160 / Intrinsics().f;
   for (const double depth_m : {0.3, 0.45, 0.6, 0.9}) {
     const double in_view = depth_m * tangent;
@@ -44,7 +44,7 @@ TEST(Exposure, LastsAsLongAsTheCentreCrossesTheView) {
   }
 }
 
-TEST(Exposure, OfTheWholeBallIsShorterByItsOutline) {
+TEST(TimeInView, OfTheWholeBallIsShorterByItsOutline) {
   const double tangent = 160 / Intrinsics().f, depth_m = 0.7, radius_m = 0.1;
   const RangeBin all{0, 10};
   const auto visible =
@@ -55,16 +55,16 @@ TEST(Exposure, OfTheWholeBallIsShorterByItsOutline) {
   EXPECT_EQ(crossing(0.3, 0.3, all, Visibility::kWhole).visible_us, 0);
 }
 
-TEST(Exposure, CountsOnlyFromOneWindowOfEventsOn) {
-  Exposure exposure;
-  exposure.visible_us = 9000;
-  EXPECT_FALSE(exposure.counts());
-  exposure.visible_us = 10000;
-  EXPECT_TRUE(exposure.counts());
+TEST(TimeInView, CountsOnlyFromOneWindowOfEventsOn) {
+  TimeInView time;
+  time.visible_us = 9000;
+  EXPECT_FALSE(time.counts());
+  time.visible_us = 10000;
+  EXPECT_TRUE(time.counts());
 }
 
 // The ball passes straight ahead, at 0.6 m, at 1.0 s.
-TEST(Exposure, TakesDetectionsOfTheBallInTheBin) {
+TEST(TimeInView, TakesDetectionsOfTheBallInTheBin) {
   const Vector3d ball(0.6, 0, 0);
   const auto of = [&](const DetectionRow& row, const RangeBin& bin) {
     return crossing(0.6, 0.1, bin, Visibility::kCentre, {row}).detections;
@@ -80,14 +80,14 @@ TEST(Exposure, TakesDetectionsOfTheBallInTheBin) {
   EXPECT_EQ(of(detection(600000, before, before, 0.6), kFarBin), 1);
 }
 
-TEST(Exposure, IsCutIntoPiecesOfOneWindow) {
+TEST(TimeInView, IsCutIntoPiecesOfOneWindow) {
   const Vector3d ball(0.6, 0, 0);
-  const Exposure none = crossing(0.6, 0.1, kMiddleBin, Visibility::kCentre);
+  const TimeInView none = crossing(0.6, 0.1, kMiddleBin, Visibility::kCentre);
   EXPECT_EQ(none.pieces, none.visible_us / 10000);
   EXPECT_EQ(none.detected_pieces(), 0);
   EXPECT_EQ(none.missed_us[1] - none.missed_us[0], 10000);
   // Three detections in two pieces.
-  const Exposure some =
+  const TimeInView some =
       crossing(0.6, 0.1, kMiddleBin, Visibility::kCentre,
                {detection(1000000, ball, ball, 0.6), detection(1000001, ball, ball, 0.6),
                 detection(1015000, {0.6, -0.03, 0}, ball, 0.6)});
