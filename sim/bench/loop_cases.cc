@@ -71,7 +71,7 @@ BenchCase loop_case(const LoopCase& loop) {
     if (loop.throws > 0) {
       count = std::min(options.throws > 0 ? options.throws : loop.throws, scenario.repeats);
     } else {
-      scenario.toss.reset();
+      scenario.throw_spec.reset();
       scenario.throws.clear();
       scenario.duration_s = kHoverS;
     }

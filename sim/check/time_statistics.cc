@@ -80,7 +80,7 @@ TimeStatistics measure_time_statistics(const Scenario& scenario, int throw_index
   TimeStatistics statistics;
   statistics.threshold = scenario.dodger.time_image.threshold_b;
   FlightPlan plan = plan_throw(scenario, throw_index);
-  plan.end_us = plan.launches.at(0).toss.arrival_us() / kTickUs * kTickUs;
+  plan.end_us = plan.launches.at(0).drawn.arrival_us() / kTickUs * kTickUs;
   Statistician statistician(statistics);
   fly(scenario, plan, &statistician);
   return statistics;

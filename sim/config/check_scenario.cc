@@ -69,7 +69,7 @@ void check_mission_key(const Scenario& scenario, const std::string& type, const 
 }
 
 void check_throws(const Scenario& scenario, ReadContext& context) {
-  if (scenario.toss && !scenario.throws.empty()) {
+  if (scenario.throw_spec && !scenario.throws.empty()) {
     context.problems.add(context.position_of("throws"),
                          "throws and throw are both given; one of them is enough.");
   }

@@ -177,8 +177,8 @@ struct Scenario {
   std::string vehicle = "qav_rxl";
   MissionSpec mission;
   VehicleOverrides vehicle_overrides;
-  std::optional<ThrowSpec> toss;  // the key `throw`
-  std::vector<ThrowSpec> throws;  // in its place; without both, nobody throws
+  std::optional<ThrowSpec> throw_spec;  // the key `throw`
+  std::vector<ThrowSpec> throws;        // in its place; without both, nobody throws
   double after_s = 1;
   double duration_s = 10;
   SensorsSpec sensors;
@@ -196,9 +196,9 @@ struct Scenario {
 
   // One for each throw or group of throws of a flight, whichever key they stand under.
   std::vector<ThrowSpec> throw_specs() const {
-    return toss ? std::vector<ThrowSpec>{*toss} : throws;
+    return throw_spec ? std::vector<ThrowSpec>{*throw_spec} : throws;
   }
-  bool anyone_throws() const { return toss || !throws.empty(); }
+  bool anyone_throws() const { return throw_spec || !throws.empty(); }
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -238,7 +238,7 @@ struct Scenario {
     v.model("vehicle", vehicle, "vehicles", "The quadrotor.");
     v("vehicle_overrides", vehicle_overrides, "What is different from the vehicle's model.");
     v("mission", mission, "What the vehicle does when it does not dodge.");
-    v("throw", toss, "What is thrown at the vehicle; without this key nobody throws.");
+    v("throw", throw_spec, "What is thrown at the vehicle; without this key nobody throws.");
     v("throws", throws,
       "Several throws in one flight, in place of throw: a list of maps, each with the keys of "
       "throw. Up to 16 objects in all; launch_s says which come together.");

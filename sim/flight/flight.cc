@@ -70,7 +70,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
   observer_.on_start(computer_.pilot());
   if (!rig_) return;
   rig_->start();
-  for (const auto& launch : plan_.launches) rig_->require(launch.toss.launch_us);
+  for (const auto& launch : plan_.launches) rig_->require(launch.drawn.launch_us);
 }
 
 std::uint64_t Flight::index() const { return static_cast<std::uint64_t>(plan_.throw_index); }
@@ -84,7 +84,7 @@ std::unique_ptr<dodge::Pilot> Flight::make_pilot() {
   setup.delays = scenario_.delays;
   setup.latency_us = scenario_.sensors.events.latency_us;
   setup.lifetime_s = dodge::decay_lifetime_s(core.repulsive);
-  for (const auto& launch : plan_.launches) setup.sizes_m.push_back(launch.toss.object.size_m);
+  for (const auto& launch : plan_.launches) setup.sizes_m.push_back(launch.drawn.object.size_m);
   setup.X_BC = world_.vehicle().X_BC.front();
   setup.intrinsics = intrinsics(scenario_.sensors.camera);
   auto pilot = std::make_unique<TruthPilot>(
@@ -125,7 +125,7 @@ FlightLogger::Setup Flight::flight_logger_setup() const {
   setup.end_us = plan_.end_us;
   if (plan_.launches.empty()) return setup;
   TimeUs first_us = plan_.end_us;
-  for (const auto& launch : plan_.launches) first_us = std::min(first_us, launch.toss.launch_us);
+  for (const auto& launch : plan_.launches) first_us = std::min(first_us, launch.drawn.launch_us);
   setup.start_us = std::max<TimeUs>(0, first_us - kShownBeforeUs) / kTickUs * kTickUs;
   return setup;
 }
@@ -139,7 +139,7 @@ void Flight::move() {
   const TimeUs start_us = now_us();
   bool launched = false;
   for (std::size_t i = 0; i < plan_.launches.size(); ++i) {
-    if (plan_.launches[i].toss.launch_us != start_us) continue;
+    if (plan_.launches[i].drawn.launch_us != start_us) continue;
     world_.launch(static_cast<int>(i), plan_.launches[i].state);
     expect_free_launch(world_, i);
     launched = true;

@@ -42,9 +42,9 @@ void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_
 }
 
 // How object i leaves the hand to meet the vehicle. Throws ScenarioError if it cannot.
-BodyState launch_at(const BodyState& vehicle, const Throw& toss, const World& world, int i) {
+BodyState launch_at(const BodyState& vehicle, const Throw& drawn, const World& world, int i) {
   const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
-  BodyState launch = solve_throw(toss, world.object(i), vehicle.p_W, std::atan2(x_W.y(), x_W.x()));
+  BodyState launch = solve_throw(drawn, world.object(i), vehicle.p_W, std::atan2(x_W.y(), x_W.x()));
   check_launch_in_sight(world, vehicle.p_W, launch.p_W);
   return launch;
 }
@@ -59,22 +59,22 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
     plan.end_us = round_to_tick(microseconds(scenario.duration_s));
     return plan;
   }
-  for (const Throw& toss : resolve_throws(scenario, throw_index)) {
-    plan.launches.push_back({toss, {}});
+  for (const Throw& drawn : resolve_throws(scenario, throw_index)) {
+    plan.launches.push_back({drawn, {}});
   }
   World world(world_spec(scenario, plan.launches));
   world.reset(scenario.mission.start_m, 0, Eigen::Vector3d::Zero());
   for (int i = 0; i < world.object_count(); ++i) {
     FlightPlan::Launch& launch = plan.launches[static_cast<std::size_t>(i)];
-    const BodyState vehicle = undisturbed_vehicle(scenario, throw_index, launch.toss.arrival_us());
+    const BodyState vehicle = undisturbed_vehicle(scenario, throw_index, launch.drawn.arrival_us());
     try {
-      launch.state = launch_at(vehicle, launch.toss, world, i);
+      launch.state = launch_at(vehicle, launch.drawn, world, i);
     } catch (const ScenarioError& error) {
       if (world.object_count() == 1) throw;
       throw ScenarioError("Object " + std::to_string(i) + ": " + error.what());
     }
     plan.end_us = std::max(
-        plan.end_us, round_to_tick(launch.toss.arrival_us() + microseconds(scenario.after_s)));
+        plan.end_us, round_to_tick(launch.drawn.arrival_us() + microseconds(scenario.after_s)));
   }
   return plan;
 }

@@ -17,8 +17,8 @@ struct FlightPlan {
   int throw_index = 0;
   std::string pilot = kPaperPilot;  // of those in sim/config/pilot.h
   struct Launch {
-    Throw toss;
-    BodyState state;  // at toss.launch_us
+    Throw drawn;
+    BodyState state;  // at drawn.launch_us
   };
   std::vector<Launch> launches;  // object i of the world is launch i
   TimeUs end_us = 0;

@@ -8,7 +8,7 @@ WorldSpec world_spec(const Scenario& scenario, const std::vector<FlightPlan::Lau
   spec.room = scenario.room;
   spec.vehicle = scenario.vehicle;
   spec.vehicle_overrides = scenario.vehicle_overrides;
-  for (const auto& launch : launches) spec.objects.push_back(launch.toss.object);
+  for (const auto& launch : launches) spec.objects.push_back(launch.drawn.object);
   return spec;
 }
 

@@ -44,7 +44,7 @@ FlightPlan launches_at(TimeUs launch_us, FlightPlan plan) {
   plan.pilot = kNoPilot;
   plan.end_us = launch_us + kTickUs;
   for (FlightPlan::Launch& launch : plan.launches) {
-    if (launch.toss.launch_us != launch_us) launch.toss.launch_us = plan.end_us + kTickUs;
+    if (launch.drawn.launch_us != launch_us) launch.drawn.launch_us = plan.end_us + kTickUs;
   }
   return plan;
 }
@@ -56,8 +56,8 @@ double try_throw(const ThrowCase& thrown) {
   double sum_s = 0;
   std::set<TimeUs> launches_us;
   for (const FlightPlan::Launch& launch : plan.launches) {
-    sum_s += seconds(launch.toss.arrival_us());
-    launches_us.insert(launch.toss.launch_us);
+    sum_s += seconds(launch.drawn.arrival_us());
+    launches_us.insert(launch.drawn.launch_us);
   }
   for (const TimeUs launch_us : launches_us) {
     fly(thrown.scenario, launches_at(launch_us, plan));

@@ -25,7 +25,7 @@ Scenario thrown_at(const std::string& turn_deg) {
 double disparity_error_rad(const std::string& turn_deg) {
   const Scenario s = thrown_at(turn_deg);
   FlightPlan plan = plan_throw(s, 0);
-  plan.end_us = plan.launches.at(0).toss.launch_us + 350000;
+  plan.end_us = plan.launches.at(0).drawn.launch_us + 350000;
   const FlightRecord record = fly(s, plan);
   constexpr double kBaselineM = 0.15;
   std::vector<double> errors;

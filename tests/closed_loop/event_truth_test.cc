@@ -134,13 +134,13 @@ TEST(EventTruth, AgreesWithThePilotsWindowsAndFindsTheBall) {
       "throw: {distance_m: 3, speed_mps: 5, size_m: 0.2, launch_height_m: 1.7, launch_s: 0.2}\n"
       "dodger: {position: {max_range_m: 3}}\n");
   FlightPlan plan = plan_throw(s, 0);
-  plan.end_us = plan.launches.at(0).toss.launch_us + 350000;
+  plan.end_us = plan.launches.at(0).drawn.launch_us + 350000;
   CheckedTruth truth;
   const FlightRecord watched = fly(s, plan, &truth);
   EXPECT_GT(truth.labelled_, 1000);
   EXPECT_GT(truth.clustered_, 300);
   ASSERT_FALSE(truth.rows().empty());
-  EXPECT_GE(truth.rows().front().cycle_us, plan.launches.at(0).toss.launch_us);
+  EXPECT_GE(truth.rows().front().cycle_us, plan.launches.at(0).drawn.launch_us);
   EXPECT_FALSE(truth.rows().front().evading);
 
   EventTruthSums sums;

@@ -30,14 +30,14 @@ TEST_P(Throws, HitAVehicleThatDoesNotDodgeWhenTheyAreAimedAtIt) {
   const Scenario s = thrown_from_everywhere(GetParam(), "0");
   for (int k = 0; k < 4; ++k) {
     const FlightPlan plan = plan_throw(s, k);
-    const Throw& toss = plan.launches.at(0).toss;
+    const Throw& drawn = plan.launches.at(0).drawn;
     const FlightRecord record = fly_as("none", s, plan);
     ASSERT_TRUE(record.verdict.nearest.hit) << "throw " << k;
     // The surfaces meet before the centres do, by the radii of both (the arms reach 0.35 m).
-    const TimeUs early_us = toss.arrival_us() - *record.verdict.nearest.hit_us;
-    const double reach_m = 0.5 * toss.object.size_m + 0.35;
+    const TimeUs early_us = drawn.arrival_us() - *record.verdict.nearest.hit_us;
+    const double reach_m = 0.5 * drawn.object.size_m + 0.35;
     EXPECT_GT(early_us, 0) << "throw " << k;
-    EXPECT_LT(seconds(early_us), reach_m / (toss.speed_mps - 1.5)) << "throw " << k;
+    EXPECT_LT(seconds(early_us), reach_m / (drawn.speed_mps - 1.5)) << "throw " << k;
     EXPECT_EQ(record.last.t_us, record.verdict.nearest.hit_us);  // the flight ends there
   }
 }
@@ -50,17 +50,17 @@ TEST_P(Throws, PassTheVehicleAtTheAimOffsetAtThePlannedInstant) {
     const FlightRecord record = fly_as("none", s, plan, &diary);
     EXPECT_FALSE(record.verdict.nearest.hit) << "throw " << k;
     EXPECT_GT(record.verdict.nearest.clearance_m, 0.3) << "throw " << k;
-    const auto& [toss, launch] = plan.launches.at(0);
-    const Snapshot arrival = diary.at(toss.arrival_us());
+    const auto& [drawn, launch] = plan.launches.at(0);
+    const Snapshot arrival = diary.at(drawn.arrival_us());
     // Left and up across the line of flight, for a viewer who looks at the launch point.
     const Vector3d vehicle_W = arrival.vehicle.p_W;
     const Vector3d aim_W = arrival.objects[0].p_W;
     Vector3d line_W = launch.p_W - aim_W;
     line_W.z() = 0;
-    EXPECT_NEAR(line_W.norm(), toss.distance_m, 2e-3) << "throw " << k;
+    EXPECT_NEAR(line_W.norm(), drawn.distance_m, 2e-3) << "throw " << k;
     const Vector3d x_W = arrival.vehicle.q_W * Vector3d::UnitX();
     const double bearing_rad = std::atan2(line_W.y(), line_W.x()) - std::atan2(x_W.y(), x_W.x());
-    EXPECT_NEAR(bearing_rad * 180 / M_PI, toss.bearing_deg, 0.1) << "throw " << k;
+    EXPECT_NEAR(bearing_rad * 180 / M_PI, drawn.bearing_deg, 0.1) << "throw " << k;
     const Vector3d left_W = Vector3d::UnitZ().cross(line_W.normalized());
     EXPECT_LT((aim_W - vehicle_W - left_W - Vector3d(0, 0, 0.5)).norm(), 2e-3) << "throw " << k;
   }
@@ -69,13 +69,13 @@ TEST_P(Throws, PassTheVehicleAtTheAimOffsetAtThePlannedInstant) {
 TEST_P(Throws, AreLaunchedOnTheirTickInTheirState) {
   const Scenario s = thrown_from_everywhere(GetParam(), "0");
   const FlightPlan plan = plan_throw(s, 1);
-  const auto& [toss, launch] = plan.launches.at(0);
-  ASSERT_EQ(toss.launch_us % kTickUs, 0);
+  const auto& [drawn, launch] = plan.launches.at(0);
+  ASSERT_EQ(drawn.launch_us % kTickUs, 0);
   Diary diary;
   fly_as("none", s, plan, &diary);
-  const Snapshot before = diary.snapshots().at(static_cast<std::size_t>(toss.launch_us / 250 - 1));
-  const Snapshot after = diary.snapshots().at(static_cast<std::size_t>(toss.launch_us / 250));
-  EXPECT_EQ(before.t_us, toss.launch_us);
+  const Snapshot before = diary.snapshots().at(static_cast<std::size_t>(drawn.launch_us / 250 - 1));
+  const Snapshot after = diary.snapshots().at(static_cast<std::size_t>(drawn.launch_us / 250));
+  EXPECT_EQ(before.t_us, drawn.launch_us);
   EXPECT_FALSE(before.launched[0]);
   EXPECT_TRUE(after.launched[0]);
   EXPECT_LT((after.objects[0].p_W - launch.p_W - seconds(kTickUs) * launch.v_W).norm(), 1e-5);
@@ -125,7 +125,7 @@ TEST(Loop, TheFirstCommandComesAfterTheSumOfTheDelays) {
     const FlightPlan plan = plan_throw(s, 0);
     const FlightRecord record = fly_as("oracle", s, plan);
     ASSERT_TRUE(record.first_command_us);
-    const TimeUs latency_us = *record.first_command_us - plan.launches[0].toss.launch_us;
+    const TimeUs latency_us = *record.first_command_us - plan.launches[0].drawn.launch_us;
     const DelaySpec& d = s.delays;
     const TimeUs chain_us = s.sensors.events.latency_us + d.transport_us + d.compute_us +
                             d.command_us + d.flight_controller_us;

@@ -18,8 +18,8 @@ constexpr const char* kThrow =
 TEST(PaperPilot, DetectsAThrowThenEvades) {
   const Scenario s = scenario(kThrow);
   FlightPlan plan = plan_throw(s, 0);
-  plan.end_us = plan.launches.at(0).toss.launch_us + 400000;  // at 1 m; what is near costs time
-  const Throw& toss = plan.launches.at(0).toss;
+  plan.end_us = plan.launches.at(0).drawn.launch_us + 400000;  // at 1 m; what is near costs time
+  const Throw& drawn = plan.launches.at(0).drawn;
   Diary diary;
   const FlightRecord record = fly(s, plan, &diary);
   ASSERT_TRUE(record.detections.first);
@@ -31,15 +31,15 @@ TEST(PaperPilot, DetectsAThrowThenEvades) {
   const DelaySpec& d = s.delays;
   const TimeUs latency_us = s.sensors.events.latency_us;
   EXPECT_GT(record.detections.first->output_us,
-            toss.launch_us + latency_us + d.transport_us + d.compute_us);
+            drawn.launch_us + latency_us + d.transport_us + d.compute_us);
   EXPECT_GE(*record.first_command_us,
             record.detections.first->output_us + d.command_us + d.flight_controller_us);
-  EXPECT_LT(*record.first_command_us, toss.arrival_us());
+  EXPECT_LT(*record.first_command_us, drawn.arrival_us());
 
   ASSERT_GT(record.detections.rows.size(), 2u);
   std::vector<double> errors_m;
   for (const DetectionRow& row : record.detections.rows) {
-    EXPECT_GT(row.t_us, toss.launch_us);
+    EXPECT_GT(row.t_us, drawn.launch_us);
     EXPECT_GE(row.output_us, row.t_us + d.transport_us + d.compute_us);
     ASSERT_TRUE(row.object && row.true_p_W && row.position_error_m && row.true_depth_m);
     EXPECT_EQ(*row.object, 0);
@@ -69,13 +69,13 @@ TEST(PaperPilot, HasNotDetectedWhatItWouldHaveSaidAfterTheHit) {
 
 // Ends the flight early: the plan says when.
 FlightRecord first_part(const Scenario& scenario, FlightPlan plan) {
-  plan.end_us = plan.launches.at(0).toss.launch_us + 100000;
+  plan.end_us = plan.launches.at(0).drawn.launch_us + 100000;
   return fly(scenario, plan);
 }
 
 TEST(PaperPilot, TheSameThrowGivesTheSameEventsAndDetections) {
   Scenario s = scenario(kThrow);
-  s.toss->launch_s = Distribution::constant(0.1);
+  s.throw_spec->launch_s = Distribution::constant(0.1);
   const FlightPlan plan = plan_throw(s, 0);
   const FlightRecord a = first_part(s, plan), b = first_part(s, plan);
   EXPECT_EQ(a.events_hash, b.events_hash);
@@ -120,8 +120,8 @@ class EventCounts : public FlightObserver {
 
 TEST(PaperPilot, ABallThatComesIntoExistenceIsNoFlash) {
   Scenario s = scenario(kThrow);
-  s.toss->launch_s = Distribution::constant(0.1);
-  s.toss->distance_m = Distribution::constant(1.5);  // large in the image: 600 px
+  s.throw_spec->launch_s = Distribution::constant(0.1);
+  s.throw_spec->distance_m = Distribution::constant(1.5);  // large in the image: 600 px
   FlightPlan plan = plan_throw(s, 0);
   plan.end_us = 104000;
   EventCounts counts;

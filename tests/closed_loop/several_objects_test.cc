@@ -23,7 +23,7 @@ TEST(SeveralObjects, SimultaneousOnesPassAtTheirOffsets) {
       "  - {object: box, bearing_deg: -20, aim_offset_m: [-1, 0], launch_s: 0.5, distance_m: 3}\n");
   const FlightPlan plan = plan_throw(s, 0);
   ASSERT_EQ(plan.launches.size(), 2u);
-  EXPECT_EQ(plan.end_us, plan.launches[1].toss.arrival_us() + 200000) << "the later one's";
+  EXPECT_EQ(plan.end_us, plan.launches[1].drawn.arrival_us() + 200000) << "the later one's";
   const FlightRecord record = fly_none(s, plan);
   EXPECT_FALSE(record.verdict.nearest.hit);
   for (const Approach& approach : record.verdict.objects) {

@@ -61,9 +61,9 @@ TEST(Expand, EveryCombinationComesUpOnceARepeatAndSweepValue) {
 TEST(Expand, AThrowHasTheValuesOfItsCellAndSweep) {
   const Scenario campaign = parse(kCampaign);
   const ThrowCase thrown = case_of(campaign, 3 * 18 + 2 * 6 + 5);  // last sweep value, last cell
-  EXPECT_EQ(thrown.scenario.toss->size_m, Distribution::constant(0.2));
-  EXPECT_EQ(thrown.scenario.toss->distance_m, Distribution::uniform(4, 5));
-  EXPECT_EQ(thrown.scenario.toss->speed_mps, Distribution::uniform(4, 8)) << "as in throw:";
+  EXPECT_EQ(thrown.scenario.throw_spec->size_m, Distribution::constant(0.2));
+  EXPECT_EQ(thrown.scenario.throw_spec->distance_m, Distribution::uniform(4, 5));
+  EXPECT_EQ(thrown.scenario.throw_spec->speed_mps, Distribution::uniform(4, 8)) << "as in throw:";
   EXPECT_EQ(thrown.scenario.delays.compute_us, 3500);
   EXPECT_EQ(thrown.scenario.pilot, "oracle");
   EXPECT_EQ(thrown.sweep_values,
@@ -143,7 +143,7 @@ TEST(Expand, AGridOfThrowKeysCountsForEveryObject) {
     EXPECT_EQ(spec.bearing_deg, Distribution::constant(5));
   }
   EXPECT_EQ(second.throws[1].launch_s, Distribution::constant(2));
-  EXPECT_FALSE(second.toss.has_value());
+  EXPECT_FALSE(second.throw_spec.has_value());
 }
 
 }  // namespace

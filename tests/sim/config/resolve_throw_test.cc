@@ -42,8 +42,8 @@ TEST(ResolveThrow, IsAPureFunctionOfSeedAndIndex) {
 TEST(ResolveThrow, ChangingOneKeyLeavesTheDrawsOfTheOthersAlone) {
   const Scenario before = parse(kRandom);
   Scenario after = before;
-  after.toss->size_m = Distribution::normal(0.2, 0.05, 0.01, 1);
-  after.toss->object = {{"ball"}};
+  after.throw_spec->size_m = Distribution::normal(0.2, 0.05, 0.01, 1);
+  after.throw_spec->object = {{"ball"}};
   for (int i = 0; i < 20; ++i) {
     const Throw a = resolve_throw(before, i);
     const Throw b = resolve_throw(after, i);

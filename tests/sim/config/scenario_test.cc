@@ -24,7 +24,7 @@ TEST(Scenario, GivenValuesAreReadAndOthersKeepTheirDefaults) {
   EXPECT_EQ(scenario.mission.goal_m, Eigen::Vector3d(4, 0, 2.5));
   EXPECT_EQ(scenario.mission.speed_mps, 0.5);
   EXPECT_EQ(scenario.delays.compute_us, 60000);
-  EXPECT_EQ(scenario.toss->size_m, Distribution::constant(0.01));
+  EXPECT_EQ(scenario.throw_spec->size_m, Distribution::constant(0.01));
   EXPECT_EQ(scenario.name, "test");
   EXPECT_EQ(scenario.vehicle, Scenario{}.vehicle);
   EXPECT_EQ(scenario.delays.command_us, DelaySpec{}.command_us);
@@ -50,8 +50,8 @@ TEST(Scenario, KeysOfTheEventCameraChangeItsPreset) {
 }
 
 TEST(Scenario, WithoutTheKeyThrowNobodyThrows) {
-  EXPECT_FALSE(parse("seed: 1\n").toss.has_value());
-  EXPECT_TRUE(parse("throw: {}\n").toss.has_value());
+  EXPECT_FALSE(parse("seed: 1\n").throw_spec.has_value());
+  EXPECT_TRUE(parse("throw: {}\n").throw_spec.has_value());
 }
 
 TEST(Scenario, DistributionsAreRead) {
@@ -64,16 +64,16 @@ TEST(Scenario, DistributionsAreRead) {
       "  bearing_deg: !normal {mean: 3, sd: 0.5, min: 0, max: 5}\n"
       "  aim_offset_m: !uniform [-0.1, 0.1]\n"
       "  spin_radps: [0, !uniform [0, 5], 1]\n");
-  const ThrowSpec& toss = *scenario.toss;
-  EXPECT_EQ(toss.object.names, (std::vector<std::string>{"ball", "box"}));
-  EXPECT_EQ(toss.size_m, Distribution::choice({0.1, 0.2}));
-  EXPECT_EQ(toss.speed_mps, Distribution::uniform(3, 8));
-  EXPECT_EQ(toss.distance_m, Distribution::normal(3, 0.5, 0.5, 20)) << "cut at the key's limits";
-  EXPECT_EQ(toss.bearing_deg, Distribution::normal(3, 0.5, 0, 5));
-  ASSERT_EQ(toss.aim_offset_m.parts.size(), 1u);
-  EXPECT_EQ(toss.aim_offset_m.part(1), Distribution::uniform(-0.1, 0.1));
-  ASSERT_EQ(toss.spin_radps.parts.size(), 3u);
-  EXPECT_EQ(toss.spin_radps.part(1), Distribution::uniform(0, 5));
+  const ThrowSpec& spec = *scenario.throw_spec;
+  EXPECT_EQ(spec.object.names, (std::vector<std::string>{"ball", "box"}));
+  EXPECT_EQ(spec.size_m, Distribution::choice({0.1, 0.2}));
+  EXPECT_EQ(spec.speed_mps, Distribution::uniform(3, 8));
+  EXPECT_EQ(spec.distance_m, Distribution::normal(3, 0.5, 0.5, 20)) << "cut at the key's limits";
+  EXPECT_EQ(spec.bearing_deg, Distribution::normal(3, 0.5, 0, 5));
+  ASSERT_EQ(spec.aim_offset_m.parts.size(), 1u);
+  EXPECT_EQ(spec.aim_offset_m.part(1), Distribution::uniform(-0.1, 0.1));
+  ASSERT_EQ(spec.spin_radps.parts.size(), 3u);
+  EXPECT_EQ(spec.spin_radps.part(1), Distribution::uniform(0, 5));
 }
 
 TEST(Scenario, TheResolvedScenarioReadsBackEqualToTheLastBit) {
@@ -96,8 +96,8 @@ TEST(Scenario, TheResolvedScenarioReadsBackEqualToTheLastBit) {
   EXPECT_EQ(again.description, "several\n\nlines\n");
   EXPECT_EQ(again.after_s, 0.30000000000000004);
   EXPECT_EQ(again.mission.goal_m->z(), -3.3333333333333335);
-  EXPECT_EQ(again.toss->size_m, parse(yaml).toss->size_m);
-  EXPECT_EQ(again.toss->aim_offset_m, parse(yaml).toss->aim_offset_m);
+  EXPECT_EQ(again.throw_spec->size_m, parse(yaml).throw_spec->size_m);
+  EXPECT_EQ(again.throw_spec->aim_offset_m, parse(yaml).throw_spec->aim_offset_m);
 }
 
 TEST(Scenario, EveryKeyIsWrittenOnceAndDocumented) {

@@ -67,9 +67,9 @@ TEST_F(ScenarioTree, KeysOfTheFileCountMoreThanThoseOfItsBase) {
   EXPECT_EQ(scenario.description, "");
   EXPECT_EQ(scenario.seed, 3u);
   EXPECT_EQ(scenario.repeats, 2);
-  EXPECT_EQ(scenario.toss->size_m, Distribution::constant(0.3));
-  EXPECT_EQ(scenario.toss->speed_mps, Distribution::normal(6, 2, 0.5, 30)) << "not merged";
-  EXPECT_EQ(scenario.toss->aim_offset_m.parts.size(), 1u);
+  EXPECT_EQ(scenario.throw_spec->size_m, Distribution::constant(0.3));
+  EXPECT_EQ(scenario.throw_spec->speed_mps, Distribution::normal(6, 2, 0.5, 30)) << "not merged";
+  EXPECT_EQ(scenario.throw_spec->aim_offset_m.parts.size(), 1u);
   EXPECT_THAT(to_yaml(scenario), ::testing::Not(HasSubstr("extends")));
   EXPECT_EQ(to_yaml(parse_scenario(to_yaml(scenario), "mine.yaml", "")), to_yaml(scenario));
 }
@@ -80,7 +80,7 @@ TEST_F(ScenarioTree, AnEmptyValueTakesTheBasesAway) {
   EXPECT_FALSE(load("quiet.yaml").anyone_throws());
   write("two.yaml", "extends: base.yaml\nthrow:\nthrows: [{}, {}]\n");
   EXPECT_EQ(load("two.yaml").throws.size(), 2u);
-  EXPECT_EQ(load("base.yaml", {set("throw.size_m", "~")}).toss->size_m, ThrowSpec{}.size_m);
+  EXPECT_EQ(load("base.yaml", {set("throw.size_m", "~")}).throw_spec->size_m, ThrowSpec{}.size_m);
   EXPECT_EQ(error_of("base.yaml", {set("delays.compute_us", "")}),
             "--set delays.compute_us=: delays.compute_us is empty, but must be a whole number "
             "between 0 and 1000000.");
@@ -160,9 +160,9 @@ TEST_F(ScenarioTree, SettingsTakeAnyYamlValueInTheirOrder) {
       load("s.yaml", {set("throw.speed_mps", "!uniform [4, 6]"), set("seed", "1"), set("seed", "2"),
                       set("throw", "{bearing_deg: 5}"), set("delays.compute_us", "7"),
                       set("sweep.delays.command_us", "[1, 2]"), set("grid.size_m", "[0.1]")});
-  EXPECT_EQ(scenario.toss->speed_mps, Distribution::uniform(4, 6));
-  EXPECT_EQ(scenario.toss->size_m, Distribution::constant(0.3));
-  EXPECT_EQ(scenario.toss->bearing_deg, Distribution::constant(5));
+  EXPECT_EQ(scenario.throw_spec->speed_mps, Distribution::uniform(4, 6));
+  EXPECT_EQ(scenario.throw_spec->size_m, Distribution::constant(0.3));
+  EXPECT_EQ(scenario.throw_spec->bearing_deg, Distribution::constant(5));
   EXPECT_EQ(scenario.seed, 2u);
   EXPECT_EQ(scenario.delays.compute_us, 7);
   EXPECT_EQ(sweep_count(scenario), 2);
