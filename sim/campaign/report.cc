@@ -21,15 +21,12 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "The page reads its numbers so.");
 
-constexpr std::uint8_t kNone = 255;
+constexpr std::uint8_t kNowhere = 255;
 
 // What is true of a throw, as bits of the column "flags".
 constexpr const char* kFlags[] = {"thrown",   "failed",          "hit",         "crashed",
                                   "none_hit", "evaded",          "false_alarm", "gave_up",
                                   "unjudged", "nobody_could_fly"};
-
-// Of ThrowStatistics::pilots: what a pilot is in the campaign, whatever its name.
-constexpr const char* kRoles[] = {"flown", "oracle", "none"};
 
 unsigned flags_of(const ThrowResult& r) {
   const bool unjudged = r.thrown() && !r.none.ok();  // nobody knows whether it would have hit
@@ -51,7 +48,7 @@ float time(std::optional<TimeUs> value) {
 }
 
 std::uint8_t place(std::optional<std::size_t> at) {
-  return at && *at < kNone ? static_cast<std::uint8_t>(*at) : kNone;
+  return at && *at < kNowhere ? static_cast<std::uint8_t>(*at) : kNowhere;
 }
 
 // A grid may have more rows than `place` can tell apart.
@@ -74,7 +71,7 @@ std::uint8_t cause_of(const ThrowResult& result) {
   for (std::size_t i = 0; i < kCollisionCauses.size(); ++i) {
     if (to_text(kCollisionCauses[i]) == result.cause) return static_cast<std::uint8_t>(i);
   }
-  return kNone;
+  return kNowhere;
 }
 
 using Values = std::vector<std::string>;
@@ -192,9 +189,9 @@ Json rate_of(const Rate& rate) {
 }
 
 // What the charts show of one pilot.
-Json pilot_rate(const StatisticsTable::Row* row, std::size_t pilot) {
+Json pilot_rate(const StatisticsTable::Row* row, Role role) {
   if (row == nullptr) return rate_of({});
-  return rate_of(row->statistics.pilots[pilot].tally.shown(pilot == 2));
+  return rate_of(row->statistics.by(role).tally.shown(role));
 }
 
 Json section_of(const Part& part, const ReportAxes& axes) {
@@ -203,22 +200,23 @@ Json section_of(const Part& part, const ReportAxes& axes) {
   const StatisticsTable by_cell = group_by(part, axes.grid);
   const ThrowStatistics& all = by_heat.rows.back().statistics;
   Json pilots = Json::array();
-  for (const std::size_t k : shown_pilots(by_heat)) {
+  for (const Role role : shown_pilots(by_heat)) {
     Json heat = Json::array(), speeds = Json::array(), cells = Json::array();
     for (const std::string& row_value : axes.heat[0].values()) {
       Json row = Json::array();
       for (const std::string& value : axes.heat[1].values()) {
-        row.push_back(pilot_rate(find_row(by_heat, {row_value, value}), k));
+        row.push_back(pilot_rate(find_row(by_heat, {row_value, value}), role));
       }
       heat.push_back(std::move(row));
     }
     for (const std::string& speed : axes.speed.values()) {
-      speeds.push_back(pilot_rate(find_row(by_speed, {speed}), k));
+      speeds.push_back(pilot_rate(find_row(by_speed, {speed}), role));
     }
-    for (const Values& cell : axes.cells) cells.push_back(pilot_rate(find_row(by_cell, cell), k));
-    pilots.push_back({{"role", kRoles[k]},
-                      {"name", all.pilots[k].pilot},
-                      {"total", pilot_rate(&by_heat.rows.back(), k)},
+    for (const Values& cell : axes.cells)
+      cells.push_back(pilot_rate(find_row(by_cell, cell), role));
+    pilots.push_back({{"role", role_name(role)},
+                      {"name", all.by(role).pilot},
+                      {"total", pilot_rate(&by_heat.rows.back(), role)},
                       {"heat", std::move(heat)},
                       {"by_speed", std::move(speeds)},
                       {"by_cell", std::move(cells)}});

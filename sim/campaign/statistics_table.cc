@@ -60,10 +60,11 @@ StatisticsTable group_by(const std::vector<Part>& parts, const std::vector<Axis>
   return all;
 }
 
-std::vector<std::size_t> shown_pilots(const StatisticsTable& table) {
+std::vector<Role> shown_pilots(const StatisticsTable& table) {
   const bool oracle = std::any_of(table.rows.begin(), table.rows.end(),
                                   [](const auto& row) { return row.statistics.oracle_flew; });
-  return oracle ? std::vector<std::size_t>{0, 1, 2} : std::vector<std::size_t>{0, 2};
+  if (oracle) return {Role::kFlown, Role::kOracle, Role::kNone};
+  return {Role::kFlown, Role::kNone};
 }
 
 }  // namespace dodgesim

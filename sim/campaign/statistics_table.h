@@ -32,8 +32,8 @@ const StatisticsTable::Row* find_row(const StatisticsTable& table,
 // Puts the keys and values of the part in front of those of the table.
 StatisticsTable of_sweep(const Part& part, StatisticsTable table);
 
-// Which of ThrowStatistics::pilots are worth a column: not the oracle if it flew nowhere.
-std::vector<std::size_t> shown_pilots(const StatisticsTable& table);
+// Who is worth a column: not the oracle if it flew nowhere.
+std::vector<Role> shown_pilots(const StatisticsTable& table);
 
 // Rates with counts and intervals (those of dodged throws on request).
 std::string rates_to_markdown(const StatisticsTable& table, bool with_dodged = true);

@@ -1,6 +1,5 @@
 // The formats of statistics_table.h.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -32,13 +31,13 @@ void add_dodged(const StatisticsTable& table, TextTable& text) {
   const bool one_pilot = std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
     return row.statistics.flown().pilot == first;
   });
-  const std::array<std::string, 3> heads = {(one_pilot ? first + ": " : "") + "dodged",
-                                            "oracle: dodged", "none: would have hit"};
-  for (const std::size_t pilot : shown_pilots(table)) {
-    text.head.push_back(heads[pilot]);
+  std::map<Role, std::string> heads = {{Role::kFlown, (one_pilot ? first + ": " : "") + "dodged"},
+                                       {Role::kOracle, "oracle: dodged"},
+                                       {Role::kNone, "none: would have hit"}};
+  for (const Role role : shown_pilots(table)) {
+    text.head.push_back(heads[role]);
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      const Tally& tally = table.rows[i].statistics.pilots[pilot].tally;
-      text.rows[i].push_back(tally_text(tally, pilot == 2));
+      text.rows[i].push_back(tally_text(table.rows[i].statistics.by(role).tally, role));
     }
   }
 }
@@ -152,10 +151,9 @@ class CsvRow {
 };
 
 // Who has a row of its own; the pilot none that flew is not its own reference.
-std::vector<std::size_t> named_pilots(const StatisticsTable& table,
-                                      const StatisticsTable::Row& row) {
-  std::vector<std::size_t> pilots = shown_pilots(table);
-  if (row.statistics.flown().pilot == kNoPilot) std::erase(pilots, std::size_t{2});
+std::vector<Role> named_pilots(const StatisticsTable& table, const StatisticsTable::Row& row) {
+  std::vector<Role> pilots = shown_pilots(table);
+  if (row.statistics.flown().pilot == kNoPilot) std::erase(pilots, Role::kNone);
   return pilots;
 }
 
@@ -228,8 +226,8 @@ Json json_of(const Measured& sample) {
 Json json_of(const StatisticsTable& table, const StatisticsTable::Row& row) {
   Json json = Json::object();
   for (std::size_t i = 0; i < table.keys.size(); ++i) json[table.keys[i]] = row.values[i];
-  for (const std::size_t pilot : named_pilots(table, row)) {
-    const PilotStatistics& of = row.statistics.pilots[pilot];
+  for (const Role role : named_pilots(table, row)) {
+    const PilotStatistics& of = row.statistics.by(role);
     json["pilots"].push_back({{"pilot", of.pilot},
                               {"throws", of.tally.throws},
                               {"would_have_hit_rate", json_of(of.tally.hit_undisturbed)},
@@ -264,8 +262,8 @@ std::string to_latex(const StatisticsTable& table) {
 std::string to_csv(const StatisticsTable& table) {
   std::string text;
   for (const StatisticsTable::Row& row : table.rows) {
-    for (const std::size_t pilot : named_pilots(table, row)) {
-      const CsvRow csv = csv_row_of(table, row, row.statistics.pilots[pilot]);
+    for (const Role role : named_pilots(table, row)) {
+      const CsvRow csv = csv_row_of(table, row, row.statistics.by(role));
       if (text.empty()) text = csv.head + "\n";
       text += csv.row + "\n";
     }

@@ -80,14 +80,14 @@ class MarkdownWriter {
 
   void by_speed() {
     text_ += "## By speed\n\n| speed |";
-    for (const std::size_t pilot : pilots_) text_ += " " + heading(pilot) + " |";
+    for (const Role role : pilots_) text_ += " " + heading(role) + " |";
     text_ += "\n|---|";
     for (std::size_t i = 0; i < pilots_.size(); ++i) text_ += "---|";
     text_ += "\n";
     for (const std::string& speed : axes_.speed.values()) {
       text_ += "| " + speed + " m/s |";
-      for (const std::size_t pilot : pilots_) {
-        text_ += " " + cell({"all", "all", speed}, pilot) + " |";
+      for (const Role role : pilots_) {
+        text_ += " " + cell({"all", "all", speed}, role) + " |";
       }
       text_ += "\n";
     }
@@ -133,25 +133,25 @@ class MarkdownWriter {
  private:
   const ThrowStatistics& all() const { return table_.rows.back().statistics; }
 
-  std::string heading(std::size_t pilot) const {
-    return pilot == 2 ? "none: would have hit" : all().pilots[pilot].pilot;
+  std::string heading(Role role) const {
+    return role == Role::kNone ? "none: would have hit" : all().by(role).pilot;
   }
 
   // `values`: of kKeys.
-  std::string cell(std::vector<std::string> values, std::size_t pilot) const {
+  std::string cell(std::vector<std::string> values, Role role) const {
     values.resize(table_.keys.size(), "all");
     const StatisticsTable::Row* const row = find_row(table_, values);
-    const Tally tally = row == nullptr ? Tally{} : row->statistics.pilots[pilot].tally;
-    return tally_text(tally, pilot == 2);
+    const Tally tally = row == nullptr ? Tally{} : row->statistics.by(role).tally;
+    return tally_text(tally, role);
   }
 
   void size_rows(const std::string& size, const std::vector<std::string>& distances) {
-    for (const std::size_t pilot : pilots_) {
-      text_ += "| " + size + (size == "all" ? "" : " m") + " | " + heading(pilot) + " |";
+    for (const Role role : pilots_) {
+      text_ += "| " + size + (size == "all" ? "" : " m") + " | " + heading(role) + " |";
       for (const std::string& distance : distances) {
-        text_ += " " + cell({size, distance, "all"}, pilot) + " |";
+        text_ += " " + cell({size, distance, "all"}, role) + " |";
       }
-      text_ += " " + cell({size, "all", "all"}, pilot) + " |\n";
+      text_ += " " + cell({size, "all", "all"}, role) + " |\n";
     }
   }
 
@@ -170,7 +170,7 @@ class MarkdownWriter {
   const Part& part_;
   const TableAxes& axes_;
   const StatisticsTable& table_;
-  std::vector<std::size_t> pilots_;  // those with a column
+  std::vector<Role> pilots_;  // those with a column
   std::string text_;
 };
 

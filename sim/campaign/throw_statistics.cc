@@ -48,6 +48,11 @@ void add_perception(const ThrowResult& result, ThrowStatistics& sum) {
 
 }  // namespace
 
+const char* role_name(Role role) {
+  constexpr const char* kNames[] = {"flown", "oracle", "none"};
+  return kNames[static_cast<std::size_t>(role)];
+}
+
 std::optional<double> Rate::value() const {
   if (of == 0) return std::nullopt;
   return static_cast<double>(count) / static_cast<double>(of);
@@ -68,8 +73,8 @@ std::string rate_text(const Rate& rate) {
          fixed_text(interval.hi, 3) + (rate.sequential ? ", " + rate.interval_name() : "") + ")";
 }
 
-std::string tally_text(const Tally& tally, bool none) {
-  std::string text = rate_text(tally.shown(none));
+std::string tally_text(const Tally& tally, Role role) {
+  std::string text = rate_text(tally.shown(role));
   if (tally.errors == 0) return text;
   return text + ", " + std::to_string(tally.errors) + (tally.errors == 1 ? " error" : " errors");
 }
@@ -129,16 +134,18 @@ std::vector<Part> parts_of(const std::vector<ThrowResult>& results, const std::s
 
 ThrowStatistics statistics_of(const Results& results, const std::string& pilot) {
   ThrowStatistics sum;
-  sum.pilots[0].pilot = pilot;
-  sum.pilots[1].pilot = kOraclePilot;
-  sum.pilots[2].pilot = kNoPilot;
+  PilotStatistics &flown = sum.by(Role::kFlown), &oracle = sum.by(Role::kOracle),
+                  &none = sum.by(Role::kNone);
+  flown.pilot = pilot;
+  oracle.pilot = kOraclePilot;
+  none.pilot = kNoPilot;
   for (const ThrowResult* result : results) {
     // Not beside itself.
     sum.oracle_flew =
         sum.oracle_flew || (pilot != kOraclePilot && result->oracle.status != "not flown");
-    add_flight(*result, &ThrowResult::flown, sum.pilots[0]);
-    add_flight(*result, &ThrowResult::oracle, sum.pilots[1]);
-    add_flight(*result, &ThrowResult::none, sum.pilots[2]);
+    add_flight(*result, &ThrowResult::flown, flown);
+    add_flight(*result, &ThrowResult::oracle, oracle);
+    add_flight(*result, &ThrowResult::none, none);
     if (result->flown.ok()) add_perception(*result, sum);
   }
   return sum;
@@ -146,8 +153,9 @@ ThrowStatistics statistics_of(const Results& results, const std::string& pilot) 
 
 ThrowStatistics statistics_of(const Part& part) {
   ThrowStatistics sum = statistics_of(part.results, part.pilot);
-  sum.pilots[0].tally.sequential = part.sequential;
-  sum.pilots[0].tally.collisions.stopped = part.sequential.has_value();
+  Tally& tally = sum.by(Role::kFlown).tally;
+  tally.sequential = part.sequential;
+  tally.collisions.stopped = part.sequential.has_value();
   return sum;
 }
 

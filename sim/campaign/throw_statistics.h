@@ -14,6 +14,10 @@
 
 namespace dodgesim {
 
+// What a pilot is in a campaign, whatever its name: the scenario's, its oracle, or nobody.
+enum class Role { kFlown, kOracle, kNone };
+const char* role_name(Role role);  // "flown", "oracle", "none"
+
 // Of a rate whose counts decided when to stop counting, which makes the usual interval too narrow
 // (sequential.h).
 struct SequentialInterval {
@@ -59,11 +63,11 @@ struct Tally {
   void add(const ThrowResult& result, ThrowResult::FlightOf by = &ThrowResult::flown);
   Rate success() const { return {dodged, would_have_hit, sequential}; }
   // What tables show. The pilot none dodges nothing: of it, how many throws would have hit.
-  Rate shown(bool none) const { return none ? hit_undisturbed : success(); }
+  Rate shown(Role role) const { return role == Role::kNone ? hit_undisturbed : success(); }
 };
 
 // What tables show of it, with its errors: "25 / 34 (0.735, 0.569 to 0.854), 1 error".
-std::string tally_text(const Tally& tally, bool none);
+std::string tally_text(const Tally& tally, Role role);
 
 // Numbers of throws that lie on a line, such as the clearance.
 class Measured {
@@ -86,7 +90,7 @@ struct PilotStatistics {
 };
 
 struct ThrowStatistics {
-  std::array<PilotStatistics, 3> pilots;  // the flown one, oracle, none
+  std::array<PilotStatistics, 3> pilots;  // in the order of Role
   bool oracle_flew = false;
 
   // Of the flown pilot.
@@ -100,7 +104,9 @@ struct ThrowStatistics {
   // flight controller.
   Measured view_to_detection_s, image_to_detection_s, detection_to_command_s;
 
-  const PilotStatistics& flown() const { return pilots.front(); }
+  PilotStatistics& by(Role role) { return pilots[static_cast<std::size_t>(role)]; }
+  const PilotStatistics& by(Role role) const { return pilots[static_cast<std::size_t>(role)]; }
+  const PilotStatistics& flown() const { return by(Role::kFlown); }
 };
 
 // The samples with the names that they have in tables.

@@ -50,7 +50,7 @@ TEST(Tally, AnErrorNeverCountsAsASuccess) {
   EXPECT_EQ(sum.would_have_hit, 3);
   EXPECT_EQ(sum.dodged, 0);
   EXPECT_EQ(sum.errors, 4);
-  EXPECT_EQ(rate_text(sum.shown(true)), rate_text({1, 2}));  // of what is known
+  EXPECT_EQ(rate_text(sum.shown(Role::kNone)), rate_text({1, 2}));  // of what is known
 }
 
 // One denominator for all pilots.
@@ -124,7 +124,7 @@ TEST(ThrowStatistics, ALandingBeforeTheObjectCameIsNoDodgeOneAfterItIs) {
   const ThrowStatistics sum = statistics({before, after});
   EXPECT_EQ(sum.flown().tally.dodged, 1);
   EXPECT_EQ(sum.flown().tally.would_have_hit, 2);
-  EXPECT_EQ(sum.pilots[1].tally.dodged, 2) << "it is the flown pilot that landed";
+  EXPECT_EQ(sum.by(Role::kOracle).tally.dodged, 2) << "it is the flown pilot that landed";
 }
 
 // Seen at 1.0 s, detected at 1.2 s from an image of 1.185 s, evaded at 1.21 s.
