@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/config/axis_value.h"
 #include "sim/config/numbers.h"
-#include "sim/config/varied_key.h"
 
 namespace dodgesim {
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/config/axis_value.h"
 #include "sim/config/reader.h"
 #include "sim/config/scenario.h"
 

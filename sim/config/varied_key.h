@@ -18,12 +18,4 @@ struct VariedKey {
 // Every combination of their values is wanted; the last one changes fastest.
 using VariedKeys = std::vector<VariedKey>;
 
-// A key and the value that it has, as in YAML: {"throw.speed_mps", "!uniform [4, 6]"}.
-struct AxisValue {
-  std::string key;
-  std::string value;
-
-  bool operator==(const AxisValue&) const = default;
-};
-
 }  // namespace dodgesim

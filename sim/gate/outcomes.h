@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/config/varied_key.h"
+#include "sim/config/axis_value.h"
 #include "sim/gate/csv_table.h"
 
 namespace dodgesim {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sim/base/time.h"
-#include "sim/config/varied_key.h"
+#include "sim/config/axis_value.h"
 
 namespace dodgesim {
 
