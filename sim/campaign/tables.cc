@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "sim/base/joined.h"
 #include "sim/campaign/axis.h"
 #include "sim/campaign/statistics_table.h"
 #include "sim/campaign/text_table.h"
@@ -61,118 +62,88 @@ StatisticsTable all_cells(const Part& part, const TableAxes& axes) {
   return table;
 }
 
-class MarkdownWriter {
- public:
-  MarkdownWriter(const Part& part, const TableAxes& axes, const StatisticsTable& table)
-      : part_(part), axes_(axes), table_(table), pilots_(shown_pilots(table)) {}
+std::string heading(const StatisticsTable& table, Role role) {
+  if (role == Role::kNone) return "none: would have hit";
+  return table.rows.back().statistics.by(role).pilot;
+}
 
-  void by_size_and_distance() {
-    const std::vector<std::string>& distances = axes_.distance.values();
-    text_ += "## By size and distance\n\n| size | pilot |";
-    for (const std::string& distance : distances) text_ += " " + distance + " m |";
-    text_ += " all distances |\n|---|---|";
-    for (std::size_t i = 0; i <= distances.size(); ++i) text_ += "---|";
-    text_ += "\n";
-    for (const std::string& size : axes_.size.values()) size_rows(size, distances);
-    size_rows("all", distances);
-    text_ += "\n";
-  }
+// Of the pilot, where the row has these `values` of kKeys and is not told apart by other keys.
+std::string cell(const StatisticsTable& table, std::vector<std::string> values, Role role) {
+  values.resize(table.keys.size(), "all");
+  const StatisticsTable::Row* const row = find_row(table, values);
+  return tally_text(row == nullptr ? Tally{} : row->statistics.by(role).tally, role);
+}
 
-  void by_speed() {
-    text_ += "## By speed\n\n| speed |";
-    for (const Role role : pilots_) text_ += " " + heading(role) + " |";
-    text_ += "\n|---|";
-    for (std::size_t i = 0; i < pilots_.size(); ++i) text_ += "---|";
-    text_ += "\n";
-    for (const std::string& speed : axes_.speed.values()) {
-      text_ += "| " + speed + " m/s |";
-      for (const Role role : pilots_) {
-        text_ += " " + cell({"all", "all", speed}, role) + " |";
-      }
-      text_ += "\n";
-    }
-    text_ += "\n";
-  }
-
-  void by_cell() {
-    if (axes_.grid.empty()) return;
-    text_ += "## By cell of the grid\n\n" + rates_to_markdown(group_by(part_, axes_.grid)) + "\n";
-  }
-
-  // What the pilot saw and did, by size.
-  void perception() {
-    StatisticsTable by_size;
-    by_size.keys = {"size_m"};
-    for (const StatisticsTable::Row& row : table_.rows) {
-      if (std::all_of(row.values.begin() + 1, row.values.end(),
-                      [](const std::string& value) { return value == "all"; })) {
-        by_size.rows.push_back({{row.values[0]}, row.statistics});
-      }
-    }
-    text_ +=
-        "## Collisions, detections and latencies\n\nAll throws. Median (10 % to 90 % "
-        "quantile), count.\n\n" +
-        to_markdown(by_size, false) + "\n";
-  }
-
-  void causes() {
-    const std::map<std::string, int>& causes = all().causes;
-    if (causes.empty()) return;
-    text_ += "## Why it was hit or crashed\n\n| cause | throws | throw numbers |\n|---|---|---|\n";
-    for (const CollisionCause cause : kCollisionCauses) {
-      const std::string name = to_text(cause);
-      const auto at = causes.find(name);
-      if (at == causes.end()) continue;
-      text_ += "| " + name + " | " + std::to_string(at->second) + " | " + numbers(name) + " |\n";
-    }
-    text_ += "\n";
-  }
-
-  std::string take() { return std::move(text_); }
-
- private:
-  const ThrowStatistics& all() const { return table_.rows.back().statistics; }
-
-  std::string heading(Role role) const {
-    return role == Role::kNone ? "none: would have hit" : all().by(role).pilot;
-  }
-
-  // `values`: of kKeys.
-  std::string cell(std::vector<std::string> values, Role role) const {
-    values.resize(table_.keys.size(), "all");
-    const StatisticsTable::Row* const row = find_row(table_, values);
-    const Tally tally = row == nullptr ? Tally{} : row->statistics.by(role).tally;
-    return tally_text(tally, role);
-  }
-
-  void size_rows(const std::string& size, const std::vector<std::string>& distances) {
-    for (const Role role : pilots_) {
-      text_ += "| " + size + (size == "all" ? "" : " m") + " | " + heading(role) + " |";
+TextTable by_size_and_distance(const TableAxes& axes, const StatisticsTable& table) {
+  TextTable text;
+  text.head = {"size", "pilot"};
+  for (const std::string& distance : axes.distance.values()) text.head.push_back(distance + " m");
+  text.head.push_back("all distances");
+  std::vector<std::string> sizes = axes.size.values(), distances = axes.distance.values();
+  sizes.push_back("all");
+  distances.push_back("all");
+  for (const std::string& size : sizes) {
+    for (const Role role : shown_pilots(table)) {
+      auto& cells = text.rows.emplace_back();
+      cells = {size == "all" ? size : size + " m", heading(table, role)};
       for (const std::string& distance : distances) {
-        text_ += " " + cell({size, distance, "all"}, role) + " |";
+        cells.push_back(cell(table, {size, distance, "all"}, role));
       }
-      text_ += " " + cell({size, "all", "all"}, role) + " |\n";
     }
   }
+  return text;
+}
 
-  // The first throws of a cause.
-  std::string numbers(const std::string& cause) const {
-    constexpr int kMost = 12;
-    std::string text;
-    int count = 0;
-    for (const ThrowResult* result : part_.results) {
-      if (result->cause != cause || ++count > kMost) continue;
-      text += (text.empty() ? "" : ", ") + std::to_string(result->index);
+TextTable by_speed(const TableAxes& axes, const StatisticsTable& table) {
+  TextTable text;
+  text.head = {"speed"};
+  for (const Role role : shown_pilots(table)) text.head.push_back(heading(table, role));
+  for (const std::string& speed : axes.speed.values()) {
+    auto& cells = text.rows.emplace_back();
+    cells = {speed + " m/s"};
+    for (const Role role : shown_pilots(table)) {
+      cells.push_back(cell(table, {"all", "all", speed}, role));
     }
-    return count > kMost ? text + ", ..." : text;
   }
+  return text;
+}
 
-  const Part& part_;
-  const TableAxes& axes_;
-  const StatisticsTable& table_;
-  std::vector<Role> pilots_;  // those with a column
-  std::string text_;
-};
+// The rows that are told apart by nothing but the size.
+StatisticsTable by_size(const StatisticsTable& table) {
+  StatisticsTable sizes;
+  sizes.keys = {"size_m"};
+  for (const StatisticsTable::Row& row : table.rows) {
+    if (std::all_of(row.values.begin() + 1, row.values.end(),
+                    [](const std::string& value) { return value == "all"; })) {
+      sizes.rows.push_back({{row.values[0]}, row.statistics});
+    }
+  }
+  return sizes;
+}
+
+// The first throws of a cause.
+std::string numbers_of(const Part& part, const std::string& cause) {
+  constexpr std::size_t kMost = 12;
+  std::vector<std::string> numbers;
+  for (const ThrowResult* result : part.results) {
+    if (result->cause == cause) numbers.push_back(std::to_string(result->index));
+  }
+  const bool more = numbers.size() > kMost;
+  if (more) numbers.resize(kMost);
+  return joined(numbers) + (more ? ", ..." : "");
+}
+
+TextTable causes_of(const Part& part, const std::map<std::string, int>& causes) {
+  TextTable text;
+  text.head = {"cause", "throws", "throw numbers"};
+  for (const CollisionCause cause : kCollisionCauses) {
+    const std::string name = to_text(cause);
+    const auto at = causes.find(name);
+    if (at == causes.end()) continue;
+    text.rows.push_back({name, std::to_string(at->second), numbers_of(part, name)});
+  }
+  return text;
+}
 
 std::string errors_of(const Part& part) {
   std::string errors, of_nobody;
@@ -265,22 +236,31 @@ std::string asides(const Part& part) {
   return text + landings_of(part) + errors_of(part);
 }
 
+std::string section(const std::string& title, const std::string& text) {
+  return "## " + title + "\n\n" + text + "\n";
+}
+
 std::string markdown_of(const Part& part, const TableAxes& axes, const StatisticsTable& table) {
-  std::string head;
-  if (!part.values.empty()) head += "# " + label(part.values) + "\n\n";
-  MarkdownWriter writer(part, axes, table);
+  const ThrowStatistics& all = table.rows.back().statistics;
+  std::string text;
+  if (!part.values.empty()) text += "# " + label(part.values) + "\n\n";
   const bool anything_thrown = std::any_of(part.results.begin(), part.results.end(),
                                            [](const ThrowResult* r) { return r->thrown(); });
   if (anything_thrown) {
-    const Tally& all = table.rows.back().statistics.flown().tally;
-    head += "Dodged: " + rate_text(all.success()) + "\n\n";
-    writer.by_size_and_distance();
-    writer.by_speed();
-    writer.perception();
+    text += "Dodged: " + rate_text(all.flown().tally.success()) + "\n\n";
+    text += section("By size and distance", by_size_and_distance(axes, table).to_markdown());
+    text += section("By speed", by_speed(axes, table).to_markdown());
+    text += section("Collisions, detections and latencies",
+                    "All throws. Median (10 % to 90 % quantile), count.\n\n" +
+                        to_markdown(by_size(table), false));
   }
-  writer.by_cell();
-  writer.causes();
-  return head + writer.take() + asides(part);
+  if (!axes.grid.empty()) {
+    text += section("By cell of the grid", rates_to_markdown(group_by(part, axes.grid)));
+  }
+  if (!all.causes.empty()) {
+    text += section("Why it was hit or crashed", causes_of(part, all.causes).to_markdown());
+  }
+  return text + asides(part);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/base/formatted.h"
+#include "sim/campaign/text_table.h"
 #include "sim/check/compare_events.h"
 #include "sim/check/film.h"
 #include "sim/check/prescribed_throw.h"
@@ -174,23 +175,22 @@ std::vector<SamplingResult> study_sampling(const SamplingOptions& options,
 }
 
 std::string sampling_table(const std::vector<SamplingResult>& results) {
-  std::string table =
-      "| sampling | object: events | worst throw | stamps, us | worst "
-      "| scene: events | worst throw | stamps, us | worst | pictures | regions | keys | real time "
-      "|\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  TextTable table;
+  table.head = {"sampling",      "object: events", "worst throw", "stamps, us", "worst",
+                "scene: events", "worst throw",    "stamps, us",  "worst",      "pictures",
+                "regions",       "keys",           "real time"};
   for (const SamplingResult& result : results) {
-    table += "| " + result.variant;
+    auto& cells = table.rows.emplace_back();
+    cells.push_back(result.variant);
     for (const SamplingAccuracy* a : {&result.object, &result.scene}) {
-      table += " | " + formatted("%+.2f %%", 100 * (a->count_ratio() - 1)) + " | " +
-               formatted("%.1f %%", 100 * a->worst_count) + " | " +
-               formatted("%.0f", a->median_us) + " | " + formatted("%.0f", a->worst_median_us);
+      cells.insert(cells.end(), {formatted("%+.2f %%", 100 * (a->count_ratio() - 1)),
+                                 formatted("%.1f %%", 100 * a->worst_count),
+                                 fixed_text(a->median_us, 0), fixed_text(a->worst_median_us, 0)});
     }
-    table += " | " + formatted("%.0f", result.pictures) + " | " +
-             formatted("%.0f", result.regions) + " | " + formatted("%.1f", result.keys) + " | " +
-             formatted("%.2f", result.simulated_per_s) + " |\n";
+    cells.insert(cells.end(), {fixed_text(result.pictures, 0), fixed_text(result.regions, 0),
+                               fixed_text(result.keys, 1), fixed_text(result.simulated_per_s, 2)});
   }
-  return table;
+  return table.to_markdown();
 }
 
 Check judge(const std::vector<SamplingResult>& results) {
