@@ -56,9 +56,11 @@ class CsvLine {
     prefix_ = outer;
   }
 
- private:
+ protected:
+  // `cell` as it stands in the row, quoted where it must be.
   void add(const std::string& name, const std::string& cell);
 
+ private:
   std::string header_, row_;
   std::string prefix_;
   bool blank_ = false;

@@ -113,8 +113,7 @@ std::string cell_of(std::optional<double> value) {
   return value && std::isfinite(*value) ? to_text(*value) : "";
 }
 
-// Writes the columns of one row; a head is a row of names.
-class CsvRow {
+class StatisticsLine : public CsvLine {
  public:
   void text(const std::string& name, const std::string& value) { add(name, csv_cell(value)); }
   void count(const std::string& name, std::int64_t value) { add(name, std::to_string(value)); }
@@ -136,18 +135,6 @@ class CsvRow {
     add(name + "_q50_hi", median ? cell_of(median->interval.hi) : "");
     add(name + "_q90", cell_of(value(0.9)));
   }
-
-  std::string head, row;
-
- private:
-  void add(const std::string& name, const std::string& value) {
-    if (!head.empty()) {
-      head += ",";
-      row += ",";
-    }
-    head += name;
-    row += value;
-  }
 };
 
 // Who has a row of its own; the pilot none that flew is not its own reference.
@@ -165,12 +152,12 @@ Rate dodged_by(const PilotStatistics& of) {
 }
 
 // What only the flown pilot has is empty for the others.
-CsvRow csv_row_of(const StatisticsTable& table, const StatisticsTable::Row& row,
-                  const PilotStatistics& of) {
+StatisticsLine line_of(const StatisticsTable& table, const StatisticsTable::Row& row,
+                       const PilotStatistics& of) {
   const bool flown = &of == &row.statistics.flown();
   const ThrowStatistics nothing;
   const ThrowStatistics& perception = flown ? row.statistics : nothing;
-  CsvRow csv;
+  StatisticsLine csv;
   for (std::size_t i = 0; i < table.keys.size(); ++i) {
     // The next column is that of the pilot who flew.
     const std::string& key = table.keys[i];
@@ -263,9 +250,9 @@ std::string to_csv(const StatisticsTable& table) {
   std::string text;
   for (const StatisticsTable::Row& row : table.rows) {
     for (const Role role : named_pilots(table, row)) {
-      const CsvRow csv = csv_row_of(table, row, row.statistics.by(role));
-      if (text.empty()) text = csv.head + "\n";
-      text += csv.row + "\n";
+      const StatisticsLine line = line_of(table, row, row.statistics.by(role));
+      if (text.empty()) text = line.header();
+      text += line.row();
     }
   }
   return text;
