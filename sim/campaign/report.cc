@@ -14,6 +14,7 @@
 #include "sim/files/json.h"
 #include "sim/files/markup.h"
 #include "sim/outcome/collision_cause.h"
+#include "sim/outcome/fate.h"
 
 namespace dodgesim {
 
@@ -24,19 +25,19 @@ static_assert(std::endian::native == std::endian::little, "The page reads its nu
 constexpr std::uint8_t kNowhere = 255;
 
 // What is true of a throw, as bits of the column "flags".
-constexpr const char* kFlags[] = {"thrown",   "failed",          "hit",         "crashed",
-                                  "none_hit", "evaded",          "false_alarm", "gave_up",
-                                  "unjudged", "nobody_could_fly"};
+struct Flag {
+  const char* name;
+  bool (*of)(const ThrowResult& result);
+};
+constexpr Flag kFlags[] = {{"thrown", [](const ThrowResult& r) { return r.thrown(); }},
+                           {"failed", [](const ThrowResult& r) { return r.flown.failed(); }},
+                           {"none_hit", [](const ThrowResult& r) { return r.none.hit; }},
+                           {"false_alarm", [](const ThrowResult& r) { return r.false_alarm; }}};
 
-unsigned flags_of(const ThrowResult& r) {
-  const bool unjudged = r.thrown() && !r.none.ok();  // nobody knows whether it would have hit
-  const bool set[] = {
-      r.thrown(), r.flown.failed(), r.flown.hit, r.flown.crashed, r.none.hit,
-      r.evaded,   r.false_alarm,    r.gave_up(), unjudged,        r.nobody_could_fly()};
-  static_assert(std::size(set) == std::size(kFlags));
+std::uint8_t flags_of(const ThrowResult& result) {
   unsigned flags = 0;
-  for (std::size_t i = 0; i < std::size(set); ++i) flags |= set[i] ? 1U << i : 0U;
-  return flags;
+  for (std::size_t i = 0; i < std::size(kFlags); ++i) flags |= kFlags[i].of(result) ? 1U << i : 0U;
+  return static_cast<std::uint8_t>(flags);
 }
 
 float number(std::optional<double> value) {
@@ -143,7 +144,8 @@ Json columns_of(const std::vector<ThrowResult>& results, const ReportAxes& axes)
   Columns columns(results);
   columns.add("number", [](const R& r) { return static_cast<std::uint32_t>(r.index); });
   columns.add("sweep", [](const R& r) { return static_cast<std::uint16_t>(r.sweep); });
-  columns.add("flags", [](const R& r) { return static_cast<std::uint16_t>(flags_of(r)); });
+  columns.add("fate", [](const R& r) { return static_cast<std::uint8_t>(fate_of(r)); });
+  columns.add("flags", flags_of);
   columns.add("cause", cause_of);
   columns.add("heat_row", [&](const R& r) { return heat_place(axes.heat[0].of(r)); });
   columns.add("heat_column", [&](const R& r) { return heat_place(axes.heat[1].of(r)); });
@@ -252,9 +254,10 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
     heat.push_back({{"key", axis.name()}, {"values", axis.values()}});
   for (const Axis& axis : axes.grid) grid_keys.push_back(axis.name());
   for (const AxisValue& value : parts.front().values) sweep_keys.push_back(value.key);
-  Json causes = Json::array(), flags = Json::object();
+  Json fates = Json::array(), causes = Json::array(), flags = Json::object();
+  for (const Fate fate : kFates) fates.push_back(to_text(fate));
   for (const CollisionCause cause : kCollisionCauses) causes.push_back(to_text(cause));
-  for (std::size_t i = 0; i < std::size(kFlags); ++i) flags[kFlags[i]] = 1U << i;
+  for (std::size_t i = 0; i < std::size(kFlags); ++i) flags[kFlags[i].name] = 1U << i;
   return {{"title", scenario.name},
           {"description", scenario.description},
           {"seed", std::to_string(scenario.seed)},
@@ -267,6 +270,7 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
           {"cells", {{"keys", std::move(grid_keys)}, {"values", axes.cells}}},
           {"speed", {{"values", axes.speed.values()}, {"middles", axes.speed.middles()}}},
           {"objects", axes.object.values()},
+          {"fates", std::move(fates)},
           {"causes", std::move(causes)},
           {"flags", std::move(flags)},
           {"errors", std::move(errors)},

@@ -13,6 +13,7 @@
 #include "sim/config/numbers.h"
 #include "sim/files/input_file.h"
 #include "sim/files/json.h"
+#include "sim/outcome/fate.h"
 
 namespace dodgesim {
 
@@ -25,14 +26,6 @@ constexpr const char* kDrawnNumbers[] = {"size_m",          "speed_mps",      "d
                                          "bearing_deg",     "aim_offset_m_0", "aim_offset_m_1",
                                          "spin_radps_0",    "spin_radps_1",   "spin_radps_2",
                                          "launch_height_m", "launch_us"};
-
-// Before the object came that would have hit; see ThrowResult::gave_up. Tables of older versions
-// lack the column.
-bool gave_up(const CsvTable& table, std::size_t row) {
-  if (!table.has("landing_us") || table.at(row, "landing_us").empty()) return false;
-  return table.at(row, "none_hit_us").empty() ||
-         table.number(row, "landing_us") < table.number(row, "none_hit_us");
-}
 
 std::string label_of(const CsvTable& throws, std::size_t row) {
   const std::string& object = throws.at(row, "object");
@@ -90,37 +83,60 @@ class Draws {
   std::size_t next_ = 0;  // row of objects.csv
 };
 
-// Whether one of the flights of a throw went to its end.
-bool flew(const CsvTable& table, std::size_t row, const char* status) {
-  return table.one_of(row, status, {"ok", "error", "lost", "not flown"}) == "ok";
+std::optional<TimeUs> time_at(const CsvTable& table, std::size_t row, const std::string& column) {
+  if (table.at(row, column).empty()) return std::nullopt;
+  return std::llround(table.number(row, column));
 }
 
-void judge(const CsvTable& table, std::size_t row, ThrowOutcome& out) {
-  const bool thrown = !out.draw.empty();
-  const bool judged = flew(table, row, "none_status");  // it is known whether it would hit
-  const auto failed = [&](const char* status) {
-    return table.at(row, status) == "error" || table.at(row, status) == "lost";
-  };
-  out.failed = failed("flown_status") || failed("none_status");
-  out.nobody_could_fly = thrown && table.at(row, "flown_status") == "error" && !judged &&
-                         !flew(table, row, "oracle_status");
-  out.counts = !out.nobody_could_fly && (!thrown || !judged || table.boolean(row, "none_hit"));
-  if (!flew(table, row, "flown_status")) {
-    out.what = "error: " + table.at(row, "flown_error");
-  } else if (table.boolean(row, "flown_hit")) {
-    out.what = "hit";
-  } else if (table.boolean(row, "flown_crashed")) {
-    out.what = "crashed";
-  } else if (gave_up(table, row)) {
-    out.what = "landed";
-  } else if (!thrown && table.boolean(row, "evaded")) {
-    out.what = "evaded nothing";
-  } else if (!judged && thrown) {
-    out.what = "not judged: " + table.at(row, "none_error");
-  } else {
-    out.what = thrown ? "dodged" : "quiet";
-    out.success = true;
+FlightResult flight_of(const CsvTable& table, std::size_t row, const std::string& pilot) {
+  FlightResult flight;
+  flight.status = table.one_of(row, pilot + "_status", {"ok", "error", "lost", "not flown"});
+  flight.error = table.at(row, pilot + "_error");
+  flight.hit = table.boolean(row, pilot + "_hit");
+  flight.crashed = table.boolean(row, pilot + "_crashed");
+  return flight;
+}
+
+// As far as it says what became of the throw.
+ThrowResult result_of(const CsvTable& table, std::size_t row) {
+  ThrowResult result;
+  result.object = table.at(row, "object");
+  result.flown = flight_of(table, row, "flown");
+  result.none = flight_of(table, row, "none");
+  result.oracle = flight_of(table, row, "oracle");
+  result.evaded = table.boolean(row, "evaded");
+  // Tables of older versions lack the column.
+  if (!table.has("landing_us")) return result;
+  result.landing_us = time_at(table, row, "landing_us");
+  result.none.hit_us = time_at(table, row, "none_hit_us");
+  return result;
+}
+
+// ThrowOutcome::what. Whether a throw would have hit is told by `counts`.
+std::string what_of(const ThrowResult& result) {
+  switch (const Fate fate = fate_of(result)) {
+    case Fate::kNotFlown:
+    case Fate::kFailed:
+      return "error: " + result.flown.error;
+    case Fate::kFalseAlarm:
+      return "evaded nothing";
+    case Fate::kNotJudged:
+      return "not judged: " + result.none.error;
+    case Fate::kWouldHaveMissed:
+      return to_text(Fate::kDodged);
+    default:
+      return to_text(fate);
   }
+}
+
+void judge(const ThrowResult& result, ThrowOutcome& out) {
+  const Fate fate = fate_of(result);
+  out.failed = result.flown.failed() || result.none.failed();
+  out.nobody_could_fly = fate == Fate::kNotFlown;
+  const bool would_have_missed = result.none.ok() && !result.none.hit;
+  out.counts = !out.nobody_could_fly && (!result.thrown() || !would_have_missed);
+  out.success = fate == Fate::kDodged || fate == Fate::kWouldHaveMissed || fate == Fate::kQuiet;
+  out.what = what_of(result);
 }
 
 bool same_number(double a, double b) {
@@ -211,7 +227,7 @@ std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign) {
     out.label = label_of(throws, row);
     out.draw = draws.of_throw(row, out.number);
     out.seed = campaign.seed;
-    judge(throws, row, out);
+    judge(result_of(throws, row), out);
     all.push_back(std::move(out));
   }
   return all;

@@ -22,17 +22,7 @@ const throws = Object.fromEntries(Object.keys(data.columns).map((name) => [name,
 const count = throws.number.length;
 const kNone = 255;
 const has = (i, flag) => (throws.flags[i] & data.flags[flag]) !== 0;
-
-function outcomeOf(i) {
-  if (has(i, 'nobody_could_fly')) return 'not flown';
-  if (has(i, 'failed')) return 'failed';
-  if (has(i, 'hit')) return 'hit';
-  if (has(i, 'crashed')) return 'crashed';
-  if (has(i, 'gave_up')) return 'landed';
-  if (!has(i, 'thrown')) return has(i, 'evaded') ? 'false alarm' : 'quiet';
-  if (has(i, 'unjudged')) return 'not judged';
-  return has(i, 'none_hit') ? 'dodged' : 'would have missed';
-}
+const fateOf = (i) => data.fates[throws.fate[i]];
 
 // What the reader has chosen: a value of the sweep, a pilot, a cell {text, has: (i) => boolean} and
 // which throws are listed.

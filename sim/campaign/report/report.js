@@ -89,7 +89,7 @@ function fillCauses() {
 function fillErrors() {
   const wrong = indices().filter((i) => data.errors[throws.number[i]]);
   byId('errors-section').hidden = !wrong.length;
-  const nobodys = wrong.filter((i) => has(i, 'nobody_could_fly')).length;
+  const nobodys = wrong.filter((i) => fateOf(i) === 'not flown').length;
   const counts = [];
   if (nobodys) counts.push(`Throws that no pilot could fly, which no rate counts: ${nobodys}.`);
   if (wrong.length > nobodys) {
@@ -110,7 +110,7 @@ function fillErrors() {
 const kPage = 15;
 const kColumns = [
   ['throw', (i) => throws.number[i]],
-  ['outcome', (i) => outcomeOf(i), 'text'],
+  ['outcome', (i) => fateOf(i), 'text'],
   ['size', (i) => number(throws.size[i])],
   ['distance', (i) => number(throws.distance[i], 1)],
   ['speed', (i) => number(throws.speed[i], 1)],
@@ -121,7 +121,7 @@ const kColumns = [
 function passes(i) {
   if (state.filter === 'all') return true;
   if (state.filter === 'cell') return state.cell.has(i);
-  return outcomeOf(i) === state.filter || data.causes[throws.cause[i]] === state.filter ||
+  return fateOf(i) === state.filter || data.causes[throws.cause[i]] === state.filter ||
       (state.filter === 'false alarm' && has(i, 'false_alarm'));
 }
 
@@ -138,7 +138,7 @@ function fillList() {
     const row = make('tr', {}, ...kColumns.map(([, text, kind]) => make('td',
         {textContent: text(i), className: kind || ''})));
     row.setAttribute('aria-selected', i === state.chosen);
-    return pressable(row, `Throw ${throws.number[i]}, ${outcomeOf(i)}`, () => open(i, true));
+    return pressable(row, `Throw ${throws.number[i]}, ${fateOf(i)}`, () => open(i, true));
   }));
 }
 
@@ -155,7 +155,7 @@ function chooseCell(text, has) {
 }
 
 function fillFilters() {
-  const outcomes = new Set(indices().map(outcomeOf));
+  const outcomes = new Set(indices().map(fateOf));
   const causes = data.causes.filter((_, k) => indices().some((i) => throws.cause[i] === k));
   const options = [new Option('all throws', 'all'), ...[...outcomes].sort().map((o) => new Option(o, o)),
                    ...causes.map((c) => new Option(`cause: ${c}`, c))];
@@ -234,7 +234,7 @@ listen();
 if (!openHash() && count) {
   // The first that was dodged, else the first that flew.
   const order = Array.from({length: count}, (_, i) => i);
-  const first = order.find((i) => outcomeOf(i) === 'dodged' && throws.track_size[i]) ??
+  const first = order.find((i) => fateOf(i) === 'dodged' && throws.track_size[i]) ??
       order.find((i) => throws.track_size[i]) ?? 0;
   open(first, false);
 }

@@ -16,10 +16,10 @@ function trackOf(i) {
 function storyOf(i) {
   const error = data.errors[throws.number[i]];
   if (has(i, 'failed')) return error || 'The simulation failed.';
-  if (!has(i, 'thrown')) return outcomeOf(i);
+  if (!has(i, 'thrown')) return fateOf(i);
   const parts = [`${data.objects[throws.object[i]]} of ${number(throws.size[i])} m from ` +
                  `${number(throws.distance[i], 1)} m at ${number(throws.speed[i], 1)} m/s: ` +
-                 outcomeOf(i)];
+                 fateOf(i)];
   if (throws.cause[i] !== kNone) parts.push(`, ${data.causes[throws.cause[i]]}`);
   if (Number.isFinite(throws.left[i])) {
     const left = throws.left[i];
