@@ -28,18 +28,18 @@ std::vector<Part> parts_of(const LoadedCampaign& campaign) {
   return parts;
 }
 
-LoadedCampaign load_campaign(const std::filesystem::path& directory) {
+LoadedCampaign load_campaign(const std::filesystem::path& directory, const std::string& models_dir,
+                             Rows rows) {
   const std::filesystem::path journal = directory / kJournalFile;
   const JournalIndex index = read_journal(journal);
   std::vector<ThrowResult> results;
   for_each_result(journal, index, [&](ThrowResult result) {
-    result.truth_rows = {};
-    result.detection_rows = {};
-    result.object_rows = {};
+    if (rows == Rows::kDrop) result.drop_rows();
     results.push_back(std::move(result));
   });
-  LoadedCampaign campaign = campaign_of(parse_scenario(index.identity.scenario, kScenarioFile, ""),
-                                        index.identity.program, std::move(results));
+  LoadedCampaign campaign =
+      campaign_of(parse_scenario(index.identity.scenario, kScenarioFile, models_dir),
+                  index.identity.program, std::move(results));
   campaign.damaged = index.damaged > 0;
   return campaign;
 }

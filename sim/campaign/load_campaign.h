@@ -16,7 +16,7 @@ namespace dodgesim {
 struct LoadedCampaign {
   Scenario scenario;
   std::string program;               // version and commit that flew it
-  std::vector<ThrowResult> results;  // in throw order, without rows of detections and objects
+  std::vector<ThrowResult> results;  // in throw order, without their rows unless kept
   std::optional<EarlyStop> stop;     // with the results; empty without the scenario's key stop
   bool damaged = false;              // records of its journal cannot be read
 
@@ -33,7 +33,12 @@ LoadedCampaign campaign_of(Scenario scenario, std::string program,
 // What may be pooled of it (throw_statistics.h).
 std::vector<Part> parts_of(const LoadedCampaign& campaign);
 
-// Reads results.bin, also of a campaign under way. Throws IoError if it is none.
-LoadedCampaign load_campaign(const std::filesystem::path& directory);
+// Of objects, detections and causes of events: few need them, and they are most of a campaign.
+enum class Rows { kDrop, kKeep };
+
+// Reads results.bin, also of a campaign under way. `models_dir` is as in
+// parse_scenario(). Throws IoError if there is none.
+LoadedCampaign load_campaign(const std::filesystem::path& directory,
+                             const std::string& models_dir = "", Rows rows = Rows::kDrop);
 
 }  // namespace dodgesim

@@ -109,9 +109,7 @@ void write_result_files(const fs::path& out, const Scenario& scenario, const Jou
     computing_s += result.wall_s;
     if (any_error(result)) ++summary.errors;
     summary.truth.add(result.truth_rows);
-    result.truth_rows = {};
-    result.detection_rows = {};
-    result.object_rows = {};
+    result.drop_rows();
     summary.results.push_back(std::move(result));
   });
   if (computing_s > 0) summary.real_time_factor = simulated_s / computing_s;

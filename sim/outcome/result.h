@@ -246,6 +246,13 @@ struct ThrowResult : DrawnThrow {
   std::string trajectory;                 // of the flown pilot, for the report (trajectory.h)
   double wall_s = 0;  // computing time of the flown pilot: in timing.csv, never in throws.csv
 
+  // The tables and the report need none of objects, detections and causes of events.
+  void drop_rows() {
+    object_rows = {};
+    detection_rows = {};
+    truth_rows = {};
+  }
+
   bool thrown() const { return !object.empty(); }
   bool lost() const { return flown.lost(); }
   // Its failure is no pilot's: it could not be launched, or its flight failed with every pilot,

@@ -5,8 +5,6 @@
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
 #include "sim/campaign/build_info.h"
-#include "sim/campaign/journal.h"
-#include "sim/campaign/result_files.h"
 #include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 
@@ -15,16 +13,6 @@ namespace dodgesim {
 namespace {
 
 namespace fs = std::filesystem;
-
-LoadedCampaign load_with_rows(const fs::path& directory, const std::string& models_dir) {
-  const fs::path journal = directory / kJournalFile;
-  const JournalIndex index = read_journal(journal);
-  std::vector<ThrowResult> results;
-  for_each_result(journal, index,
-                  [&](ThrowResult result) { results.push_back(std::move(result)); });
-  return campaign_of(parse_scenario(index.identity.scenario, kScenarioFile, models_dir),
-                     index.identity.program, std::move(results));
-}
 
 std::string flown_markdown(const PaperExperiment& experiment,
                            const std::vector<LoadedCampaign>& campaigns) {
@@ -123,7 +111,8 @@ std::string write_paper_tables(const fs::path& out, const std::vector<PaperExper
   for (const PaperExperiment& experiment : experiments) {
     std::vector<LoadedCampaign> campaigns;
     for (const PaperFlight& flight : experiment.flights) {
-      campaigns.push_back(load_with_rows(flight_directory(out, flight), sources.models_dir));
+      campaigns.push_back(
+          load_campaign(flight_directory(out, flight), sources.models_dir, Rows::kKeep));
     }
     const PaperTables tables = tables_of(out, experiment, sources, campaigns);
     const std::string text = "# " + experiment.title + "\n\nMade by `" + command + "`, dodgesim " +
