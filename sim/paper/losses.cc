@@ -25,9 +25,8 @@ std::string ratio_text(const Losses& losses) {
   const auto oracle = losses.counts.both + losses.counts.only_first;
   if (oracle == 0) return "-";
   const auto pilot = losses.counts.both + losses.counts.only_second;
-  const Interval interval = bonett_price(losses.counts);
-  return fixed_text(static_cast<double>(pilot) / static_cast<double>(oracle), 2) + " (" +
-         fixed_text(interval.lo, 2) + " to " + fixed_text(interval.hi, 2) + ")";
+  return with_interval(static_cast<double>(pilot) / static_cast<double>(oracle),
+                       bonett_price(losses.counts), 2);
 }
 
 }  // namespace dodgesim

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/base/joined.h"
 #include "sim/campaign/result_files.h"
 #include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
@@ -106,11 +107,7 @@ bool is_quiet(const std::map<int, std::vector<ThrowOutcome>>& parts) {
 
 // "0, 1, 3"
 std::string names(const std::map<int, std::vector<ThrowOutcome>>& parts) {
-  std::string text;
-  for (const auto& [sweep, outcomes] : parts) {
-    text += (text.empty() ? "" : ", ") + std::to_string(sweep);
-  }
-  return text;
+  return joined(parts, [](const auto& part) { return std::to_string(part.first); });
 }
 
 // "Sweep value 1 (delays.compute_us 60000)": with the keys that are the same for all of its throws.
