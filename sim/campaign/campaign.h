@@ -2,9 +2,9 @@
 //
 //   scenario.resolved.yaml  every value spelled out
 //   results.bin             every result as it came (journal.h): what --resume and merge go on with
-//   throws.csv, objects.csv, detections.csv, table.md, table.csv, and truth.csv on request
-//   (result_files.h):
+//   throws.csv, objects.csv, detections.csv, table.md, table.csv, truth.csv (on request)
 //                           byte-identical for any number of workers, shards and resumes
+//                           (result_files.h)
 //   report.html             charts, and every throw in 3-D (report.h)
 //   timing.csv              computing time of each throw
 //   manifest.json           commit, versions, machine, command line, throughput; written last, so a
@@ -13,7 +13,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -91,21 +90,5 @@ struct CampaignListener {
 // those campaigns that were told to have ended are whole.
 WorkerMemory run_campaigns(const std::vector<PlannedCampaign>& plans,
                            const CampaignListener& listener);
-
-// A merge lacks throws; what() lists them.
-class MissingThrows : public std::runtime_error {
- public:
-  explicit MissingThrows(const std::string& what) : std::runtime_error(what) {}
-};
-
-// Puts the results of several directories (shards of one campaign, in any order, some perhaps
-// twice) together in options.out, as if one process had flown them. A throw that was lost with its
-// worker in one of them and flown in another counts as flown. Throws ScenarioError if they are of
-// different campaigns or contradict each other, MissingThrows, IoError.
-CampaignSummary merge_campaigns(const std::vector<std::filesystem::path>& directories,
-                                const CampaignOptions& options);
-
-// The number of throws, if merge_campaigns() would find all of them; throws as it does.
-int expect_complete(const std::vector<std::filesystem::path>& directories);
 
 }  // namespace dodgesim

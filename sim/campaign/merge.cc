@@ -1,10 +1,10 @@
-// merge_campaigns(): the results of several directories as those of one campaign.
+#include "sim/campaign/merge.h"
+
 #include <map>
 
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
 #include "sim/base/wall_clock.h"
-#include "sim/campaign/campaign.h"
 #include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/journal.h"
 #include "sim/campaign/load_campaign.h"

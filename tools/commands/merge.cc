@@ -3,7 +3,7 @@
 #include <iostream>
 #include <memory>
 
-#include "sim/campaign/campaign.h"
+#include "sim/campaign/merge.h"
 #include "sim/campaign/text_table.h"
 #include "tools/commands/command.h"
 

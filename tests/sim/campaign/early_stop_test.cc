@@ -7,6 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/load_campaign.h"
+#include "sim/campaign/merge.h"
 #include "sim/campaign/report.h"
 #include "sim/campaign/statistics_table.h"
 #include "tests/sim/campaign/campaign_fixture.h"

@@ -1,3 +1,5 @@
+#include "sim/campaign/merge.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
