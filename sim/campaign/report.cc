@@ -8,7 +8,6 @@
 
 #include "sim/base/shell.h"
 #include "sim/campaign/axis.h"
-#include "sim/campaign/report_files.h"
 #include "sim/campaign/statistics_table.h"
 #include "sim/files/base64.h"
 #include "sim/files/json.h"
@@ -17,6 +16,11 @@
 #include "sim/outcome/fate.h"
 
 namespace dodgesim {
+
+// The page, its style and its program: sim/campaign/report/, which embed.cmake has put into C++.
+extern const char* const kReport_page;
+extern const char* const kReport_style;
+extern const char* const kReport_script;
 
 namespace {
 

@@ -21,7 +21,7 @@ class RunningCampaign {
 
   // Writes what is there before the first throw; what is to be overwritten goes. Throws IoError.
   void prepare();
-  void begin();  // its time
+  void begin();  // CampaignSummary::wall_s counts from here
   // The throw to begin next; nothing when all were begun or the scenario's `stop` has ended it.
   std::optional<int> next();
   void add(const ThrowResult& result);  // throws IoError

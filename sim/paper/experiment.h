@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/bench/bench_case.h"
+#include "sim/bench/bench.h"
 #include "sim/campaign/load_campaign.h"
 #include "sim/config/scenario_tree.h"
 #include "sim/plot/plot.h"
@@ -75,5 +75,8 @@ PaperExperiment field_experiment();
 PaperExperiment physics_experiment();
 PaperExperiment threshold_experiment();
 PaperExperiment translation_experiment();
+
+// What table3 makes of the quantities of pilot_cases().
+PaperTables table3_of(const std::vector<Measurement>& measured);
 
 }  // namespace dodgesim

@@ -1,10 +1,10 @@
-#include "sim/paper/table3.h"
-
+// Table 3 of Falanga et al. 2020: how long the stages of the detection take, on this machine.
 #include <algorithm>
 #include <filesystem>
 
 #include "sim/base/error.h"
 #include "sim/campaign/text_table.h"
+#include "sim/paper/experiment.h"
 
 namespace dodgesim {
 

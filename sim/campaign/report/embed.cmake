@@ -1,6 +1,6 @@
 # Writes the files of the report into a C++ source, so that the program needs none of them beside it.
 #   cmake -DSOURCE_DIR=... -DOUTPUT=... -P embed.cmake
-set(code "// Generated from sim/campaign/report/ by embed.cmake.\n#include \"sim/campaign/report_files.h\"\n\nnamespace dodgesim {\n\n")
+set(code "// Generated from sim/campaign/report/ by embed.cmake.\nnamespace dodgesim {\n\n")
 foreach(part IN ITEMS page:report.html style:report.css script:data.js,trajectory.js,view3d.js,charts.js,throw.js,success.js,report.js)
   string(REGEX MATCH "^(.*):(.*)$" _ ${part})
   set(name ${CMAKE_MATCH_1})
@@ -11,7 +11,7 @@ foreach(part IN ITEMS page:report.html style:report.css script:data.js,trajector
     string(APPEND text "${contents}")
   endforeach()
   # Compilers take string literals of 64 kB at least.
-  string(APPEND code "const char* const kReport_${name} = R\"~~~~(${text})~~~~\";\n\n")
+  string(APPEND code "extern const char* const kReport_${name};\nconst char* const kReport_${name} = R\"~~~~(${text})~~~~\";\n\n")
 endforeach()
 string(APPEND code "}  // namespace dodgesim\n")
 file(WRITE ${OUTPUT} "${code}")

@@ -1,5 +1,5 @@
 // Table 3 of measurements that nobody has taken.
-#include "sim/paper/table3.h"
+#include "sim/paper/experiment.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
