@@ -7,7 +7,7 @@
 #include <set>
 
 #include "sim/base/error.h"
-#include "sim/config/numbers.h"
+#include "sim/base/numbers.h"
 
 namespace dodgesim {
 

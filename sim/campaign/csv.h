@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/base/numbers.h"
 #include "sim/config/axis_value.h"
-#include "sim/config/numbers.h"
 
 namespace dodgesim {
 

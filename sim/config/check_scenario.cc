@@ -4,11 +4,11 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "sim/base/numbers.h"
 #include "sim/base/time.h"
 #include "sim/base/utf8.h"
 #include "sim/config/check_presets.h"
 #include "sim/config/expand.h"
-#include "sim/config/numbers.h"
 #include "sim/config/pilot.h"
 #include "sim/sensors/sample_clock.h"
 

@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
+#include "sim/base/numbers.h"
 #include "sim/config/closest_name.h"
 #include "sim/config/writer.h"
 

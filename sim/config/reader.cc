@@ -6,8 +6,8 @@
 
 #include "sim/base/joined.h"
 #include "sim/base/names.h"
+#include "sim/base/numbers.h"
 #include "sim/config/closest_name.h"
-#include "sim/config/numbers.h"
 
 namespace dodgesim {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "sim/base/numbers.h"
 #include "sim/config/closest_name.h"
-#include "sim/config/numbers.h"
 #include "sim/config/reader.h"
 
 namespace dodgesim {

@@ -2,6 +2,7 @@
 
 #include "sim/base/formatted.h"
 #include "sim/base/joined.h"
+#include "sim/base/numbers.h"
 
 namespace dodgesim {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
-#include "sim/config/numbers.h"
+#include "sim/base/numbers.h"
 #include "sim/files/input_file.h"
 
 namespace dodgesim {

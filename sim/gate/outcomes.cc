@@ -9,8 +9,8 @@
 
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
+#include "sim/base/numbers.h"
 #include "sim/campaign/result_files.h"
-#include "sim/config/numbers.h"
 #include "sim/files/input_file.h"
 #include "sim/files/json.h"
 #include "sim/outcome/fate.h"

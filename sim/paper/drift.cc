@@ -1,6 +1,6 @@
 // A state estimate that drifts in height, and the monitor that lands the vehicle when the range
 // sensor disagrees with it.
-#include "sim/config/numbers.h"
+#include "sim/base/numbers.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/rate_grid.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "sim/base/error.h"
-#include "sim/config/numbers.h"
+#include "sim/base/numbers.h"
 
 namespace dodgesim {
 

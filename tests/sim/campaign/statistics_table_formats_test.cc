@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "sim/base/numbers.h"
 #include "sim/campaign/statistics_table.h"
-#include "sim/config/numbers.h"
 #include "sim/files/json.h"
 #include "tests/sim/campaign/fake_throws.h"
 

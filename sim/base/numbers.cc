@@ -1,4 +1,4 @@
-#include "sim/config/numbers.h"
+#include "sim/base/numbers.h"
 
 #include <algorithm>
 #include <array>
