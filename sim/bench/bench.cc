@@ -6,9 +6,9 @@
 #include "sim/base/error.h"
 #include "sim/campaign/build_info.h"
 #include "sim/campaign/manifest.h"
-#include "sim/campaign/text_table.h"
 #include "sim/config/closest_name.h"
 #include "sim/files/json.h"
+#include "sim/files/text_table.h"
 
 namespace dodgesim {
 

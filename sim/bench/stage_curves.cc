@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "sim/campaign/text_table.h"
 #include "sim/files/directory.h"
 #include "sim/files/output_file.h"
+#include "sim/files/text_table.h"
 #include "sim/plot/plot.h"
 
 namespace dodgesim {

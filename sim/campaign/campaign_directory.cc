@@ -8,9 +8,9 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/result_files.h"
-#include "sim/campaign/text_table.h"
 #include "sim/config/scenario_changes.h"
 #include "sim/files/staged_file.h"
+#include "sim/files/text_table.h"
 
 namespace dodgesim {
 

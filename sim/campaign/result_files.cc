@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "sim/base/error.h"
-#include "sim/campaign/csv.h"
 #include "sim/campaign/report.h"
 #include "sim/campaign/tables.h"
+#include "sim/files/csv.h"
 #include "sim/files/output_file.h"
 #include "sim/files/staged_file.h"
 #include "sim/outcome/blank_result.h"

@@ -6,9 +6,9 @@
 #include "sim/base/joined.h"
 #include "sim/campaign/axis.h"
 #include "sim/campaign/statistics_table.h"
-#include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
 #include "sim/files/markup.h"
+#include "sim/files/text_table.h"
 #include "sim/outcome/collision_cause.h"
 
 namespace dodgesim {

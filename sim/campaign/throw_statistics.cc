@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "sim/base/formatted.h"
-#include "sim/campaign/text_table.h"
 #include "sim/config/pilot.h"
+#include "sim/files/text_table.h"
 
 namespace dodgesim {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/campaign/text_table.h"
+#include "sim/files/text_table.h"
 
 namespace dodgesim {
 

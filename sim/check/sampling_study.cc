@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "sim/base/formatted.h"
-#include "sim/campaign/text_table.h"
 #include "sim/check/compare_events.h"
 #include "sim/check/film.h"
 #include "sim/check/prescribed_throw.h"
 #include "sim/check/quantile.h"
+#include "sim/files/text_table.h"
 #include "sim/flight/setup.h"
 #include "sim/world/world.h"
 

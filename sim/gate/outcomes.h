@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/config/axis_value.h"
-#include "sim/gate/csv_table.h"
+#include "sim/files/csv_table.h"
 
 namespace dodgesim {
 

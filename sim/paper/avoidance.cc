@@ -8,8 +8,8 @@
 
 #include "dodge/presets.h"
 #include "sim/base/joined.h"
-#include "sim/campaign/text_table.h"
 #include "sim/config/pilot.h"
+#include "sim/files/text_table.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/losses.h"
 #include "sim/paper/pair.h"

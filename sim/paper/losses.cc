@@ -1,6 +1,6 @@
 #include "sim/paper/losses.h"
 
-#include "sim/campaign/text_table.h"
+#include "sim/files/text_table.h"
 
 namespace dodgesim {
 

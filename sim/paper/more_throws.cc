@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/text_table.h"
 #include "sim/config/pilot.h"
+#include "sim/files/text_table.h"
 #include "sim/outcome/trajectory.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/losses.h"

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "sim/campaign/text_table.h"
+#include "sim/files/text_table.h"
 
 namespace dodgesim {
 

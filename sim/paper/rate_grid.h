@@ -7,8 +7,8 @@
 
 #include "sim/campaign/axis.h"
 #include "sim/campaign/load_campaign.h"
-#include "sim/campaign/text_table.h"
 #include "sim/campaign/throw_statistics.h"
+#include "sim/files/text_table.h"
 #include "sim/plot/plot.h"
 
 namespace dodgesim {

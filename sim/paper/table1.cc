@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/campaign/text_table.h"
+#include "sim/files/text_table.h"
 #include "sim/paper/error_statistics.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/passage.h"

@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "sim/base/error.h"
-#include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
+#include "sim/files/text_table.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/miss_investigator.h"
 #include "sim/paper/success.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "sim/base/error.h"
-#include "sim/campaign/text_table.h"
+#include "sim/files/text_table.h"
 #include "sim/paper/experiment.h"
 
 namespace dodgesim {

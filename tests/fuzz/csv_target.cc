@@ -1,6 +1,6 @@
-#include "sim/gate/csv_table.h"
+#include "sim/files/csv_table.h"
 
-#include "sim/campaign/csv.h"
+#include "sim/files/csv.h"
 #include "sim/gate/comparison.h"
 #include "tests/fuzz/inputs.h"
 

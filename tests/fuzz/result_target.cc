@@ -1,6 +1,6 @@
-#include "sim/campaign/csv.h"
 #include "sim/campaign/journal.h"
 #include "sim/campaign/wire.h"
+#include "sim/files/csv.h"
 #include "tests/fuzz/inputs.h"
 
 namespace dodgesim::fuzz {

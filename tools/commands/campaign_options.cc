@@ -5,7 +5,7 @@
 #include <iostream>
 #include <thread>
 
-#include "sim/campaign/text_table.h"
+#include "sim/files/text_table.h"
 #include "sim/flight/fly_throw.h"
 #include "sim/observers/event_truth.h"
 #include "sim/preflight/try_models.h"

@@ -10,10 +10,10 @@
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
 #include "sim/campaign/result_files.h"
-#include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
 #include "sim/files/input_file.h"
+#include "sim/files/text_table.h"
 #include "sim/gate/comparison.h"
 #include "tools/commands/command.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "sim/campaign/merge.h"
-#include "sim/campaign/text_table.h"
+#include "sim/files/text_table.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {

@@ -10,7 +10,7 @@
 #include "sim/base/error.h"
 #include "sim/campaign/progress.h"
 #include "sim/campaign/report.h"
-#include "sim/campaign/text_table.h"
+#include "sim/files/text_table.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
 #include "tools/commands/campaign_options.h"

@@ -2,8 +2,8 @@
 #include <iostream>
 #include <memory>
 
-#include "sim/campaign/text_table.h"
 #include "sim/config/expand.h"
+#include "sim/files/text_table.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
 #include "sim/preflight/try_throws.h"

@@ -7,7 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/random.h"
-#include "sim/campaign/csv.h"
+#include "sim/files/csv.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 
 namespace dodgesim {

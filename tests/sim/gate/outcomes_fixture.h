@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/csv.h"
+#include "sim/files/csv.h"
 #include "sim/gate/outcomes.h"
 #include "sim/outcome/result.h"
 

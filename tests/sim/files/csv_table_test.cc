@@ -1,10 +1,10 @@
-#include "sim/gate/csv_table.h"
+#include "sim/files/csv_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sim/base/error.h"
-#include "sim/campaign/csv.h"
+#include "sim/files/csv.h"
 
 namespace dodgesim {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/campaign/csv.h"
+#include "sim/files/csv.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sim/base/numbers.h"
-#include "sim/config/axis_value.h"
 
 namespace dodgesim {
 
@@ -34,9 +33,11 @@ class CsvLine {
     for (std::size_t i = 0; i < N; ++i) (*this)(name + "_" + std::to_string(i), values[i]);
   }
 
-  // A column for each key.
-  void operator()(const std::string&, const std::vector<AxisValue>& values) {
-    for (const AxisValue& value : values) add(value.key, csv_cell(value.value));
+  // A column for each key, of structs {key, value}.
+  template <class KeyAndValue>
+  requires requires(const KeyAndValue& of) { of.key, of.value; }
+  void operator()(const std::string&, const std::vector<KeyAndValue>& values) {
+    for (const KeyAndValue& of : values) add(of.key, csv_cell(of.value));
   }
 
   template <class T>

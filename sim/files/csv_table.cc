@@ -1,4 +1,4 @@
-#include "sim/gate/csv_table.h"
+#include "sim/files/csv_table.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
-#include "sim/campaign/text_table.h"
+#include "sim/files/text_table.h"
 
 #include "sim/base/formatted.h"
-#include "sim/campaign/csv.h"
+#include "sim/files/csv.h"
 
 namespace dodgesim {
 
