@@ -5,6 +5,7 @@
 #include "sim/base/numbers.h"
 #include "sim/config/closest_name.h"
 #include "sim/config/writer.h"
+#include "sim/files/markup.h"
 
 namespace dodgesim {
 
@@ -13,16 +14,6 @@ namespace {
 std::string group_of(const std::string& path) {
   const std::size_t dot = path.rfind('.');
   return dot == std::string::npos ? "" : path.substr(0, dot);
-}
-
-// A bar would end the cell of a Markdown table.
-std::string cell(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    if (c == '|') escaped += '\\';
-    escaped += c;
-  }
-  return escaped;
 }
 
 std::string in_code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
@@ -115,8 +106,8 @@ std::string to_markdown(const std::vector<ParameterDoc>& docs) {
       if (doc.is_group()) {
         text += "| " + key + " | map | | | see " + in_code(doc.path) + " below |\n";
       } else {
-        text += "| " + key + " | " + cell(doc.type) + " | " + doc.range + " | " +
-                cell(in_code(doc.default_text)) + " | " + cell(doc.doc) + " |\n";
+        text += "| " + key + " | " + markdown_cell(doc.type) + " | " + doc.range + " | " +
+                markdown_cell(in_code(doc.default_text)) + " | " + markdown_cell(doc.doc) + " |\n";
       }
     }
   }

@@ -53,4 +53,13 @@ std::string markdown_escaped(std::string_view text) {
   return out;
 }
 
+std::string markdown_cell(std::string_view markdown) {
+  std::string out;
+  for (const char c : markdown) {
+    if (c == '|') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
 }  // namespace dodgesim

@@ -13,4 +13,7 @@ std::string markup_escaped(std::string_view text);
 // The text, a line, as Markdown shows it: backslashes before what would be markup.
 std::string markdown_escaped(std::string_view text);
 
+// Markdown, a line, as a cell of a table, which a bar would end.
+std::string markdown_cell(std::string_view markdown);
+
 }  // namespace dodgesim

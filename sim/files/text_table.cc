@@ -2,6 +2,7 @@
 
 #include "sim/base/formatted.h"
 #include "sim/files/csv.h"
+#include "sim/files/markup.h"
 
 namespace dodgesim {
 
@@ -9,12 +10,7 @@ namespace {
 
 std::string markdown_row(const std::vector<std::string>& cells) {
   std::string line = "|";
-  for (std::string cell : cells) {
-    for (std::size_t at = 0; (at = cell.find('|', at)) != std::string::npos; at += 2) {
-      cell.insert(at, "\\");
-    }
-    line += " " + cell + " |";
-  }
+  for (const std::string& cell : cells) line += " " + markdown_cell(cell) + " |";
   return line + "\n";
 }
 
