@@ -2,42 +2,17 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "sim/campaign/early_stop.h"
-#include "sim/campaign/throw_statistics.h"
-#include "sim/config/expand.h"
-#include "sim/outcome/result.h"
+#include "sim/tables/loaded_campaign.h"
 
 namespace dodgesim {
-
-struct LoadedCampaign {
-  Scenario scenario;
-  std::string program;               // version and commit that flew it
-  std::vector<ThrowResult> results;  // in throw order, without their rows unless kept
-  std::optional<EarlyStop> stop;     // with the results; empty without the scenario's key stop
-  bool damaged = false;              // records of its journal cannot be read
-
-  // The number of its throws: fewer than the scenario's when stop has ended it.
-  int wanted() const { return ended_early() ? *stop->end() : throw_count(scenario); }
-  bool ended_early() const { return stop && stop->end(); }
-  bool complete() const { return static_cast<int>(results.size()) == wanted(); }
-};
-
-// Leaves out throws that were flown while the campaign came to its early end.
-LoadedCampaign campaign_of(Scenario scenario, std::string program,
-                           std::vector<ThrowResult> results);
-
-// What may be pooled of it (throw_statistics.h).
-std::vector<Part> parts_of(const LoadedCampaign& campaign);
 
 // Of objects, detections and causes of events: few need them, and they are most of a campaign.
 enum class Rows { kDrop, kKeep };
 
-// Reads results.bin, also of a campaign under way. `models_dir` is as in
-// parse_scenario(). Throws IoError if there is none.
+// Reads results.bin, also of a campaign under way. `models_dir` is as in parse_scenario().
+// Throws IoError if there is none.
 LoadedCampaign load_campaign(const std::filesystem::path& directory,
                              const std::string& models_dir = "", Rows rows = Rows::kDrop);
 

@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "sim/base/error.h"
-#include "sim/campaign/report.h"
-#include "sim/campaign/tables.h"
 #include "sim/files/csv.h"
 #include "sim/files/output_file.h"
 #include "sim/files/staged_file.h"
 #include "sim/outcome/blank_result.h"
+#include "sim/tables/report.h"
+#include "sim/tables/tables.h"
 
 namespace dodgesim {
 

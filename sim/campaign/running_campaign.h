@@ -8,8 +8,8 @@
 #include "sim/base/wall_clock.h"
 #include "sim/campaign/campaign.h"
 #include "sim/campaign/campaign_directory.h"
-#include "sim/campaign/early_stop.h"
 #include "sim/campaign/journal.h"
+#include "sim/tables/early_stop.h"
 
 namespace dodgesim {
 

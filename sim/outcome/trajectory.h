@@ -36,7 +36,7 @@ struct Trajectory {
 // Positions are rounded to 1 mm, those of detections to 1 cm, velocities to 0.1 m/s, components of
 // the quaternion to 0.01, times to a tick, those of detections to 1 ms. Components are written as
 // what they differ from their prediction (positions: constant velocity; others: no change), as
-// varints. sim/campaign/report/trajectory.js reads them, too.
+// varints. sim/tables/report/trajectory.js reads them, too.
 std::string to_bytes(const Trajectory& trajectory);
 
 // Throws IoError when the bytes are not one whole trajectory.

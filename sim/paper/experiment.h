@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "sim/bench/bench.h"
-#include "sim/campaign/load_campaign.h"
 #include "sim/config/scenario_tree.h"
 #include "sim/plot/plot.h"
+#include "sim/tables/loaded_campaign.h"
 
 namespace dodgesim {
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <string>
 
-#include "sim/campaign/throw_statistics.h"
 #include "sim/statistics/paired.h"
+#include "sim/tables/throw_statistics.h"
 
 namespace dodgesim {
 

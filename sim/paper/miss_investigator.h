@@ -4,9 +4,9 @@
 #include <map>
 #include <vector>
 
-#include "sim/campaign/load_campaign.h"
 #include "sim/paper/miss.h"
 #include "sim/paper/success.h"
+#include "sim/tables/loaded_campaign.h"
 
 namespace dodgesim {
 

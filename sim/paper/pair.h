@@ -5,9 +5,9 @@
 #include <map>
 #include <string>
 
-#include "sim/campaign/load_campaign.h"
-#include "sim/campaign/throw_statistics.h"
 #include "sim/statistics/paired.h"
+#include "sim/tables/loaded_campaign.h"
+#include "sim/tables/throw_statistics.h"
 
 namespace dodgesim {
 

@@ -5,6 +5,7 @@
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
 #include "sim/campaign/build_info.h"
+#include "sim/campaign/load_campaign.h"
 #include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 

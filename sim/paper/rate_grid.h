@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/axis.h"
-#include "sim/campaign/load_campaign.h"
-#include "sim/campaign/throw_statistics.h"
 #include "sim/files/text_table.h"
 #include "sim/plot/plot.h"
+#include "sim/tables/axis.h"
+#include "sim/tables/loaded_campaign.h"
+#include "sim/tables/throw_statistics.h"
 
 namespace dodgesim {
 

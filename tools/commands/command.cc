@@ -7,8 +7,8 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/journal.h"
-#include "sim/campaign/load_campaign.h"
 #include "sim/files/text_table.h"
+#include "sim/tables/loaded_campaign.h"
 
 namespace dodgesim {
 

@@ -14,7 +14,6 @@
 
 #include "sim/base/error.h"
 #include "sim/base/shell.h"
-#include "sim/campaign/report.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
 #include "sim/files/csv.h"
@@ -24,6 +23,7 @@
 #include "sim/outcome/blank_result.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
+#include "sim/tables/report.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "sim/campaign/load_campaign.h"
-#include "sim/campaign/report.h"
 #include "sim/files/output_file.h"
+#include "sim/tables/report.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {

@@ -9,10 +9,10 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/progress.h"
-#include "sim/campaign/report.h"
 #include "sim/files/text_table.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
+#include "sim/tables/report.h"
 #include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 

@@ -7,8 +7,8 @@
 #include "sim/base/error.h"
 #include "sim/campaign/load_campaign.h"
 #include "sim/campaign/result_files.h"
-#include "sim/campaign/statistics_table.h"
 #include "sim/files/output_file.h"
+#include "sim/tables/statistics_table.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {

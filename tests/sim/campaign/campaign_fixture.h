@@ -13,7 +13,7 @@
 
 #include "sim/campaign/campaign.h"
 #include "sim/outcome/blank_result.h"
-#include "tests/sim/campaign/fake_throws.h"
+#include "tests/sim/tables/fake_throws.h"
 
 namespace dodgesim {
 

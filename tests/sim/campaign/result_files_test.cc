@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "sim/files/csv.h"
-#include "tests/sim/campaign/fake_throws.h"
 #include "tests/sim/files/temporary_directory.h"
+#include "tests/sim/tables/fake_throws.h"
 
 namespace dodgesim {
 namespace {

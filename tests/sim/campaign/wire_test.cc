@@ -4,7 +4,7 @@
 
 #include "sim/base/error.h"
 #include "sim/files/csv.h"
-#include "tests/sim/campaign/fake_throws.h"
+#include "tests/sim/tables/fake_throws.h"
 
 namespace dodgesim {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "tests/sim/campaign/fake_throws.h"
+#include "tests/sim/tables/fake_throws.h"
 
 namespace dodgesim {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/campaign/load_campaign.h"
+#include "sim/tables/loaded_campaign.h"
 #include "tests/sim/paper/synthetic_passage.h"
 
 namespace dodgesim {

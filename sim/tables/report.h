@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "sim/campaign/load_campaign.h"
+#include "sim/tables/loaded_campaign.h"
 
 namespace dodgesim {
 

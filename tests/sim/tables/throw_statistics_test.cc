@@ -1,8 +1,8 @@
-#include "sim/campaign/throw_statistics.h"
+#include "sim/tables/throw_statistics.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/sim/campaign/fake_throws.h"
+#include "tests/sim/tables/fake_throws.h"
 
 namespace dodgesim {
 namespace {

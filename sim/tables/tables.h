@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sim/campaign/load_campaign.h"
+#include "sim/tables/loaded_campaign.h"
 
 namespace dodgesim {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "sim/campaign/throw_statistics.h"
 #include "sim/config/scenario.h"
 #include "sim/outcome/result.h"
 #include "sim/statistics/sequential.h"
+#include "sim/tables/throw_statistics.h"
 
 namespace dodgesim {
 

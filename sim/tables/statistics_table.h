@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/axis.h"
-#include "sim/campaign/throw_statistics.h"
+#include "sim/tables/axis.h"
+#include "sim/tables/throw_statistics.h"
 
 namespace dodgesim {
 

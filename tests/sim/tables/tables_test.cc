@@ -1,9 +1,9 @@
-#include "sim/campaign/tables.h"
+#include "sim/tables/tables.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/sim/campaign/fake_throws.h"
+#include "tests/sim/tables/fake_throws.h"
 
 namespace dodgesim {
 namespace {

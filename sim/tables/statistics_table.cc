@@ -1,4 +1,4 @@
-#include "sim/campaign/statistics_table.h"
+#include "sim/tables/statistics_table.h"
 
 #include <algorithm>
 #include <iterator>

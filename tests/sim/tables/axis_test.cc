@@ -1,10 +1,10 @@
-#include "sim/campaign/axis.h"
+#include "sim/tables/axis.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sim/base/error.h"
-#include "tests/sim/campaign/fake_throws.h"
+#include "tests/sim/tables/fake_throws.h"
 
 namespace dodgesim {
 namespace {

@@ -1,15 +1,15 @@
-#include "sim/campaign/tables.h"
+#include "sim/tables/tables.h"
 
 #include <algorithm>
 #include <iterator>
 
 #include "sim/base/joined.h"
-#include "sim/campaign/axis.h"
-#include "sim/campaign/statistics_table.h"
 #include "sim/config/expand.h"
 #include "sim/files/markup.h"
 #include "sim/files/text_table.h"
 #include "sim/outcome/collision_cause.h"
+#include "sim/tables/axis.h"
+#include "sim/tables/statistics_table.h"
 
 namespace dodgesim {
 

@@ -1,4 +1,4 @@
-#include "sim/campaign/report.h"
+#include "sim/tables/report.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,17 +7,17 @@
 #include <type_traits>
 
 #include "sim/base/shell.h"
-#include "sim/campaign/axis.h"
-#include "sim/campaign/statistics_table.h"
 #include "sim/files/base64.h"
 #include "sim/files/json.h"
 #include "sim/files/markup.h"
 #include "sim/outcome/collision_cause.h"
 #include "sim/outcome/fate.h"
+#include "sim/tables/axis.h"
+#include "sim/tables/statistics_table.h"
 
 namespace dodgesim {
 
-// The page, its style and its program: sim/campaign/report/, which embed.cmake has put into C++.
+// The page, its style and its program: sim/tables/report/, which embed.cmake has put into C++.
 extern const char* const kReport_page;
 extern const char* const kReport_style;
 extern const char* const kReport_script;

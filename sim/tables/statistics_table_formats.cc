@@ -5,11 +5,11 @@
 #include <map>
 
 #include "sim/base/formatted.h"
-#include "sim/campaign/statistics_table.h"
 #include "sim/config/pilot.h"
 #include "sim/files/csv.h"
 #include "sim/files/json.h"
 #include "sim/files/text_table.h"
+#include "sim/tables/statistics_table.h"
 
 namespace dodgesim {
 

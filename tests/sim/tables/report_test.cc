@@ -1,4 +1,4 @@
-#include "sim/campaign/report.h"
+#include "sim/tables/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include "sim/files/base64.h"
 #include "sim/files/json.h"
 #include "sim/outcome/trajectory.h"
-#include "tests/sim/campaign/fake_throws.h"
+#include "tests/sim/tables/fake_throws.h"
 
 namespace dodgesim {
 namespace {

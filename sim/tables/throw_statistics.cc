@@ -1,4 +1,4 @@
-#include "sim/campaign/throw_statistics.h"
+#include "sim/tables/throw_statistics.h"
 
 #include <algorithm>
 #include <utility>

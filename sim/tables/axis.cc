@@ -1,4 +1,4 @@
-#include "sim/campaign/axis.h"
+#include "sim/tables/axis.h"
 
 #include <algorithm>
 #include <array>

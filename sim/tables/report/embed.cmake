@@ -1,6 +1,6 @@
 # Writes the files of the report into a C++ source, so that the program needs none of them beside it.
 #   cmake -DSOURCE_DIR=... -DOUTPUT=... -P embed.cmake
-set(code "// Generated from sim/campaign/report/ by embed.cmake.\nnamespace dodgesim {\n\n")
+set(code "// Generated from sim/tables/report/ by embed.cmake.\nnamespace dodgesim {\n\n")
 foreach(part IN ITEMS page:report.html style:report.css script:data.js,trajectory.js,view3d.js,charts.js,throw.js,success.js,report.js)
   string(REGEX MATCH "^(.*):(.*)$" _ ${part})
   set(name ${CMAKE_MATCH_1})

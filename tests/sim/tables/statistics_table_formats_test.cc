@@ -5,9 +5,9 @@
 #include <sstream>
 
 #include "sim/base/numbers.h"
-#include "sim/campaign/statistics_table.h"
 #include "sim/files/json.h"
-#include "tests/sim/campaign/fake_throws.h"
+#include "sim/tables/statistics_table.h"
+#include "tests/sim/tables/fake_throws.h"
 
 namespace dodgesim {
 namespace {

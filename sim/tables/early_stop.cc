@@ -1,4 +1,4 @@
-#include "sim/campaign/early_stop.h"
+#include "sim/tables/early_stop.h"
 
 #include <algorithm>
 
