@@ -126,6 +126,18 @@ void check_dodger(const Scenario& scenario, ReadContext& context) {
   }
 }
 
+void check_vehicle(const Scenario& scenario, ReadContext& context) {
+  const VehicleOverrides& vehicle = scenario.vehicle_overrides;
+  constexpr double kLeast = VehicleOverrides::kLeastMassOfInertia;
+  if (vehicle.mass_scale >= kLeast * vehicle.inertia_scale) return;
+  context.problems.add(context.position_of("vehicle_overrides.mass_scale"),
+                       "vehicle_overrides.mass_scale is " + to_text(vehicle.mass_scale) +
+                           ", but must be at least " + to_text(kLeast) +
+                           " of vehicle_overrides.inertia_scale, which is " +
+                           to_text(vehicle.inertia_scale) +
+                           ": so light a vehicle would climb away when its rotors turn it.");
+}
+
 // A monitor that takes every reading for the end of a pause never lands the vehicle.
 void check_height_monitor(const Scenario& scenario, ReadContext& context) {
   const dodge::HeightMonitorConfig& monitor = scenario.dodger.height_monitor;
@@ -219,6 +231,7 @@ void check_keys_together(const Scenario& scenario, ReadContext& context) {
                     context);
   check_throws(scenario, context);
   check_dodger(scenario, context);
+  check_vehicle(scenario, context);
   check_height_monitor(scenario, context);
   check_rates(scenario, context);
   check_range_sensor(scenario, context);

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "sim/base/numbers.h"
 #include "sim/config/distribution.h"
-#include "sim/config/numbers.h"
 #include "sim/config/varied_key.h"
 
 namespace dodgesim {

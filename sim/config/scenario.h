@@ -82,7 +82,10 @@ struct MissionSpec {
   void visit(Visitor& v) {
     v("type", type, {"hover", "goal", "waypoints"},
       "Stay at start_m, or fly from there to goal_m or along waypoints_m.");
-    v("start_m", start_m, -100, 100, "Where the vehicle starts, in world coordinates (z up).");
+    v("start_m", start_m, -100, 100,
+      "Where the vehicle starts, in world coordinates (z up). The ground of the room field is "
+      "seen, "
+      "by cameras and range sensor, as far as 60 m from the origin.");
     v("heading_deg", heading_deg, -180, 180,
       "Heading of the vehicle and its cameras: 0 along world x, positive to the left.");
     v("goal_m", goal_m, -100, 100, "Where to fly; required for the type goal.");
@@ -93,8 +96,9 @@ struct MissionSpec {
     v("speed_mps", speed_mps, 0.1, 10,
       "Cruise speed towards the goal or a waypoint (1.5 in the paper), at most "
       "dodger.velocity_limit.max_speed_mps. The vehicle brakes within dodger.attractive.e_0_m "
-      "of its goal: with less than speed_mps^2/25 (0.36 m for 3 m/s, 1 m for 5 m/s) it overshoots, "
-      "and swings through its goal forever. The default of 0.2 m is enough for 2 m/s.");
+      "of its goal: with less than speed_mps^2/25 (0.36 m for 3 m/s, 1 m for 5 m/s) it swings "
+      "through its goal forever. The default of 0.2 m is enough for 2 m/s of the nominal vehicle; "
+      "one whose rotors hardly lift it needs more.");
   }
 };
 
@@ -121,7 +125,8 @@ struct ThrowSpec {
       "The object's own mean speed over the ground: it reaches the aim point distance_m / "
       "speed_mps after its launch. On a vehicle that flies towards it, it closes faster by the "
       "vehicle's speed. A ball that meets the room on its way, such as a slow lob the ceiling, "
-      "counts as one that would have missed.");
+      "flies on from there and mostly misses; if it still hits, it counts (none_after_room). "
+      "No throw may leave the hand faster than 100 m/s.");
     v("distance_m", distance_m, 0.5, 20,
       "Distance over the ground from the launch to the aim point, where the vehicle will be on "
       "arrival. Nothing of the room may stand between the two, or the throw is an error, not "

@@ -2,7 +2,6 @@
 
 #include "sim/base/formatted.h"
 #include "sim/base/joined.h"
-#include "sim/base/numbers.h"
 
 namespace dodgesim {
 

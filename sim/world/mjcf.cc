@@ -22,6 +22,7 @@ namespace {
 constexpr std::uintmax_t kMaxModelBytes = 1 << 20;
 constexpr std::uintmax_t kMaxAssetBytes = 32 << 20;
 constexpr std::uint32_t kMaxTexturePx = 4096;
+constexpr std::ptrdiff_t kMaxAttributes = 20000;  // tinyxml2 compares those of an element pairwise
 
 [[noreturn]] void fail(const std::string& label, int line, const std::string& what) {
   throw ScenarioError(label + ":" + std::to_string(line) + ": " + what);
@@ -161,6 +162,10 @@ const std::string* MjcfTag::find(const std::string& attribute) const {
 }
 
 std::vector<MjcfTag> parse_mjcf(const std::string& text, const std::string& label) {
+  if (text.find('\0') != std::string::npos) fail(label, 1, "The model holds a zero byte.");
+  if (std::count(text.begin(), text.end(), '=') > kMaxAttributes) {
+    fail(label, 1, "The model has more than " + std::to_string(kMaxAttributes) + " attributes.");
+  }
   tinyxml2::XMLDocument document(false);  // entities stay as they are, to be refused
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     fail(label, std::max(1, document.ErrorLineNum()),

@@ -138,13 +138,21 @@ void ModelReader::check_rotor(int site, int actuator) const {
   const bool plain = model_.actuator_trntype[actuator] == mjTRN_SITE &&
                      model_.actuator_trnid[2 * actuator] == site && up.z() > 1 - 1e-9 &&
                      gear[0] == 0 && gear[1] == 0 && gear[2] == 1 && gear[3] == 0 && gear[4] == 0;
+  // Its force is its control, at once.
+  const bool direct = model_.actuator_gaintype[actuator] == mjGAIN_FIXED &&
+                      model_.actuator_gainprm[mjNGAIN * actuator] == 1 &&
+                      model_.actuator_biastype[actuator] == mjBIAS_NONE &&
+                      model_.actuator_dyntype[actuator] == mjDYN_NONE &&
+                      !model_.actuator_forcelimited[actuator];
   const bool alike = std::abs(gear[5]) == std::abs(model_.actuator_gear[5]) &&
                      model_.actuator_ctrlrange[2 * actuator] == 0 &&
                      model_.actuator_ctrlrange[2 * actuator + 1] == model_.actuator_ctrlrange[1];
-  if (plain && alike) return;
-  throw ScenarioError(file_ + ": a rotor must be a motor at its site, with z up, a gear of " +
-                      "\"0 0 1 0 0 kappa\", a ctrlrange from 0, and the kappa (but for its sign) " +
-                      "and the ctrlrange of the other rotors.");
+  if (plain && direct && alike) return;
+  throw ScenarioError(
+      file_ +
+      ": a rotor must be a motor at its site, with z up, a gear of "
+      "\"0 0 1 0 0 kappa\", no forcerange, a ctrlrange from 0, and the kappa (but for its sign) "
+      "and the ctrlrange of the other rotors.");
 }
 
 void ModelReader::read_rotors(VehicleParameters& vehicle) const {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 
 namespace dodgesim {
 
@@ -14,6 +15,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kStepS = 1e-3;          // the Runge-Kutta error of a flight stays below 1 um
 constexpr double kAimToleranceM = 1e-5;  // at the aim point
 constexpr int kMaxAimIterations = 50;
+// Faster than hands and slingshots throw; drag coefficients hold well below the speed of sound.
+constexpr double kMostLaunchSpeedMps = 100;
 
 // Unit vector over the ground from the vehicle towards the launch point.
 Eigen::Vector3d launch_direction(const Throw& toss, double heading_rad) {
@@ -30,6 +33,16 @@ void check(const Throw& toss) {
         "A throw needs finite numbers, a positive speed_mps and distance_m and a "
         "launch time that is not negative.");
   }
+}
+
+void check_launch_speed(const Throw& toss, double speed_mps) {
+  if (speed_mps <= kMostLaunchSpeedMps) return;
+  throw ScenarioError(formatted(
+      "A throw over %.3g m at %.3g m/s would have to leave the hand at %.0f m/s, but %.0f is the "
+      "most: %s.",
+      toss.distance_m, toss.speed_mps, speed_mps, kMostLaunchSpeedMps,
+      toss.speed_mps < 3 ? "so slow a throw is a lob; raise throw.speed_mps"
+                         : "the air slows it down; reduce throw.distance_m"));
 }
 
 }  // namespace
@@ -84,7 +97,10 @@ BodyState solve_throw(const Throw& toss, const ObjectPhysics& object,
   for (int i = 0; i < kMaxAimIterations; ++i) {
     const Eigen::Vector3d error = miss(launch.v_W);
     if (!error.allFinite()) break;
-    if (error.norm() < kAimToleranceM) return launch;
+    if (error.norm() < kAimToleranceM) {
+      check_launch_speed(toss, launch.v_W.norm());
+      return launch;
+    }
     const double h = 1e-4 * launch.v_W.norm();
     Eigen::Matrix3d J;
     for (int k = 0; k < 3; ++k) {
@@ -95,8 +111,8 @@ BodyState solve_throw(const Throw& toss, const ObjectPhysics& object,
   }
   std::ostringstream message;
   message << "A throw over " << toss.distance_m << " m at " << toss.speed_mps
-          << " m/s is impossible, as the air drag of the object is too strong: raise "
-             "throw.speed_mps or reduce throw.distance_m.";
+          << " m/s is impossible, as the air drag of the object is too strong: reduce "
+             "throw.distance_m, or take a heavier object.";
   throw ScenarioError(message.str());
 }
 

@@ -58,9 +58,10 @@ std::pair<std::string, std::string> dodged_at_cap(const std::string& cap) {
 TEST(Documents, TheReadmeQuotesTheRangeCaps) {
   const auto [near, oracle_near] = dodged_at_cap("1_5m");
   const auto [far, oracle_far] = dodged_at_cap("3m");
-  EXPECT_THAT(readme(), HasSubstr("On 200 throws with the same range limit for both the pilot dodges " + near +
-                                  " where the oracle dodges " + oracle_near + " (1.5 m), and " +
-                                  far + " where it dodges " + oracle_far + " (3 m)"));
+  EXPECT_THAT(readme(),
+              HasSubstr("On 200 throws with the same range limit for both the pilot dodges " +
+                        near + " where the oracle dodges " + oracle_near + " (1.5 m), and " + far +
+                        " where it dodges " + oracle_far + " (3 m)"));
 }
 
 TEST(Documents, TheReadmeQuotesThePapersExperiments) {

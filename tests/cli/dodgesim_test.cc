@@ -127,7 +127,8 @@ TEST_F(DodgesimTest, TheDocumentationOfTheKeysIsUpToDate) {
   const std::size_t tables = readme.find("### Top level\n");
   ASSERT_NE(tables, std::string::npos);
   EXPECT_TRUE(readme.substr(tables) == dodgesim("explain --markdown").output)
-      << "Put what this prints in place of the tables at its end: build/dodgesim explain --markdown";
+      << "Put what this prints in place of the tables at its end: build/dodgesim explain "
+         "--markdown";
 }
 
 // Physics only, which costs next to nothing; the closed loop has tests of its own.

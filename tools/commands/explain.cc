@@ -22,7 +22,10 @@ void add_explain_command(CLI::App& program, int& exit_code) {
   CLI::Option* key = command->add_option(
       "key", arguments->key,
       "A key (throw.size_m, or size_m alone) or a group (throw); all when left out");
-  command->add_flag("--markdown", arguments->markdown, "Print all keys as the tables of scenarios/README.md")->excludes(key);
+  command
+      ->add_flag("--markdown", arguments->markdown,
+                 "Print all keys as the tables of scenarios/README.md")
+      ->excludes(key);
   command->footer(
       "Examples:\n"
       "  dodgesim explain throw                the keys of a throw\n"
