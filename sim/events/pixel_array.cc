@@ -375,9 +375,12 @@ void PixelArray::show(const Rect& region, const Picture& picture) {
   }
 }
 
-// A pixel that an object enters or leaves between two samples fires because of the object.
+// A pixel that an object enters or leaves between two samples fires because of the object; of two
+// objects, because of the one that enters.
 Cause PixelArray::cause_at(std::size_t index, const Picture& picture) const {
-  return shown_.empty() ? kCauseScene : std::max(shown_[index], picture.cause[index]);
+  if (shown_.empty()) return kCauseScene;
+  const Cause now = picture.cause[index];
+  return now != kCauseScene ? now : shown_[index];
 }
 
 PixelState PixelArray::state(std::size_t index) const {

@@ -133,7 +133,7 @@ void EventRig::draw_objects(Eye& eye, const Snapshot& snapshot, const Eigen::Iso
   const bool behind_static = farthest_m > eye.key.nearest_m(part);
   renderer_.draw_objects(snapshot, X_WC, part, behind_static, luminance.data(),
                          setup_.keep_causes ? object_ids_.data() : nullptr);
-  if (setup_.keep_causes) mark_objects(part);
+  if (setup_.keep_causes) mark_objects(part, snapshot, X_WC.translation());
 }
 
 void EventRig::clear_causes(const Rect& region) {
@@ -143,16 +143,24 @@ void EventRig::clear_causes(const Rect& region) {
   }
 }
 
-// What an object lights in part shows it, too: the pixels beside those whose centres it covers.
-void EventRig::mark_objects(const Rect& part) {
+// What an object lights in part shows it, too: the pixels beside those whose centres it covers. Of
+// several objects beside a pixel it is the nearest to the camera.
+void EventRig::mark_objects(const Rect& part, const Snapshot& snapshot,
+                            const Eigen::Vector3d& camera_W) {
   const std::ptrdiff_t width = setup_.intrinsics.width;
+  const auto distance_m = [&](std::int32_t id) {
+    return (snapshot.objects[static_cast<std::size_t>(id - 1)].p_W - camera_W).norm();
+  };
   for (int y = part.y0; y < part.y1; ++y) {
     for (int x = part.x0; x < part.x1; ++x) {
-      std::int32_t id = 0;
-      for (int v = std::max(y - 1, part.y0); v < std::min(y + 2, part.y1); ++v) {
-        const auto row = object_ids_.begin() + v * width;
-        id = std::max(
-            id, *std::max_element(row + std::max(x - 1, part.x0), row + std::min(x + 2, part.x1)));
+      std::int32_t id = object_ids_[static_cast<std::size_t>(y * width + x)];
+      const bool covered = id > 0;
+      for (int v = std::max(y - 1, part.y0); !covered && v < std::min(y + 2, part.y1); ++v) {
+        for (int u = std::max(x - 1, part.x0); u < std::min(x + 2, part.x1); ++u) {
+          const std::int32_t other = object_ids_[static_cast<std::size_t>(v * width + u)];
+          if (other < 1 || other == id) continue;
+          if (id < 1 || distance_m(other) < distance_m(id)) id = other;
+        }
       }
       cause_[static_cast<std::size_t>(y * width + x)] =
           id < 1 ? kCauseScene : static_cast<Cause>(std::min<int>(id, kCauseLastObject));

@@ -75,7 +75,7 @@ class EventRig {
                     const Rect& region, std::vector<float>& luminance);
   void flicker(TimeUs t_us, const Rect& region, std::vector<float>& luminance) const;
   void clear_causes(const Rect& region);
-  void mark_objects(const Rect& part);
+  void mark_objects(const Rect& part, const Snapshot& snapshot, const Eigen::Vector3d& camera_W);
   Picture picture(const std::vector<float>& luminance) const;
   void take_picture(Eye& eye, const Snapshot& snapshot);
   void take_region(Eye& eye, const Snapshot& snapshot, const Rect& region);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
 
 #include "sim/flight/setup.h"
@@ -87,6 +89,49 @@ TEST_F(CausesTest, DoNotChangeTheEvents) {
   setup_.keep_causes = false;
   EXPECT_TRUE(film({-4, 2, 0}, 1).empty());
   EXPECT_EQ(hash_, with);
+}
+
+// One ball passes in front of another.
+TEST(CausesOfSeveralObjects, DoNotDependOnTheirOrder) {
+  EventRigSetup setup;
+  setup.intrinsics = intrinsics(CameraSpec{});
+  setup.events = event_camera_preset("ideal");
+  setup.cameras = 1;
+  setup.keep_causes = true;
+  const auto film = [&](bool swapped) {
+    World world({scenario("{}").models_dir, "room", "qav_rxl", {{"ball", 0.2}, {"ball", 0.2}}});
+    world.reset({-2, 0, 2}, 0, Vector3d::Zero());
+    std::array<BodyState, 2> balls;  // the near one, then the far one
+    balls[0].p_W = {-0.6, 0.15, 2.05};
+    balls[0].v_W = {0, -4, 0};
+    balls[1].p_W = {0.2, -0.05, 2.1};
+    balls[1].v_W = {0, 3, 0};
+    if (swapped) std::swap(balls[0], balls[1]);
+    for (int i = 0; i < 2; ++i) world.launch(i, balls[static_cast<std::size_t>(i)]);
+    EventRig rig(world, setup);
+    rig.start();
+    std::vector<int> near;  // whether each event is the near ball's
+    Snapshot now = world.snapshot();
+    for (int tick = 1; tick <= 80; ++tick) {
+      Snapshot next = world.snapshot();
+      next.t_us = tick * kTickUs;
+      for (std::size_t i = 0; i < 2; ++i) {
+        next.objects[i].v_W = balls[i].v_W;
+        next.objects[i].p_W = balls[i].p_W + seconds(next.t_us) * balls[i].v_W;
+      }
+      rig.advance(now, next, [&](int, const Packet& packet) {
+        for (const Cause cause : packet.causes) {
+          near.push_back(cause == kCauseFirstObject + (swapped ? 1 : 0));
+        }
+      });
+      now = next;
+    }
+    return near;
+  };
+  const std::vector<int> near = film(false);
+  EXPECT_GT(std::count(near.begin(), near.end(), 1), 1000);
+  EXPECT_GT(std::count(near.begin(), near.end(), 0), 1000);
+  EXPECT_TRUE(near == film(true));
 }
 
 // Checks each cycle against the pilot's own counts.
