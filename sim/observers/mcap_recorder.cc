@@ -78,8 +78,8 @@ Json approach() {
 
 }  // namespace
 
-McapRecorder::McapRecorder(const std::string& path, const Intrinsics& intrinsics)
-    : writer_(path), intrinsics_(intrinsics) {
+McapRecorder::McapRecorder(const std::string& path, const Intrinsics& intrinsics, TimeUs pilot_us)
+    : writer_(path), intrinsics_(intrinsics), detections_(pilot_us) {
   add_topic("/tf", schema::frame_transforms());
   for (const char* part : {"room", "vehicle", "objects", "paths", "detections", "command"}) {
     add_topic(std::string("/scene/") + part, schema::scene_update());
@@ -152,6 +152,7 @@ void McapRecorder::on_tick(const World& world) {
     }
   }
   if (now_.t_us % kPathEveryUs == 0) write_paths();
+  detections_.deliver(now_.t_us, [this](const auto& found) { write_detections(found); });
 }
 
 void McapRecorder::show_launches(const World& world) {
@@ -261,8 +262,13 @@ void McapRecorder::on_events(int camera, const Packet& packet) {
 }
 
 void McapRecorder::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
-  Json entity = foxglove::entity(now_us, "world", "detections");
-  for (const dodge::Detection& detection : pilot.detections()) {
+  const auto found = pilot.detections();
+  detections_.push(now_us, {found.begin(), found.end()});
+}
+
+void McapRecorder::write_detections(const std::vector<dodge::Detection>& detections) {
+  Json entity = foxglove::entity(now_.t_us, "world", "detections");
+  for (const dodge::Detection& detection : detections) {
     const Eigen::Vector3d ray_W = detection.centre_W - now_.vehicle.p_W;
     const double size_m = detection.size_m;
     const double deep_m = size_m + 4 * detection.depth_sigma_m;
@@ -270,11 +276,12 @@ void McapRecorder::on_cycle(TimeUs now_us, const dodge::Pilot& pilot) {
     entity["spheres"].push_back(
         foxglove::ellipsoid(pose, Eigen::Vector3d::Constant(size_m), kDetection));
     entity["spheres"].push_back(foxglove::ellipsoid(pose, {deep_m, size_m, size_m}, kUncertainty));
-    if (detections_++ == 0) {
-      say(now_us, Level::kInfo, formatted("First detection, %.2f m deep.", detection.depth_m));
+    if (!detected_) {
+      say(now_.t_us, Level::kInfo, formatted("First detection, %.2f m deep.", detection.depth_m));
     }
+    detected_ = true;
   }
-  write("/scene/detections", now_us, foxglove::scene_update({entity}));
+  write("/scene/detections", now_.t_us, foxglove::scene_update({entity}));
 }
 
 void McapRecorder::on_velocity(TimeUs now_us, const dodge::VelocityCommand& command) {

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/bridge/delay_line.h"
 #include "sim/camera/camera.h"
 #include "sim/files/mcap_writer.h"
 #include "sim/flight/flight_observer.h"
@@ -28,7 +29,8 @@ namespace dodgesim {
 class McapRecorder : public FlightObserver {
  public:
   // All functions throw IoError when the file cannot be written.
-  McapRecorder(const std::string& path, const Intrinsics& intrinsics);
+  // pilot_us: how long after its cycle began the pilot gives out what it has detected.
+  McapRecorder(const std::string& path, const Intrinsics& intrinsics, TimeUs pilot_us);
 
   void on_tick(const World& world) override;
   void on_imu(const ImuReading& reading) override;
@@ -52,6 +54,7 @@ class McapRecorder : public FlightObserver {
   void write_approach();
   void write_paths();
   void write_images(TimeUs t_us);
+  void write_detections(const std::vector<dodge::Detection>& detections);
 
   McapWriter writer_;
   std::map<std::string, std::uint16_t> topics_;
@@ -64,7 +67,8 @@ class McapRecorder : public FlightObserver {
   bool begun_ = false;
   bool evading_ = false;
   bool landing_ = false;
-  int detections_ = 0;
+  DelayLine<std::vector<dodge::Detection>> detections_;  // until the pilot gives them out
+  bool detected_ = false;
 };
 
 }  // namespace dodgesim

@@ -199,7 +199,7 @@ class Onlookers {
       observers_.add(stages_.get());
     }
     if (!arguments.mcap.empty()) {
-      mcap_ = std::make_unique<McapRecorder>(arguments.mcap, camera);
+      mcap_ = std::make_unique<McapRecorder>(arguments.mcap, camera, scenario.delays.pilot_us());
       observers_.add(mcap_.get());
     }
     if (!arguments.picture.empty()) observers_.add(&poster_);
@@ -299,7 +299,7 @@ int replay(const ReplayArguments& arguments) {
   const Scenario scenario = case_of(campaign, arguments.throw_index).scenario;
   expect_models(campaign, scenario.pilot, directory, index);
   try_models({campaign});
-  if (scenario.pilot == kPluginPilot) try_plugin(scenario);
+  if (!campaign.plugin.file.empty() || scenario.pilot == kPluginPilot) try_plugin(campaign);
   expect_showable(scenario, arguments);
   const std::optional<ThrowResult> recorded =
       recorded_result(directory, index, arguments.throw_index);
@@ -380,7 +380,7 @@ void add_replay_command(CLI::App& program, int& exit_code) {
   command->footer(
       "Exit code 1 if the throw did not fly as recorded, bit for bit.\n\n"
       "Examples:\n"
-      "  dodgesim replay out/demo --throw 3 --video throw3.mp4 --slow 20\n"
+      "  dodgesim replay out/demo --throw 3 --video throw3.mp4 --slow 5\n"
       "  dodgesim replay out/demo --throw 3 --mcap throw3.mcap       look around in Foxglove\n"
       "  dodgesim replay out/demo --throw 3 --events top.h5          every event and its cause");
   command->callback([arguments, &exit_code] { exit_code = replay(*arguments); });

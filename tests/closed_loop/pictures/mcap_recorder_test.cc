@@ -63,7 +63,7 @@ class McapRecorderTest : public ::testing::Test {
  protected:
   std::string record(const Scenario& s) {
     const std::string path = directory_ / "throw.mcap";
-    McapRecorder recorder(path, intrinsics(s.sensors.camera));
+    McapRecorder recorder(path, intrinsics(s.sensors.camera), s.delays.pilot_us());
     result_ = fly_throw(s, 0, &recorder);
     recorder.finish(result_);
     return testing::contents(path);
@@ -152,10 +152,44 @@ TEST_F(McapRecorderTest, IsTheSameForTheSameThrow) {
   EXPECT_TRUE(record(scenario_) == record(scenario_));
 }
 
+// Plays a pilot that has detected something in its first cycle.
+class DetectingPilot : public dodge::Pilot {
+ public:
+  void add_events(int, std::span<const dodge::Event>) override {}
+  void add_imu(const dodge::ImuSample&) override {}
+  void add_state(const dodge::StateEstimate&) override {}
+  void set_goal(const dodge::Goal&) override {}
+  dodge::VelocityCommand update(dodge::TimeUs) override { return {}; }
+  std::span<const dodge::Detection> detections() const override { return found_; }
+  std::span<const dodge::Obstacle> obstacles() const override { return {}; }
+
+ private:
+  std::vector<dodge::Detection> found_ = std::vector<dodge::Detection>(1);
+};
+
+TEST_F(McapRecorderTest, ShowsDetectionsWhenThePilotGivesThemOut) {
+  const std::string path = directory_ / "late.mcap";
+  McapRecorder recorder(path, intrinsics(scenario_.sensors.camera), 20000);
+  World world({scenario_.models_dir, scenario_.room, scenario_.vehicle, {}});
+  const std::array<double, 4> thrust{2.45, 2.45, 2.45, 2.45};
+  while (world.snapshot().t_us < 50000) {
+    world.step(thrust);
+    recorder.on_tick(world);
+    const TimeUs now_us = world.snapshot().t_us;
+    if (now_us == 10000 || now_us == 40000) recorder.on_cycle(now_us, DetectingPilot());
+  }
+  recorder.finish({});
+  const McapReader reader(testing::contents(path));
+  ASSERT_EQ(reader.of("/scene/detections").size(), 1u);  // the second never came out
+  EXPECT_EQ(reader.of("/scene/detections").at(0).time_ns, 30'000'000u);
+  ASSERT_FALSE(reader.of("/log").empty());
+  EXPECT_EQ(reader.of("/log").at(0).time_ns, 30'000'000u);
+}
+
 // The test plays the event cameras, as the pilot needs none.
 TEST_F(McapRecorderTest, ShowsTheEventsOfTenMilliseconds) {
   const std::string path = directory_ / "eyes.mcap";
-  McapRecorder recorder(path, intrinsics(scenario_.sensors.camera));
+  McapRecorder recorder(path, intrinsics(scenario_.sensors.camera), 0);
   World world({scenario_.models_dir, scenario_.room, scenario_.vehicle, {}});
   const std::array<double, 4> thrust{2.45, 2.45, 2.45, 2.45};
   const std::vector<Event> on = {{9500, 100, 60, 1}}, off = {{15000, 7, 8, -1}};
