@@ -67,10 +67,10 @@ function fillCauses() {
     byId('causes').replaceChildren(empty('No throw hit, and nothing crashed.'));
     return;
   }
-  const most = Math.max(...rows.map((row) => row.of.length));
+  const losses = rows.reduce((sum, row) => sum + row.of.length, 0);
   byId('causes').replaceChildren(...rows.map(({cause, of}) => {
     const fill = make('div', {className: 'fill'});
-    fill.style.width = `${(100 * of.length) / most}%`;
+    fill.style.width = `${(100 * of.length) / losses}%`;
     const all = make('button', {type: 'button', textContent: cause});
     all.addEventListener('click', () => choose(cause));
     const some = of.slice(0, 16).map((i) => {
@@ -111,10 +111,10 @@ const kPage = 15;
 const kColumns = [
   ['throw', (i) => throws.number[i]],
   ['outcome', (i) => fateOf(i), 'text'],
-  ['size', (i) => number(throws.size[i])],
-  ['distance', (i) => number(throws.distance[i], 1)],
-  ['speed', (i) => number(throws.speed[i], 1)],
-  ['clearance', (i) => number(throws.clearance[i])],
+  ['size [m]', (i) => number(throws.size[i])],
+  ['distance [m]', (i) => number(throws.distance[i], 1)],
+  ['speed [m/s]', (i) => number(throws.speed[i], 1)],
+  ['clearance [m]', (i) => number(throws.clearance[i])],
   ['cause', (i) => (throws.cause[i] === kNone ? '' : data.causes[throws.cause[i]]), 'text'],
 ];
 

@@ -23,10 +23,10 @@ function storyOf(i) {
   if (throws.cause[i] !== kNone) parts.push(`, ${data.causes[throws.cause[i]]}`);
   if (Number.isFinite(throws.left[i])) {
     const left = throws.left[i];
-    parts.push(`. The evasive command came ${number(Math.abs(left), 3)} s ` +
-               `${left < 0 ? 'after' : 'before'} the contact without it; ` +
+    parts.push(`. The evasive command arrived ${number(Math.abs(left), 3)} s ` +
+               `${left < 0 ? 'after' : 'before'} the contact of a vehicle that stays; ` +
                (Number.isFinite(throws.needed[i]) ?
-                    `the vehicle needs ${number(throws.needed[i], 3)} s at least` :
+                    `the fastest evasion needs ${number(throws.needed[i], 3)} s` :
                     'no manoeuvre would have avoided it within 1 s'));
   }
   return parts.join('') + '.' + (error ? ` ${error}` : '');

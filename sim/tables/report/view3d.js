@@ -65,7 +65,7 @@ class View3d {
     });
     const reach = Math.max(...points.map((p) => Math.hypot(...p.map((x, i) => x - middle[i]))));
     this.camera.target = middle;
-    this.camera.distance = Math.max(1.5, 2.1 * reach);
+    this.camera.distance = Math.max(1.5, 2.6 * reach);
     this.floor = middle;
     // From behind the vehicle, to the side.
     const ahead = rotated(first.q, [1, 0, 0]);
