@@ -217,6 +217,25 @@ std::string hint_of_tab(std::string_view text) {
   return "";
 }
 
+// A quote that does not end takes all that follows into its value, but yaml-cpp notices the end of
+// the text only if no line break comes before it.
+void check_quotes(std::string_view text, Problems& problems, const Place& place) {
+  const std::size_t end = text.find_last_not_of("\r\n");
+  if (end == std::string_view::npos) return;
+  std::istringstream stream{std::string(text.substr(0, end + 1))};
+  YAML::Parser parser(stream);
+  Problems of_the_tree("");
+  TreeBuilder builder(of_the_tree, place);
+  try {
+    parser.HandleNextDocument(builder);
+  } catch (const Stop&) {
+    return;  // whatever is wrong is found again
+  } catch (const YAML::Exception& error) {
+    if (error.msg != YAML::ErrorMsg::EOF_IN_SCALAR) return;
+    problems.fail(place.at(error.mark), "A quote that was opened before this does not end.");
+  }
+}
+
 // The only document of the text.
 YamlNode parse_document(std::string_view text, Problems& problems, const Place& place) {
   if (text.size() > kMostBytes) {
@@ -228,6 +247,7 @@ YamlNode parse_document(std::string_view text, Problems& problems, const Place& 
   try {
     std::istringstream stream{std::string(text)};
     YAML::Parser parser(stream);
+    check_quotes(text, problems, place);
     TreeBuilder builder(problems, place);
     if (!parser.HandleNextDocument(builder)) {
       YamlNode nothing;

@@ -111,8 +111,8 @@ BodyState solve_throw(const Throw& toss, const ObjectPhysics& object,
   }
   std::ostringstream message;
   message << "A throw over " << toss.distance_m << " m at " << toss.speed_mps
-          << " m/s is impossible, as the air drag of the object is too strong: reduce "
-             "throw.distance_m, or take a heavier object.";
+          << " m/s is impossible, as the air drag of the object is too strong: raise "
+             "throw.speed_mps, reduce throw.distance_m or take a heavier object.";
   throw ScenarioError(message.str());
 }
 

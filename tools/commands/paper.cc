@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 
 #include "sim/base/error.h"
@@ -36,9 +37,14 @@ constexpr std::uint64_t kSeedStep = 1'000'000;
 // Moves the seed: all throws are new, and flights that shared their throws still do.
 void add_to_seed(const Setting& seed, const std::string& models_dir, PaperFlight& flight) {
   const std::uint64_t own = scenario_of(flight, models_dir).seed;
+  const std::uint64_t most = (std::numeric_limits<std::uint64_t>::max() - own) / kSeedStep;
   flight.settings.push_back(seed);
-  Setting& sum = flight.settings.back();
-  sum.value = std::to_string(own + kSeedStep * scenario_of(flight, models_dir).seed);
+  const std::uint64_t steps = scenario_of(flight, models_dir).seed;
+  if (steps > most) {
+    throw ScenarioError("--seed is " + std::to_string(steps) + ", but must be at most " +
+                        std::to_string(most) + ".");
+  }
+  flight.settings.back().value = std::to_string(own + kSeedStep * steps);
 }
 
 // The experiments as the command line wants them.

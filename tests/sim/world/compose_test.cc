@@ -306,6 +306,14 @@ TEST_F(OwnModels, AVehicleThatTheMixerWouldTakeForAnotherIsRefused) {
   EXPECT_THAT(with("0 0  0.012\"", "0 0  0.02\""), a_rotor);
   EXPECT_THAT(with("ctrlrange=\"0 9.5\"", "ctrlrange=\"0 3\""), a_rotor);
   EXPECT_THAT(with("ctrlrange=\"0 9.5\"", "ctrlrange=\"5 9.5\""), a_rotor);
+  EXPECT_THAT(
+      with("ctrlrange=\"0 9.5\"", "forcelimited=\"true\" forcerange=\"0 2\" ctrlrange=\"0 9.5\""),
+      a_rotor);
+  EXPECT_THAT(with("<motor name=\"rotor_0\"", "<general gainprm=\"0.5\" name=\"rotor_0\""),
+              a_rotor);
+  EXPECT_THAT(with("<motor name=\"rotor_3\"",
+                   "<general dyntype=\"filter\" dynprm=\"0.04\" name=\"rotor_3\""),
+              a_rotor);
   EXPECT_THAT(with("<freejoint name=\"vehicle\"/>", ""),
               HasSubstr("the body must have a free joint"));
   EXPECT_THAT(with("<motor name=\"rotor_0\"",
@@ -382,6 +390,10 @@ TEST(MjcfTest, NamesTheLineOfWhatIsWrong) {
   EXPECT_THAT(complaint("<a>\n<![CDATA[ ]]></a>"), HasSubstr("nothing else"));
   EXPECT_THAT(complaint("<!DOCTYPE a [<!ENTITY x 'y'>]>\n<a/>"), ::testing::StartsWith("test:1: "));
   EXPECT_THAT(complaint("<a x='1' x='2'/>"), HasSubstr("not valid XML"));
+  EXPECT_THAT(complaint(std::string("<a/>\0<b/>", 9)), HasSubstr("zero byte"));
+  std::string wide = "<a";
+  for (int i = 0; i <= 20000; ++i) wide += " a" + std::to_string(i) + "=''";
+  EXPECT_THAT(complaint(wide + "/>"), HasSubstr("more than 20000 attributes"));
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "<a>";
   EXPECT_THAT(complaint(deep), HasSubstr("DEPTH"));

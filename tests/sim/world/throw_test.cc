@@ -1,5 +1,6 @@
 #include "sim/world/throw.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -84,6 +85,19 @@ TEST(ThrowTest, TheFlightAgreesWithAFinerIndependentIntegration) {
     fly(kBall20cm, 1.0, p_W, v_W);
     // The independent integrator is of first order in the drag: its own error is below 0.1 mm.
     EXPECT_LT((p_W - fly_independently(kBall20cm, 1.0, state)).norm(), 1e-4);
+  }
+}
+
+TEST(ThrowTest, NoHandThrowsFasterThan100MetresASecond) {
+  Throw toss;
+  toss.distance_m = 3;
+  toss.speed_mps = 0.5;
+  const ObjectPhysics light{.mass_kg = 0.1, .drag_area_m2 = 0.2};  // falls slowly
+  try {
+    solve_throw(toss, light, Vector3d(0, 0, 2), 0);
+    ADD_FAILURE() << "accepted";
+  } catch (const ScenarioError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("raise throw.speed_mps"));
   }
 }
 
