@@ -47,7 +47,8 @@ struct ControllerSpec {
       "Low-pass of the velocity command while not evading, 0 for none; the stock stack's 0.8 s "
       "overshoots a goal by 0.4 m where 0.2 s overshoots by 0.15 m.");
     v("acceleration_limit_mps2", acceleration_limit_mps2, 0.1, 10000,
-      "Limit on how fast the filtered command changes: a level change of speed tilts the vehicle by 45 deg.");
+      "Limit on how fast the filtered command changes: a level change of speed tilts the vehicle "
+      "by 45 deg.");
     v("acceleration_feed_forward", acceleration_feed_forward,
       "Whether the filtered command's acceleration is fed forward; without it the velocity "
       "overshoots by half and the vehicle circles about its goal.");
