@@ -39,7 +39,10 @@ void validate(const ValidateArguments& arguments) {
   } else {
     std::cout << " in which nobody throws";
   }
-  if (!scenario.grid.empty()) std::cout << ", " << cell_count(scenario) << " cells";
+  if (!scenario.grid.empty()) {
+    const std::int64_t cells = cell_count(scenario);
+    std::cout << ", " << cells << (cells == 1 ? " cell" : " cells");
+  }
   if (!scenario.sweep.empty()) std::cout << ", " << sweep_count(scenario) << " values of the sweep";
   std::cout << ", " << pilots_of(scenario) << ".\n";
 }
