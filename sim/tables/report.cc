@@ -154,6 +154,7 @@ Json columns_of(const std::vector<ThrowResult>& results, const ReportAxes& axes)
   columns.add("heat_row", [&](const R& r) { return heat_place(axes.heat[0].of(r)); });
   columns.add("heat_column", [&](const R& r) { return heat_place(axes.heat[1].of(r)); });
   columns.add("cell", [&](const R& r) { return axes.cell_of(r); });
+  columns.add("objects", [](const R& r) { return static_cast<std::uint8_t>(r.objects); });
   columns.add("object", [&](const R& r) { return place(axes.object.of(r)); });
   columns.add("size", [](const R& r) { return number(r.size_m); });
   columns.add("distance", [](const R& r) { return number(r.distance_m); });

@@ -17,7 +17,8 @@ function storyOf(i) {
   const error = data.errors[throws.number[i]];
   if (has(i, 'failed')) return error || 'The simulation failed.';
   if (!has(i, 'thrown')) return fateOf(i);
-  const parts = [`${data.objects[throws.object[i]]} of ${number(throws.size[i])} m from ` +
+  const several = throws.objects[i] > 1 ? `${throws.objects[i]} objects, the first a ` : '';
+  const parts = [`${several}${data.objects[throws.object[i]]} of ${number(throws.size[i])} m from ` +
                  `${number(throws.distance[i], 1)} m at ${number(throws.speed[i], 1)} m/s: ` +
                  fateOf(i)];
   if (throws.cause[i] !== kNone) parts.push(`, ${data.causes[throws.cause[i]]}`);
