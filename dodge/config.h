@@ -61,7 +61,9 @@ struct Config {
     v("position", position, "Depth, size and position of obstacles, eqs. (7) to (12).");
     v("association", association, "Which detection belongs to which obstacle.");
     v("kalman", kalman, "Filter of an obstacle's position and velocity, eqs. (13) to (25).");
-    v("repulsive", repulsive, "Force away from obstacles, eqs. (26) to (33).");
+    v("repulsive", repulsive,
+      "Force away from obstacles, eqs. (26) to (33). With escape.law closest_approach, as of the "
+      "pilot dodgesim, it only says how long an obstacle is remembered.");
     v("attractive", attractive, "Force towards the goal, eqs. (35), (36).");
     v("escape", escape, "Escape by predicted closest approach, in place of the repulsive force.");
     v("velocity_limit", velocity_limit, "Limits of the commanded velocity, eq. (39).");
