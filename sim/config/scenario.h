@@ -84,8 +84,7 @@ struct MissionSpec {
       "Stay at start_m, or fly from there to goal_m or along waypoints_m.");
     v("start_m", start_m, -100, 100,
       "Where the vehicle starts, in world coordinates (z up). The ground of the room field is "
-      "seen, "
-      "by cameras and range sensor, as far as 60 m from the origin.");
+      "seen, by cameras and range sensor, as far as 60 m from the origin.");
     v("heading_deg", heading_deg, -180, 180,
       "Heading of the vehicle and its cameras: 0 along world x, positive to the left.");
     v("goal_m", goal_m, -100, 100, "Where to fly; required for the type goal.");

@@ -220,9 +220,9 @@ std::string hint_of_tab(std::string_view text) {
 // A quote that does not end takes all that follows into its value, but yaml-cpp notices the end of
 // the text only if no line break comes before it.
 void check_quotes(std::string_view text, Problems& problems, const Place& place) {
-  const std::size_t end = text.find_last_not_of("\r\n");
-  if (end == std::string_view::npos) return;
-  std::istringstream stream{std::string(text.substr(0, end + 1))};
+  const std::size_t size = text.find_last_not_of("\r\n") + 1;
+  if (size == text.size() || text.find_first_of("\"'") == std::string_view::npos) return;
+  std::istringstream stream{std::string(text.substr(0, size))};
   YAML::Parser parser(stream);
   Problems of_the_tree("");
   TreeBuilder builder(of_the_tree, place);
@@ -245,9 +245,9 @@ YamlNode parse_document(std::string_view text, Problems& problems, const Place& 
   }
   check_encoding(text, problems, place);
   try {
+    check_quotes(text, problems, place);
     std::istringstream stream{std::string(text)};
     YAML::Parser parser(stream);
-    check_quotes(text, problems, place);
     TreeBuilder builder(problems, place);
     if (!parser.HandleNextDocument(builder)) {
       YamlNode nothing;

@@ -148,20 +148,26 @@ void EventRig::clear_causes(const Rect& region) {
 void EventRig::mark_objects(const Rect& part, const Snapshot& snapshot,
                             const Eigen::Vector3d& camera_W) {
   const std::ptrdiff_t width = setup_.intrinsics.width;
+  const auto id_at = [&](int x, int y) {
+    return object_ids_[static_cast<std::size_t>(y * width + x)];
+  };
   const auto distance_m = [&](std::int32_t id) {
     return (snapshot.objects[static_cast<std::size_t>(id - 1)].p_W - camera_W).norm();
   };
+  const auto nearest_beside = [&](int x, int y) {
+    std::int32_t nearest = 0;
+    for (int v = std::max(y - 1, part.y0); v < std::min(y + 2, part.y1); ++v) {
+      for (int u = std::max(x - 1, part.x0); u < std::min(x + 2, part.x1); ++u) {
+        const std::int32_t id = id_at(u, v);
+        if (id < 1 || id == nearest) continue;
+        if (nearest == 0 || distance_m(id) < distance_m(nearest)) nearest = id;
+      }
+    }
+    return nearest;
+  };
   for (int y = part.y0; y < part.y1; ++y) {
     for (int x = part.x0; x < part.x1; ++x) {
-      std::int32_t id = object_ids_[static_cast<std::size_t>(y * width + x)];
-      const bool covered = id > 0;
-      for (int v = std::max(y - 1, part.y0); !covered && v < std::min(y + 2, part.y1); ++v) {
-        for (int u = std::max(x - 1, part.x0); u < std::min(x + 2, part.x1); ++u) {
-          const std::int32_t other = object_ids_[static_cast<std::size_t>(v * width + u)];
-          if (other < 1 || other == id) continue;
-          if (id < 1 || distance_m(other) < distance_m(id)) id = other;
-        }
-      }
+      const std::int32_t id = id_at(x, y) > 0 ? id_at(x, y) : nearest_beside(x, y);
       cause_[static_cast<std::size_t>(y * width + x)] =
           id < 1 ? kCauseScene : static_cast<Cause>(std::min<int>(id, kCauseLastObject));
     }

@@ -310,8 +310,6 @@ const BadScenario kBadScenarios[] = {
     {"LightForItsInertia", "vehicle_overrides: {mass_scale: 0.4}\n",
      "bad.yaml:1:33: vehicle_overrides.mass_scale is 0.4, but must be at least 0.6 of "
      "vehicle_overrides.inertia_scale, which is 1"},
-    {"QuoteWithoutEnd", "seed: 4\ndescription: \"what it is for\nthrow: {}\n",
-     "bad.yaml:3:10: A quote that was opened before this does not end."},
     {"NegativeMass", "vehicle_overrides: {mass_scale: -1}\n",
      "bad.yaml:1:33: vehicle_overrides.mass_scale is -1, but must be between 0.1 and 10."},
     {"CoreContradiction", "dodger: {position: {min_range_m: 2, max_range_m: 1}}\n",

@@ -30,6 +30,18 @@ TEST(ScenarioFile, AFileMustHaveANameThatACampaignCanHave) {
   EXPECT_THAT(error_of_file("a\xff.yaml"), HasSubstr("name, is not UTF-8 text."));
 }
 
+// yaml-cpp takes the rest of the file for the value.
+TEST(ScenarioFile, AQuoteThatDoesNotEndIsRefused) {
+  for (const std::string quote : {"\"", "'"}) {
+    for (const std::string end : {"\n", "\r\n", "\n\n", ""}) {
+      const std::string yaml = "seed: 4\ndescription: " + quote + "what it is for\nthrow: {}" + end;
+      EXPECT_THROW(parse_scenario(yaml, "test.yaml", ""), ScenarioError) << yaml;
+    }
+  }
+  const std::string whole = "description: \"it's\"\nname: 'a \"b\"'\n";
+  EXPECT_EQ(parse_scenario(whole, "test.yaml", "").description, "it's");
+}
+
 TEST(ScenarioFile, AMissingFileAndWhatIsNoFileAreRefused) {
   EXPECT_THROW(load_scenario("/no/such/file.yaml", ""), ScenarioError);
   EXPECT_THROW(load_scenario("/", ""), ScenarioError);
