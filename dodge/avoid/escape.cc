@@ -92,6 +92,11 @@ Vector3d upward_across(const Vector3d& along) {
   return up.norm() > kNoSpeedMps ? up.normalized() : along.unitOrthogonal();
 }
 
+bool contains(std::span<const TrackedObstacle> obstacles, int id) {
+  return std::any_of(obstacles.begin(), obstacles.end(),
+                     [&](const TrackedObstacle& tracked) { return tracked.obstacle.id == id; });
+}
+
 }  // namespace
 
 // In strips along the axis of the smaller standard deviation, each of which is exact.
@@ -121,10 +126,17 @@ double hit_probability(const Meeting& meeting) {
 EscapePlanner::EscapePlanner(const EscapeConfig& config, double speed_mps)
     : config_(config),
       speed_mps_(speed_mps),
-      lowest_z_(-std::sin(config.steepest_descent_deg * std::numbers::pi / 180)) {}
+      lowest_z_(-std::sin(config.steepest_descent_deg * std::numbers::pi / 180)) {
+  evaded_ids_.reserve(Tracker::kUsualObstacles);
+}
+
+bool EscapePlanner::has_evaded(int id) const {
+  return std::find(evaded_ids_.begin(), evaded_ids_.end(), id) != evaded_ids_.end();
+}
 
 bool EscapePlanner::is_thrown(const TrackedObstacle& tracked) const {
-  return tracked.confirmed && tracked.obstacle.v_WO.norm() >= config_.min_speed_mps;
+  if (!tracked.confirmed) return false;
+  return tracked.obstacle.v_WO.norm() >= config_.min_speed_mps || has_evaded(tracked.obstacle.id);
 }
 
 std::optional<Meeting> EscapePlanner::meeting(TimeUs now, const VehicleMotion& vehicle,
@@ -179,40 +191,56 @@ double EscapePlanner::clearance_in_sigmas(TimeUs now, const VehicleMotion& vehic
   return least;
 }
 
-std::optional<Vector3d> EscapePlanner::escape(TimeUs now, const VehicleMotion& vehicle,
-                                              const Intent& intent,
-                                              std::span<const TrackedObstacle> obstacles) {
-  double worst = 0;
-  Vector3d along_W = Vector3d::Zero();
+std::optional<EscapePlanner::Danger> EscapePlanner::greatest_danger(
+    TimeUs now, const VehicleMotion& vehicle, const Intent& intent,
+    std::span<const TrackedObstacle> obstacles) const {
+  std::optional<Danger> greatest;
   for (const TrackedObstacle& tracked : obstacles) {
     if (!is_thrown(tracked)) continue;
     const std::optional<Meeting> near = meeting(now, vehicle, intent, tracked);
     if (!near || near->time_s > config_.horizon_s) continue;
     const double probability = hit_probability(*near);
-    if (probability <= worst) continue;
-    worst = probability;
-    along_W = near->along_W;
+    if (greatest && probability <= greatest->probability) continue;
+    greatest = {tracked.obstacle.id, probability, near->along_W};
   }
-  evading_ = worst > 0 && worst >= (evading_ ? config_.keep_probability : config_.min_probability);
-  if (!evading_) return std::nullopt;
-  return speed_mps_ * best_direction(now, vehicle, along_W, obstacles);
+  return greatest;
 }
 
-// Of the directions across the line of flight of the obstacle that is the greatest danger.
+std::optional<Vector3d> EscapePlanner::escape(TimeUs now, const VehicleMotion& vehicle,
+                                              const Intent& intent,
+                                              std::span<const TrackedObstacle> obstacles) {
+  std::erase_if(evaded_ids_, [&](int id) { return !contains(obstacles, id); });
+  const std::optional<Danger> danger = greatest_danger(now, vehicle, intent, obstacles);
+  const double least = direction_W_ ? config_.keep_probability : config_.min_probability;
+  if (!danger || danger->probability <= 0 || danger->probability < least) {
+    direction_W_.reset();
+    return std::nullopt;
+  }
+  if (danger->probability >= config_.min_probability && !has_evaded(danger->id))
+    evaded_ids_.push_back(danger->id);
+  direction_W_ = best_direction(now, vehicle, danger->along_W, obstacles);
+  return speed_mps_ * *direction_W_;
+}
+
+// Of the directions across the line of flight of the obstacle that is the greatest danger, and the
+// one that the vehicle takes already: to turn round costs the time to tilt.
 Vector3d EscapePlanner::best_direction(TimeUs now, const VehicleMotion& vehicle,
                                        const Vector3d& along_W,
                                        std::span<const TrackedObstacle> obstacles) const {
+  const auto clearance = [&](const Vector3d& direction_W) {
+    const Intent escape{speed_mps_ * direction_W, std::nullopt};
+    return clearance_in_sigmas(now, vehicle, escape, obstacles);
+  };
   const Vector3d up = upward_across(along_W), left = up.cross(along_W);
-  Vector3d best_W = up;
-  double best = -kInfinity;
+  Vector3d best_W = direction_W_.value_or(up);
+  double best = direction_W_ ? clearance(best_W) + config_.turn_sigmas : -kInfinity;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2 * std::numbers::pi * i / kDirections;
     const Vector3d direction_W = std::cos(angle) * up + std::sin(angle) * left;
     if (direction_W.z() < lowest_z_) continue;
-    const Intent escape{speed_mps_ * direction_W, std::nullopt};
-    const double clearance = clearance_in_sigmas(now, vehicle, escape, obstacles);
-    if (clearance <= best) continue;
-    best = clearance;
+    const double sigmas = clearance(direction_W);
+    if (sigmas <= best) continue;
+    best = sigmas;
     best_W = direction_W;
   }
   return best_W;

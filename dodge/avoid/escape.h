@@ -1,12 +1,13 @@
 // Escape by predicted closest approach, an extension of the paper that takes the place of its
 // potential field: the vehicle evades what will probably hit it if it flies on, as soon as that is
-// known well enough, and in the direction in which it gets out of the way best.
+// known well enough, in the direction in which it gets out of the way best, and keeps to it.
 #pragma once
 
 #include <Eigen/Dense>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "dodge/avoid/repulsive_field.h"
 #include "dodge/detect/tracker.h"
@@ -24,6 +25,7 @@ struct EscapeConfig {
   double acceleration_mps2 = 20;
   double dead_time_s = 0.04;
   double tilt_time_s = 0.05;
+  double turn_sigmas = 1;
   double steepest_descent_deg = 15;
 
   template <class Visitor>
@@ -44,7 +46,8 @@ struct EscapeConfig {
       "and ever more vaguely.");
     v("min_speed_mps", min_speed_mps, 0.0, 100.0,
       "Obstacles slower than this in the world are not thrown: background that moves with the "
-      "vehicle's estimate.");
+      "vehicle's estimate. What once set off an escape may be slower, as a ball is where it "
+      "turns.");
     v("horizon_s", horizon_s, 0.1, 10.0, "How far ahead courses are predicted.");
     v("acceleration_mps2", acceleration_mps2, 0.1, 1000.0,
       "Acceleration of an escape, measured with the nominal vehicle and controller.");
@@ -52,6 +55,9 @@ struct EscapeConfig {
       "From a command to its thrust, without the time to tilt: delays and motors.");
     v("tilt_time_s", tilt_time_s, 0.0, 1.0,
       "Time to tilt for an escape to the side; an escape upward needs none.");
+    v("turn_sigmas", turn_sigmas, 0.0, 1000.0,
+      "An escape keeps its direction until another clears the obstacles by so many standard "
+      "deviations more: who plans anew in each cycle tilts to and fro, and moves nowhere.");
     v("steepest_descent_deg", steepest_descent_deg, 0.0, 90.0,
       "No escape goes down more steeply: thrust cannot push down, and there is the ground.");
   }
@@ -96,7 +102,17 @@ class EscapePlanner {
                                  const TrackedObstacle& obstacle) const;
 
  private:
+  struct Danger {
+    int id;              // of the obstacle
+    double probability;  // of a hit
+    Eigen::Vector3d along_W;
+  };
+
+  bool has_evaded(int id) const;
   bool is_thrown(const TrackedObstacle& tracked) const;
+  std::optional<Danger> greatest_danger(TimeUs now, const VehicleMotion& vehicle,
+                                        const Intent& intent,
+                                        std::span<const TrackedObstacle> obstacles) const;
   double clearance_in_sigmas(TimeUs now, const VehicleMotion& vehicle, const Intent& intent,
                              std::span<const TrackedObstacle> obstacles) const;
   Eigen::Vector3d best_direction(TimeUs now, const VehicleMotion& vehicle,
@@ -105,8 +121,9 @@ class EscapePlanner {
 
   EscapeConfig config_;
   double speed_mps_;
-  double lowest_z_;  // of an escape's unit direction
-  bool evading_ = false;
+  double lowest_z_;                             // of an escape's unit direction
+  std::vector<int> evaded_ids_;                 // of tracked obstacles that have set off an escape
+  std::optional<Eigen::Vector3d> direction_W_;  // of the escape under way
 };
 
 }  // namespace dodge

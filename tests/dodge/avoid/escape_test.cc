@@ -214,6 +214,52 @@ TEST(EscapePlanner, LeavesSlowThingsToTheGoal) {
   EXPECT_FALSE(escape_from({still}, at({0, 0, 2}, {1.5, 0, 0}), {{1.5, 0, 0}, std::nullopt}));
 }
 
+// Where a lob turns it is slower than background sometimes seems to be.
+TEST(EscapePlanner, EvadesOnWhatHasBecomeSlow) {
+  const auto lob = [](int id) {
+    TrackedObstacle lob = ball({0.5, 0, 2.2}, {0, 0, 2}, 0.35);
+    lob.obstacle.id = id;
+    return lob;
+  };
+  ASSERT_LT(lob(0).obstacle.v_WO.norm(), 2);
+  EscapeConfig config = closest_approach();
+  config.min_speed_mps = 2;
+  EscapePlanner planner(config, kSpeedMps);
+  const auto escape = [&](TrackedObstacle obstacle) {
+    return planner.escape(0, at({0, 0, 2}), {}, std::array{obstacle}).has_value();
+  };
+  EXPECT_FALSE(escape(lob(0)));
+  TrackedObstacle fast = ball({1, 0, 2}, {0, 0, 2}, 0.35);
+  EXPECT_TRUE(escape(fast));
+  EXPECT_TRUE(escape(lob(0)));
+  EXPECT_FALSE(escape(lob(1))) << "another obstacle";
+  EXPECT_FALSE(escape(lob(0))) << "it was gone; one of the same number is another";
+}
+
+TEST(EscapePlanner, KeepsToItsDirectionUntilAnotherIsClearlyBetter) {
+  EscapePlanner planner(closest_approach(), kSpeedMps);
+  const auto direction = [&](double aside_m, double velocity_sigma_mps) {
+    const std::array thrown = {ball({3, 0, 2}, {0, aside_m, 2.25}, 0.4, velocity_sigma_mps)};
+    return planner.escape(0, at({0, 0, 2}), {}, thrown)->normalized();
+  };
+  const Vector3d first_W = direction(0.05, 0.5);
+  EXPECT_LT(first_W.y(), -0.5);
+  EXPECT_EQ(direction(-0.05, 0.5), first_W) << "better by less than the estimate is uncertain";
+  EXPECT_GT(direction(-0.2, 0.05).y(), 0.5) << "what is known well is worth a turn";
+}
+
+TEST(EscapePlanner, PlansTheNextEscapeAnew) {
+  EscapePlanner planner(closest_approach(), kSpeedMps);
+  const auto escape = [&](double aside_m) {
+    const std::array thrown = {ball({3, 0, 2}, {0, aside_m, 2.25}, 0.4, 0.5)};
+    return planner.escape(0, at({0, 0, 2}), {}, thrown);
+  };
+  const Vector3d left = *escape(-0.05);
+  EXPECT_FALSE(planner.escape(0, at({0, 0, 2}), {}, {}));
+  EXPECT_LT(escape(0.05)->y(), 0);
+  EXPECT_GT(left.y(), 0);
+}
+
 TEST(EscapePlanner, WaitsUntilTheEstimateIsGoodEnough) {
   EXPECT_FALSE(escape_from({ball({3, 0, 1.5}, {0, 0, 2}, 0.5, 3)}));
   EXPECT_TRUE(escape_from({ball({3, 0, 1.5}, {0, 0, 2}, 0.5, 0.3)}));
