@@ -9,6 +9,7 @@
 #include "sim/render/context_lease.h"
 #include "sim/render/edge_smoother.h"
 #include "sim/render/gl_scene.h"
+#include "sim/render/mesh_painter.h"
 #include "sim/render/primitive_painter.h"
 #include "sim/render/scene_geometry.h"
 #include "sim/render/triangle_painter.h"
@@ -55,7 +56,6 @@ void set_state() {
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glActiveTexture(GL_TEXTURE0);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }
 
 template <class Part>
@@ -89,13 +89,11 @@ class LuminanceRenderer::Impl {
   Canvas& canvas(const Intrinsics& intrinsics);
   void bind(const Canvas& canvas, bool with_ids);
   void draw_static_triangles(Canvas& canvas, const Shot& shot, bool with_ids);
-  void put(const GlTexture& image, GLenum layout, const Rect& region, const float* values);
   void read(const Canvas& canvas, const Rect& region, const PaintedPicture& picture);
   bool mesh_flies(const Snapshot& snapshot) const;
   bool single_solid_flies(const Snapshot& snapshot) const;
   void clear(const Rect& region, const PaintedPicture& picture) const;
   void draw_static_depth(const Shot& shot, const PaintedPicture& picture);
-  void draw_meshes(const Shot& shot, const Snapshot& snapshot, const PaintedPicture& picture);
 
   Intrinsics intrinsics_;
   DepthRange depth_;
@@ -103,6 +101,7 @@ class LuminanceRenderer::Impl {
   ContextLease lease_;
   SceneTextures textures_;
   TrianglePainter triangles_;
+  std::optional<MeshPainter> meshes_;  // if any can fly
   PrimitivePainter primitives_;
   std::vector<std::unique_ptr<Canvas>> canvases_;
   std::vector<float> depth_image_;  // as large as the camera's
@@ -119,6 +118,7 @@ LuminanceRenderer::Impl::Impl(const mjModel& model, const std::vector<int>& obje
       depth_image_(static_cast<std::size_t>(intrinsics.width) *
                    static_cast<std::size_t>(intrinsics.height)) {
   set_state();
+  if (!scene_.moving_triangles.empty()) meshes_.emplace(triangles_);
 }
 
 LuminanceRenderer::Impl::Canvas& LuminanceRenderer::Impl::canvas(const Intrinsics& intrinsics) {
@@ -135,7 +135,6 @@ void LuminanceRenderer::Impl::bind(const Canvas& canvas, bool with_ids) {
                     (with_ids ? canvas.target.with_ids : canvas.target.without_ids).name());
   glViewport(0, 0, canvas.intrinsics.width, canvas.intrinsics.height);
   glPixelStorei(GL_PACK_ROW_LENGTH, canvas.intrinsics.width);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, canvas.intrinsics.width);
 }
 
 // With smoothed edges.
@@ -163,9 +162,9 @@ void LuminanceRenderer::Impl::render(const Snapshot& snapshot, const Eigen::Isom
   lease_.context().make_current();
   Canvas& view = canvas(intrinsics_);
   draw_static_triangles(view, shot, object_id != nullptr);
-  triangles_.draw_objects(shot, snapshot);
   const PaintedPicture picture = {luminance, depth_image_.data(), object_id};
   read(view, shot.region, picture);
+  if (mesh_flies(snapshot)) meshes_->paint(shot, snapshot, picture);
   primitives_.paint_all(shot, snapshot, picture);
 }
 
@@ -212,7 +211,10 @@ void LuminanceRenderer::Impl::draw_objects(const Snapshot& snapshot, const Eigen
   const PaintedPicture picture = {luminance, with_depth ? depth_image_.data() : nullptr, object_id};
   clear(shot.region, picture);
   if (behind_static) draw_static_depth(shot, picture);
-  if (meshes) draw_meshes(shot, snapshot, picture);
+  if (meshes) {
+    lease_.context().make_current();
+    meshes_->paint(shot, snapshot, picture);
+  }
   primitives_.paint_objects(shot, snapshot, picture);
 }
 
@@ -233,30 +235,6 @@ void LuminanceRenderer::Impl::draw_static_depth(const Shot& shot, const PaintedP
   triangles_.draw_static(shot);
   read_depth(shot.region, intrinsics_, picture.depth);
   primitives_.paint_static(shot, {nullptr, picture.depth, nullptr});
-}
-
-// Over what `picture` shows.
-void LuminanceRenderer::Impl::draw_meshes(const Shot& shot, const Snapshot& snapshot,
-                                          const PaintedPicture& picture) {
-  lease_.context().make_current();
-  Canvas& view = canvas(intrinsics_);
-  // llvmpipe rounds otherwise where it writes depth and no ids; who asks for ids must not matter.
-  bind(view, true);
-  set_scissor(shot.region);
-  constexpr GLint kStatic[4] = {0, 0, 0, 0};
-  glClearBufferiv(GL_COLOR, 1, kStatic);
-  put(view.target.luminance, GL_RED, shot.region, picture.luminance);
-  put(view.target.depth, GL_DEPTH_COMPONENT, shot.region, picture.depth);
-  triangles_.draw_objects(shot, snapshot);
-  read(view, shot.region, picture);
-}
-
-// Writes a region of an image of the camera's canvas.
-void LuminanceRenderer::Impl::put(const GlTexture& image, GLenum layout, const Rect& region,
-                                  const float* values) {
-  glBindTexture(GL_TEXTURE_2D, image.name());
-  glTexSubImage2D(GL_TEXTURE_2D, 0, region.x0, region.y0, region.x1 - region.x0,
-                  region.y1 - region.y0, layout, GL_FLOAT, values + offset_of(region, intrinsics_));
 }
 
 void LuminanceRenderer::Impl::read(const Canvas& canvas, const Rect& region,
