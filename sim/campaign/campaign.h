@@ -26,7 +26,7 @@ namespace dodgesim {
 struct CampaignOptions {
   std::filesystem::path out;
   int jobs = 1;
-  bool force = false;   // start anew, whatever is in `out`
+  bool force = false;   // start anew, whatever results are in `out`
   bool resume = false;  // fly what is missing in `out`
   Shard shard;
   WorkerLimits limits;

@@ -32,9 +32,10 @@ bool holds_anything(const fs::path& out) {
   return false;
 }
 
-[[noreturn]] void refuse_foreign(const fs::path& out) {
-  throw ScenarioError(out.string() +
-                      " is neither empty nor a campaign; choose another directory or add --force.");
+// Whoever forces a campaign to start anew may have mistaken the directory.
+void refuse_foreign(const fs::path& out) {
+  if (fs::exists(out / kJournalFile) || fs::exists(out / kScenarioFile)) return;
+  throw ScenarioError(out.string() + " is neither empty nor a campaign; choose another directory.");
 }
 
 [[noreturn]] void refuse_finished(const fs::path& out, const JournalIndex& index) {
@@ -68,8 +69,9 @@ DirectoryLock::DirectoryLock(const fs::path& out) {
 DirectoryLock::~DirectoryLock() { ::close(fd_); }
 
 void expect_free(const fs::path& out, bool force) {
-  if (force || !holds_anything(out)) return;
-  if (!fs::exists(out / kJournalFile)) refuse_foreign(out);
+  if (!holds_anything(out)) return;
+  refuse_foreign(out);
+  if (force) return;
   throw ScenarioError(out.string() +
                       " holds a campaign already; choose another directory, or add --force to "
                       "overwrite it.");
@@ -94,11 +96,13 @@ std::optional<JournalIndex> find_journal(const CampaignOptions& options,
                                          const CampaignIdentity& identity) {
   const fs::path& out = options.out;
   const fs::path journal = out / kJournalFile;
-  if (options.force || !holds_anything(out)) return std::nullopt;
+  if (!holds_anything(out)) return std::nullopt;
+  refuse_foreign(out);
+  if (options.force) return std::nullopt;
   if (!fs::exists(journal)) {
-    // Stopped before the first result.
-    if (options.resume && fs::exists(out / kScenarioFile)) return std::nullopt;
-    refuse_foreign(out);
+    if (options.resume) return std::nullopt;  // stopped before the first result
+    throw ScenarioError(out.string() + " holds a campaign without " + kJournalFile +
+                        "; choose another directory, or add --force to start anew.");
   }
   JournalIndex index = read_journal(journal);
   if (!options.resume) refuse_finished(out, index);

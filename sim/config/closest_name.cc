@@ -40,6 +40,13 @@ std::string closest_name(const std::string& word, const std::vector<std::string>
   return best;
 }
 
+std::string name_with(const std::string& word, const std::vector<std::string>& candidates) {
+  for (const std::string& candidate : candidates) {
+    if (("_" + candidate + "_").find("_" + word + "_") != std::string::npos) return candidate;
+  }
+  return "";
+}
+
 std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
 std::string closest_key(const std::string& word, const std::vector<std::string>& paths) {

@@ -11,6 +11,10 @@ namespace dodgesim {
 // recognised.
 std::string closest_name(const std::string& word, const std::vector<std::string>& candidates);
 
+// The first name in `candidates` of which `word` is one or several whole words, or empty:
+// launch_height_m for height.
+std::string name_with(const std::string& word, const std::vector<std::string>& candidates);
+
 // "size_m" of "throw.size_m".
 std::string last_part(const std::string& path);
 

@@ -141,10 +141,11 @@ TEST_F(CampaignTest, AScenarioErrorEndsTheCampaignAndNoWorkerSurvives) {
 
 TEST_F(CampaignTest, AFullDiskIsReportedAndNothingIsClaimed) {
   const fs::path out = root_ / "full";
-  fs::create_directories(out);
+  run_campaign(scenario_, options("full"), [&](int index) { return fly(index); });
   for (const char* name : {"throws.csv", "objects.csv", "detections.csv", "timing.csv", "table.md",
                            "table.csv", "manifest.json", "scenario.resolved.yaml"}) {
-    fs::remove(out / name);  // what the case before left
+    fs::remove(out / "manifest.json");
+    fs::remove(out / name);  // what the campaign or the case before left
     const fs::path link = out / (std::string(name) + ".partial");
     fs::create_symlink("/dev/full", link);
     CampaignOptions full = options("full");
@@ -180,8 +181,11 @@ TEST_F(CampaignTest, AnotherScenarioIsNotOverwrittenUnlessForced) {
 TEST_F(CampaignTest, ADirectoryOfSomethingElseIsLeftAlone) {
   fs::create_directories(root_ / "home");
   std::ofstream(root_ / "home" / "precious.txt") << "x";
-  EXPECT_THROW(run_campaign(scenario_, options("home"), [&](int i) { return fly(i); }),
-               ScenarioError);
+  CampaignOptions home = options("home");
+  for (const bool force : {false, true}) {
+    home.force = force;
+    EXPECT_THROW(run_campaign(scenario_, home, [&](int i) { return fly(i); }), ScenarioError);
+  }
   EXPECT_THROW(run_campaign(scenario_, options("home/precious.txt"), [&](int i) { return fly(i); }),
                IoError);
 }

@@ -119,6 +119,11 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:2:3: throw.sise_m is not a known key; did you mean throw.size_m?"},
     {"UnitForgotten", "throw:\n  distance: 3\n",
      "bad.yaml:2:3: throw.distance is not a known key; did you mean throw.distance_m?"},
+    {"WordOfAName", "throw:\n  height: 2\n",
+     "bad.yaml:2:3: throw.height is not a known key; did you mean throw.launch_height_m?"},
+    {"FurtherDown", "dodger: {max_range: 3}\n",
+     "bad.yaml:1:10: dodger.max_range is not a known key; did you mean "
+     "dodger.position.max_range_m?"},
     {"WrongPlace", "compute_us: 3\n",
      "bad.yaml:1:1: compute_us is not a known key; delays.compute_us is."},
     {"WrongPlaceOfTwo", "throw: {}\nspeed_mps: 5\n",
