@@ -17,7 +17,8 @@ constexpr int kSceneWidth = 640, kSceneHeight = 480;
 constexpr double kSceneDistanceM = 4.2;
 constexpr std::size_t kMaxTrail = 2000;
 constexpr TimeUs kTrailEveryUs = 4000;
-constexpr TimeUs kShownEveryUs = 40000;  // 25 pictures a second
+constexpr TimeUs kLongestShownUs = 4000;  // events that no others follow
+constexpr TimeUs kShownEveryUs = 40000;   // 25 pictures a second
 static_assert(Film::kSlowest * kTickUs <= kShownEveryUs);
 
 }  // namespace
@@ -41,7 +42,7 @@ Film::Film(const std::string& path, const Intrinsics& intrinsics, double slow)
       video_(place_.partial().string(), place_.path().string(), picture_.cols, picture_.rows,
              1e6 / (slow * static_cast<double>(picture_every_us_))) {
   // One by one: copies would share their pixels.
-  for (int i = 0; i < 2; ++i) eyes_.emplace_back(intrinsics.width, intrinsics.height);
+  for (int i = 0; i < 2; ++i) eyes_.push_back({EventPicture(intrinsics.width, intrinsics.height)});
 }
 
 void Film::on_tick(const World& world) {
@@ -51,11 +52,18 @@ void Film::on_tick(const World& world) {
   if (!scene_) scene_ = std::make_unique<ScenePictures>(world, kSceneWidth, kSceneHeight);
   compose(now);
   video_.write(picture_.data);
-  for (EventPicture& eye : eyes_) eye.clear();
+  for (Eye& eye : eyes_) {
+    eye.shown = true;
+    if (now.t_us - eye.last_packet_us >= kLongestShownUs) eye.picture.clear();
+  }
 }
 
 void Film::on_events(int camera, const Packet& packet) {
-  eyes_.at(static_cast<std::size_t>(camera)).add(packet.events);
+  Eye& eye = eyes_.at(static_cast<std::size_t>(camera));
+  if (eye.shown) eye.picture.clear();
+  eye.shown = false;
+  eye.last_packet_us = packet.end_us;
+  eye.picture.add(packet.events);
 }
 
 void Film::on_cycle(TimeUs /*now_us*/, const dodge::Pilot& pilot) {
@@ -81,7 +89,7 @@ void Film::compose(const Snapshot& snapshot) {
   const int width = picture_.cols - kSceneWidth, height = kSceneHeight / 2;
   for (int i = 0; i < 2; ++i) {
     cv::Mat3b eye;
-    cv::resize(eyes_[static_cast<std::size_t>(i)].image(), eye, {width, height}, 0, 0,
+    cv::resize(eyes_[static_cast<std::size_t>(i)].picture.image(), eye, {width, height}, 0, 0,
                cv::INTER_NEAREST);
     eye.copyTo(picture_(cv::Rect(kSceneWidth, i * height, width, height)));
   }

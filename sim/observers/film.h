@@ -15,7 +15,7 @@
 
 namespace dodgesim {
 
-// Events of one camera since the last picture, drawn over mid grey: ON white, OFF black.
+// Events of one camera, drawn over mid grey: ON white, OFF black.
 class EventPicture {
  public:
   EventPicture(int width, int height);
@@ -27,7 +27,8 @@ class EventPicture {
   cv::Mat3b image_;
 };
 
-// Writes the video: outside view on the left, the event pictures of the two cameras on the right.
+// Writes the video: outside view on the left, the event pictures of the two cameras on the right. A
+// picture between two packets of events shows those of the first.
 class Film : public FlightObserver {
  public:
   // How many times slower than real a flight may be shown: up to a picture a tick.
@@ -59,7 +60,13 @@ class Film : public FlightObserver {
   TimeUs picture_every_us_;  // of flight
   std::unique_ptr<ScenePictures> scene_;
   ChaseCamera chase_camera_;
-  std::vector<EventPicture> eyes_;
+  struct Eye {
+    EventPicture picture;
+    TimeUs last_packet_us = 0;
+    bool shown = false;  // in a picture of the video
+  };
+
+  std::vector<Eye> eyes_;
   std::vector<PictureDot> trail_;  // the newest
   bool evading_ = false;
   int detections_ = 0;

@@ -8,6 +8,7 @@
 #include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 #include "sim/files/png.h"
+#include "sim/world/vehicle_parameters.h"
 
 namespace dodgesim {
 
@@ -58,10 +59,11 @@ std::vector<cv::Mat3b> stage_panels(const dodge::Dodger& pilot, int camera, int 
       cv::line(found, corners[i], corners[(i + 1) % 4], {60, 60, 255}, 1, cv::LINE_AA);
     }
   }
-  return {
-      titled_panel(events, panel_width, "events"), titled_panel(count, panel_width, "compensated"),
-      titled_panel(rho, panel_width, "mean time stamp"),
-      titled_panel(cut, panel_width, "threshold"), titled_panel(found, panel_width, "obstacles")};
+  return {titled_panel(events, panel_width, "events"),
+          titled_panel(count, panel_width, "compensated"),
+          titled_panel(rho, panel_width, "mean time stamp: yellow is late"),
+          titled_panel(cut, panel_width, "threshold: purple is above"),
+          titled_panel(found, panel_width, "obstacles")};
 }
 
 StageFilm::StageFilm(std::string directory) : directory_(std::move(directory)) {
@@ -72,11 +74,16 @@ void StageFilm::on_tick(const World& world) { object_in_flight_ = world.snapshot
 
 void StageFilm::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
   if (!object_in_flight_) return;
+  const auto stamp_us = static_cast<double>(now_us);
   cv::Mat3b picture;
   for (int camera = 0; camera < 2; ++camera) {
     const int width = std::max(kLeastPanelWidth, dodger.stage_images(camera).events.cols);
-    const std::vector<cv::Mat3b> panels = stage_panels(dodger, camera, width);
+    std::vector<cv::Mat3b> panels = stage_panels(dodger, camera, width);
     if (panels.empty()) continue;  // mono
+    write_caption(panels[0],
+                  formatted("%s camera, %.3f s", kCameraNames[static_cast<std::size_t>(camera)],
+                            1e-6 * stamp_us),
+                  6, panels[0].rows - 8);
     cv::Mat3b row;
     cv::hconcat(panels, row);
     if (picture.empty()) {
@@ -85,8 +92,7 @@ void StageFilm::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
       cv::vconcat(picture, row, picture);
     }
   }
-  const auto stamp_us = static_cast<long long>(now_us);
-  write_file(directory_ + formatted("/stages_%09lld_us.png", stamp_us), png_of(picture));
+  write_file(directory_ + formatted("/stages_%09.0f_us.png", stamp_us), png_of(picture));
   ++pictures_;
 }
 

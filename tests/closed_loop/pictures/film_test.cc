@@ -93,8 +93,18 @@ TEST_F(FilmTest, ShowsTheTopCamerasEventsAboveThoseOfTheBottomOne) {
   EXPECT_EQ(film.picture()(60, 640 + 100), kWhite);
   EXPECT_EQ(film.picture()(240 + 180, 640 + 200), kBlack);
   EXPECT_EQ(film.picture()(240 + 60, 640 + 100), kGrey);
-  tick();  // each event is shown once
+  tick();
+  EXPECT_EQ(film.picture()(60, 640 + 100), kWhite) << "until there are others";
+  const std::vector<Event> next = {{2, 101, 60, 1}};
+  film.on_events(0, {2000, next});
+  tick();
   EXPECT_EQ(film.picture()(60, 640 + 100), kGrey);
+  EXPECT_EQ(film.picture()(60, 640 + 101), kWhite);
+  EXPECT_EQ(film.picture()(240 + 180, 640 + 200), kBlack) << "of the other camera";
+  film.on_events(0, {-4000, next});  // long ago
+  tick();
+  tick();
+  EXPECT_EQ(film.picture()(60, 640 + 101), kGrey);
 }
 
 TEST_F(FilmTest, AVideoThatCannotBeWrittenIsAnIoError) {
