@@ -165,6 +165,7 @@ TEST_F(ReportCommandTest, ASweepHasACurveWithItsBandForEachCellOfTheGrid) {
   EXPECT_EQ(count_of(dom, "class=\"band\""), 1 + 2) << "over the speed; over the sweep, by speed";
   EXPECT_THAT(dom, HasSubstr("speed 8 m/s</span>"));
   EXPECT_EQ(count_of(dom, "aria-label=\"delays.compute_us 30000, speed "), 2) << "the table's rows";
+  EXPECT_EQ(count_of(dom, "aria-label=\"delays.compute_us 30000, all\""), 1) << "their total";
   // Without --by the cells of the grid are told apart.
   EXPECT_THAT(dodgesim("table " + path("swept") + " --format csv").output,
               ::testing::StartsWith("delays.compute_us,throw.speed_mps,pilot,"));

@@ -54,14 +54,20 @@ function rateTable(keys, names, rows) {
 
 const cellText = (values) => values.map((v, k) => valueText(data.cells.keys[k], v)).join(', ');
 
-// The rows of a part of the sweep: one for each cell of the grid.
+// The rows of a part of the sweep: one for each cell of the grid, and one for all of them together.
 function cellRows(part) {
-  return data.cells.values.map((values, j) => ({
-    values, label: cellText(values), rate: (pilot) => pilot.by_cell[j],
+  const {keys, values} = data.cells;
+  const choosePart = () => chooseSection(data.sections.indexOf(part));
+  const together = {values: keys.map(() => 'all'), label: keys.length ? 'all' : '',
+                    rate: (pilot) => pilot.total, press: choosePart};
+  if (!keys.length) return [together];
+  const rows = values.map((cell, j) => ({
+    values: cell, label: cellText(cell), rate: (pilot) => pilot.by_cell[j],
     press: () => {
-      if (part !== section()) chooseSection(data.sections.indexOf(part));
-      chooseCell(cellText(values), (i) => throws.cell[i] === j);
+      if (part !== section()) choosePart();
+      chooseCell(cellText(cell), (i) => throws.cell[i] === j);
     }}));
+  return rows.length > 1 ? [...rows, together] : rows;
 }
 
 function fillCells() {
@@ -139,11 +145,9 @@ function fillSweep() {
                                                   sweepCharts(x)));
   const roles = ['flown', 'oracle', 'none']
       .filter((role) => data.sections.some((s) => pilotOf(s, role)));
-  const rows = data.sections.flatMap((part, k) => {
-    const inside = data.cells.keys.length ? cellRows(part) :
-        [{values: [], rate: (pilot) => pilot.total, press: () => chooseSection(k)}];
+  const rows = data.sections.flatMap((part) => {
     const pilots = roles.map((role) => pilotOf(part, role));
-    return inside.map((row) => ({
+    return cellRows(part).map((row) => ({
       ...row, label: [part.label, row.label].filter(Boolean).join(', '),
       values: [...part.values, ...row.values],
       rates: pilots.map((pilot) => pilot && row.rate(pilot))}));
