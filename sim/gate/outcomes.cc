@@ -190,6 +190,10 @@ CampaignTables read_tables(const fs::path& directory) {
     throw IoError(directory.string() + " is not finished, so it has no throws.csv: the same run " +
                   "with --resume flies what is missing.");
   }
+  if (!fs::exists(throws)) {
+    throw IoError(throws.string() + " is missing; a campaign is named by the directory that " +
+                  "`dodgesim run --out DIR` wrote.");
+  }
   CampaignTables tables{CsvTable(throws)};
   const fs::path objects = directory / kObjectsFile;
   if (fs::exists(objects)) tables.objects.emplace(objects);

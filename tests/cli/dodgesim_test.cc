@@ -206,7 +206,17 @@ TEST_F(DodgesimTest, ReportsOutputThatCannotBeWritten) {
       dodgesim("run " + (kSource / "scenarios/ci.yaml").string() + " --out /dev/null/x");
   EXPECT_EQ(no_directory.exit_code, 4) << no_directory.output;
   EXPECT_THAT(no_directory.output, HasSubstr("/dev/null/x could not be created"));
-  EXPECT_EQ(dodgesim("replay " + root_.string() + " --throw 0").exit_code, 2);
+}
+
+TEST_F(DodgesimTest, WhatReadsACampaignSaysWhatNamesOne) {
+  const std::string nothing = root_.string();
+  for (const std::string& command : {"replay " + nothing + " --throw 0", "table " + nothing,
+                                     "compare " + nothing + " " + nothing}) {
+    const Outcome outcome = dodgesim(command);
+    EXPECT_EQ(outcome.exit_code, 4) << command;
+    EXPECT_THAT(outcome.output, HasSubstr("a campaign is named by the directory that "
+                                          "`dodgesim run --out DIR` wrote."));
+  }
 }
 
 TEST_F(DodgesimTest, ReportsPathsThatCannotBeUsed) {

@@ -290,12 +290,12 @@ void expect_showable(const Scenario& scenario, const ReplayArguments& arguments)
 
 int replay(const ReplayArguments& arguments) {
   const std::string& directory = arguments.directory;
+  const JournalIndex index = read_journal(std::filesystem::path(directory) / kJournalFile);
   const Scenario campaign = with_plugin(
       load_scenario(directory + "/" + kScenarioFile, arguments.models_dir), arguments.plugin);
   if (arguments.throw_index >= throw_count(campaign)) {
     throw ScenarioError(directory + " has no throw " + std::to_string(arguments.throw_index) + ".");
   }
-  const JournalIndex index = read_journal(std::filesystem::path(directory) / kJournalFile);
   const Scenario scenario = case_of(campaign, arguments.throw_index).scenario;
   expect_models(campaign, scenario.pilot, directory, index);
   try_models({campaign});
