@@ -46,7 +46,7 @@ struct CampaignSummary {
   std::vector<ThrowResult> results;  // in throw order, without their detections
   int wanted = 0;                    // throws of the shard
   int missing = 0;                   // of these, not flown yet because somebody stopped it
-  std::string table;                 // Markdown
+  std::string table;                 // Markdown: Tables::overview
   int errors = 0;                    // throws of which a flight failed
   EventTruthSums truth;              // of all throws, when their results have it
   double wall_s = 0;                 // of this run, from its first throw's begin to the tables

@@ -116,7 +116,7 @@ void write_result_files(const fs::path& out, const Scenario& scenario, const Jou
   LoadedCampaign campaign =
       campaign_of(scenario, index.identity.program, std::move(summary.results));
   const Tables tables = make_tables(campaign);
-  summary.table = tables.markdown;
+  summary.table = tables.overview;
   rows.commit();
   write_file(out / kTableFile, tables.markdown);
   write_file(out / kTableCsvFile, tables.csv);

@@ -263,32 +263,40 @@ std::string markdown_of(const Part& part, const TableAxes& axes, const Statistic
   return text + asides(part);
 }
 
-}  // namespace
-
-Tables make_tables(const LoadedCampaign& campaign) {
+std::string head_of(const LoadedCampaign& campaign) {
   const std::vector<ThrowResult>& results = campaign.results;
-  Tables tables;
   const bool thrown = std::ranges::any_of(results, &ThrowResult::thrown);
-  tables.markdown =
+  std::string text =
       "# " + markdown_escaped(campaign.scenario.name) + "\n\n" +
       count_text(static_cast<std::int64_t>(results.size()), thrown ? "throw" : "flight") + ", " +
       pilots_of(campaign.scenario) + ".";
   if (thrown) {
-    tables.markdown +=
+    text +=
         " Cells: dodged / would have hit (rate, 95 % Wilson interval); for the "
         "pilot none: would have hit / throws.";
   }
-  tables.markdown += "\n\n";
+  text += "\n\n";
   const int planned = throw_count(campaign.scenario);
   if (static_cast<int>(results.size()) < planned && !campaign.ended_early()) {
-    tables.markdown += "Not all of the scenario's " + std::to_string(planned) +
-                       ": a shard, or a campaign that was stopped.\n\n";
+    text += "Not all of the scenario's " + std::to_string(planned) +
+            ": a shard, or a campaign that was stopped.\n\n";
   }
-  if (campaign.stop) tables.markdown += campaign.stop->text() + "\n\n";
+  if (campaign.stop) text += campaign.stop->text() + "\n\n";
+  return text;
+}
+
+}  // namespace
+
+Tables make_tables(const LoadedCampaign& campaign) {
+  const std::vector<ThrowResult>& results = campaign.results;
   const TableAxes axes = {Axis("size_m", results), Axis("distance_m", results),
                           Axis("speed_mps", results), grid_axes(results)};
+  const std::vector<Part> parts = parts_of(campaign);
+  const std::string head = head_of(campaign);
+  Tables tables;
+  tables.markdown = head;
   StatisticsTable all;
-  for (const Part& part : parts_of(campaign)) {
+  for (const Part& part : parts) {
     const StatisticsTable table = all_cells(part, axes);
     tables.markdown += markdown_of(part, axes, table);
     StatisticsTable swept = of_sweep(part, table);
@@ -296,6 +304,12 @@ Tables make_tables(const LoadedCampaign& campaign) {
     std::move(swept.rows.begin(), swept.rows.end(), std::back_inserter(all.rows));
   }
   tables.csv = to_csv(all);
+  if (parts.size() == 1) {
+    tables.overview = tables.markdown;
+  } else {
+    tables.overview = head + rates_to_markdown(group_by(parts, axes.grid)) +
+                      "\ntable.md has more of each value of the sweep.\n\n";
+  }
   return tables;
 }
 

@@ -9,7 +9,8 @@ namespace dodgesim {
 
 struct Tables {
   std::string markdown;
-  std::string csv;  // to_csv() of statistics_table.h by size, distance, both, speed and cell
+  std::string overview;  // the same, but of a sweep the rates of its cells alone
+  std::string csv;       // to_csv() of statistics_table.h by size, distance, both, speed and cell
 };
 
 // Values of the sweep stand apart.

@@ -9,6 +9,7 @@ namespace dodgesim {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 ThrowResult throw_with(int index, const FlightResult& pilot, const FlightResult& none,
                        const FlightResult& oracle) {
@@ -179,6 +180,21 @@ TEST(Tables, AThrowThatNobodyCouldFlyIsNamedOnceAndInNoRate) {
                         "rate counts:\n\n- throw 0: It starts inside another.\n- throw 1: It "
                         "starts inside another.\n"));
   EXPECT_THAT(made.csv, HasSubstr("all,all,all,none,1,1,0,"));
+}
+
+TEST(Tables, AnOverviewOfASweepHasOneLineForEachValueInPlaceOfItsTables) {
+  std::vector<ThrowResult> results = {throw_with(0, flown(false), flown(true), flown(false)),
+                                      throw_with(1, flown(true), flown(true), flown(false))};
+  EXPECT_EQ(tables(results).overview, tables(results).markdown) << "no sweep";
+  for (std::size_t i = 0; i < 2; ++i) {
+    results[i].sweep = static_cast<int>(i);
+    results[i].sweep_values = {{"delays.compute_us", i == 0 ? "0" : "3500"}};
+  }
+  const Tables swept = tables(results);
+  EXPECT_THAT(swept.markdown, HasSubstr("## By size and distance"));
+  EXPECT_THAT(swept.overview, Not(HasSubstr("##")));
+  EXPECT_THAT(swept.overview, HasSubstr("\n| 0 | 1 / 1 ("));
+  EXPECT_THAT(swept.overview, HasSubstr("\n| 3500 | 0 / 1 ("));
 }
 
 TEST(Tables, ShowTheNameAsItIs) {
