@@ -216,8 +216,9 @@ std::optional<Vector3d> EscapePlanner::escape(TimeUs now, const VehicleMotion& v
     direction_W_.reset();
     return std::nullopt;
   }
-  if (danger->probability >= config_.min_probability && !has_evaded(danger->id))
+  if (danger->probability >= config_.min_probability && !has_evaded(danger->id)) {
     evaded_ids_.push_back(danger->id);
+  }
   direction_W_ = best_direction(now, vehicle, danger->along_W, obstacles);
   return speed_mps_ * *direction_W_;
 }

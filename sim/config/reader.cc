@@ -79,8 +79,9 @@ std::string Reader::hint(const std::string& unknown_key) const {
     if (last_part(path) == unknown_key) elsewhere.push_back(path);
     if (path.starts_with(full(""))) below.push_back(path);
   }
-  if (!elsewhere.empty())
+  if (!elsewhere.empty()) {
     return "; " + joined(elsewhere, {}, " and ") + (elsewhere.size() == 1 ? " is." : " are.");
+  }
   const std::string near = closest_name(unknown_key, known_);
   if (!near.empty()) return meant(full(near));
   const std::string deeper = closest_key(unknown_key, below);

@@ -304,7 +304,7 @@ Tables make_tables(const LoadedCampaign& campaign) {
     std::move(swept.rows.begin(), swept.rows.end(), std::back_inserter(all.rows));
   }
   tables.csv = to_csv(all);
-  if (parts.size() == 1) {
+  if (parts.size() <= 1) {
     tables.overview = tables.markdown;
   } else {
     tables.overview = head + rates_to_markdown(group_by(parts, axes.grid)) +
