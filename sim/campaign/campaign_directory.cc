@@ -32,10 +32,18 @@ bool holds_anything(const fs::path& out) {
   return false;
 }
 
-// Whoever forces a campaign to start anew may have mistaken the directory.
-void refuse_foreign(const fs::path& out) {
+// A directory with other files may take a campaign beside them (--force), but in place of none.
+void refuse_foreign(const fs::path& out, bool force) {
   if (fs::exists(out / kJournalFile) || fs::exists(out / kScenarioFile)) return;
-  throw ScenarioError(out.string() + " is neither empty nor a campaign; choose another directory.");
+  if (!force) {
+    throw ScenarioError(
+        out.string() +
+        " is neither empty nor a campaign; choose another directory or add --force.");
+  }
+  const fs::path file = any_result_file(out);
+  if (file.empty()) return;
+  throw ScenarioError(file.string() +
+                      " is of no campaign that is there; choose another directory.");
 }
 
 [[noreturn]] void refuse_finished(const fs::path& out, const JournalIndex& index) {
@@ -70,7 +78,7 @@ DirectoryLock::~DirectoryLock() { ::close(fd_); }
 
 void expect_free(const fs::path& out, bool force) {
   if (!holds_anything(out)) return;
-  refuse_foreign(out);
+  refuse_foreign(out, force);
   if (force) return;
   throw ScenarioError(out.string() +
                       " holds a campaign already; choose another directory, or add --force to "
@@ -97,7 +105,7 @@ std::optional<JournalIndex> find_journal(const CampaignOptions& options,
   const fs::path& out = options.out;
   const fs::path journal = out / kJournalFile;
   if (!holds_anything(out)) return std::nullopt;
-  refuse_foreign(out);
+  refuse_foreign(out, options.force);
   if (options.force) return std::nullopt;
   if (!fs::exists(journal)) {
     if (options.resume) return std::nullopt;  // stopped before the first result

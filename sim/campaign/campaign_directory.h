@@ -23,11 +23,13 @@ class DirectoryLock {
   int fd_ = -1;
 };
 
-// Throws ScenarioError if a new campaign would overwrite one, unless `force`, or anything else.
+// Throws ScenarioError if a new campaign would overwrite one or stand beside other files, unless
+// `force`; or if it would overwrite other files.
 void expect_free(const std::filesystem::path& out, bool force);
 
 // The journal to go on with; nothing for a new campaign. Throws ScenarioError if `options` do not
-// say to overwrite or go on with what is there, it is of another campaign or of none; IoError.
+// say to overwrite or go on with what is there, or it is of another campaign, or if other files
+// would be overwritten; IoError.
 std::optional<JournalIndex> find_journal(const CampaignOptions& options,
                                          const CampaignIdentity& identity);
 

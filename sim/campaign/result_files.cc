@@ -70,6 +70,13 @@ bool any_error(const ThrowResult& result) {
 
 }  // namespace
 
+fs::path any_result_file(const fs::path& out) {
+  for (const char* name : kResultFiles) {
+    if (fs::exists(out / name)) return out / name;
+  }
+  return {};
+}
+
 void remove_result_files(const fs::path& out) {
   std::error_code error;
   for (const char* name : kResultFiles) {

@@ -8,6 +8,8 @@
 
 namespace dodgesim {
 
+// One of them that is there; empty if there is none.
+std::filesystem::path any_result_file(const std::filesystem::path& out);
 // Removes them: what an earlier run has left must not stand beside another journal.
 void remove_result_files(const std::filesystem::path& out);
 

@@ -53,9 +53,10 @@ std::string closest_key(const std::string& word, const std::vector<std::string>&
   for (const std::string& path : paths) {
     if (last_part(path) == word) return path;
   }
-  const std::string near = closest_name(word, paths);
+  std::string near = closest_name(word, paths);
   if (!near.empty()) return near;
   std::vector<std::string> last_parts;
+  last_parts.reserve(paths.size());
   for (const std::string& path : paths) last_parts.push_back(last_part(path));
   const std::string part = closest_name(word, last_parts);
   return part.empty() ? "" : closest_key(part, paths);

@@ -169,8 +169,11 @@ TEST_F(ScenarioCommandTest, ASweepFliesTheSameThrowsAndItsTablesStayApart) {
       dodgesim("sweep " + path("s.yaml") + " -j 2 --out " + path("swept") +
                " --set grid.size_m=[0.1,0.2] --over controller.velocity_gain_xy_1ps=2,4");
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  EXPECT_THAT(run.output, AllOf(HasSubstr("# controller.velocity_gain_xy_1ps 2\n"),
-                                HasSubstr("# controller.velocity_gain_xy_1ps 4\n")));
+  EXPECT_THAT(run.output, AllOf(HasSubstr("\n| 2 | 0.1 | "), HasSubstr("\n| 4 | all | "),
+                                HasSubstr("table.md has more")));
+  EXPECT_THAT(contents("swept/table.md"),
+              AllOf(HasSubstr("# controller.velocity_gain_xy_1ps 2\n"),
+                    HasSubstr("# controller.velocity_gain_xy_1ps 4\n")));
   const auto sweep = column("swept/throws.csv", "sweep");
   EXPECT_EQ(sweep, (std::vector<std::string>{"0", "0", "0", "0", "1", "1", "1", "1"}));
   EXPECT_EQ(column("swept/throws.csv", "cell"),

@@ -181,11 +181,19 @@ TEST_F(CampaignTest, AnotherScenarioIsNotOverwrittenUnlessForced) {
 TEST_F(CampaignTest, ADirectoryOfSomethingElseIsLeftAlone) {
   fs::create_directories(root_ / "home");
   std::ofstream(root_ / "home" / "precious.txt") << "x";
-  CampaignOptions home = options("home");
-  for (const bool force : {false, true}) {
+  const auto fly_home = [&](bool force) {
+    CampaignOptions home = options("home");
     home.force = force;
-    EXPECT_THROW(run_campaign(scenario_, home, [&](int i) { return fly(i); }), ScenarioError);
-  }
+    run_campaign(scenario_, home, [&](int i) { return fly(i); });
+  };
+  EXPECT_THROW(fly_home(false), ScenarioError);
+  std::ofstream(root_ / "home" / "throws.csv") << "precious, too";
+  EXPECT_THROW(fly_home(false), ScenarioError);
+  EXPECT_THROW(fly_home(true), ScenarioError);
+  EXPECT_EQ(read(root_ / "home" / "throws.csv"), "precious, too");
+  fs::remove(root_ / "home" / "throws.csv");
+  EXPECT_NO_THROW(fly_home(true)) << "beside other files, as shards are";
+  EXPECT_EQ(read(root_ / "home" / "precious.txt"), "x");
   EXPECT_THROW(run_campaign(scenario_, options("home/precious.txt"), [&](int i) { return fly(i); }),
                IoError);
 }
