@@ -225,7 +225,7 @@ TEST(EscapePlanner, EvadesOnWhatHasBecomeSlow) {
   EscapeConfig config = closest_approach();
   config.min_speed_mps = 2;
   EscapePlanner planner(config, kSpeedMps);
-  const auto escape = [&](TrackedObstacle obstacle) {
+  const auto escape = [&](const TrackedObstacle& obstacle) {
     return planner.escape(0, at({0, 0, 2}), {}, std::array{obstacle}).has_value();
   };
   EXPECT_FALSE(escape(lob(0)));
