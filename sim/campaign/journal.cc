@@ -12,6 +12,7 @@
 
 #include "sim/base/descriptor.h"
 #include "sim/base/error.h"
+#include "sim/campaign/result_files.h"
 #include "sim/campaign/wire.h"
 #include "sim/files/staged_file.h"
 
@@ -98,8 +99,7 @@ class RecordReader {
   [[noreturn]] void fail_to_open(int error) const {
     const bool nothing = error == ENOENT || error == ENOTDIR;
     fail(std::string("could not be opened: ") + std::strerror(error) +
-         (nothing ? "; a campaign is named by the directory that `dodgesim run --out DIR` wrote"
-                  : ""));
+         (nothing ? std::string("; ") + kWhatNamesACampaign : ""));
   }
 
   // Whether this is the header of a frame that ends within `room` bytes from its beginning.

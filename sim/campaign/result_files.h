@@ -25,6 +25,10 @@ void expect_no_campaign(const std::filesystem::path& out);
 // Whether a file of that name belongs to a campaign in the same directory.
 bool belongs_to_campaign(const std::filesystem::path& file);
 
+// What to say of a directory without one.
+inline constexpr const char* kWhatNamesACampaign =
+    "a campaign is named by the directory that `dodgesim run --out DIR` wrote";
+
 inline constexpr const char* kJournalFile = "results.bin";
 inline constexpr const char* kScenarioFile = "scenario.resolved.yaml";
 inline constexpr const char* kManifestFile = "manifest.json";

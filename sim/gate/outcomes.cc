@@ -191,8 +191,7 @@ CampaignTables read_tables(const fs::path& directory) {
                   "with --resume flies what is missing.");
   }
   if (!fs::exists(throws)) {
-    throw IoError(throws.string() + " is missing; a campaign is named by the directory that " +
-                  "`dodgesim run --out DIR` wrote.");
+    throw IoError(throws.string() + " is missing; " + kWhatNamesACampaign + ".");
   }
   CampaignTables tables{CsvTable(throws)};
   const fs::path objects = directory / kObjectsFile;

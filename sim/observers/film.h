@@ -52,6 +52,12 @@ class Film : public FlightObserver {
   const cv::Mat3b& picture() const { return picture_; }
 
  private:
+  struct Eye {
+    EventPicture picture;
+    TimeUs last_packet_us = 0;
+    bool shown = false;  // in a picture of the video
+  };
+
   void extend_trail(const Snapshot& now);
   void compose(const Snapshot& snapshot);
   void caption(const Snapshot& snapshot);
@@ -60,12 +66,6 @@ class Film : public FlightObserver {
   TimeUs picture_every_us_;  // of flight
   std::unique_ptr<ScenePictures> scene_;
   ChaseCamera chase_camera_;
-  struct Eye {
-    EventPicture picture;
-    TimeUs last_packet_us = 0;
-    bool shown = false;  // in a picture of the video
-  };
-
   std::vector<Eye> eyes_;
   std::vector<PictureDot> trail_;  // the newest
   bool evading_ = false;
