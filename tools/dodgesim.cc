@@ -89,7 +89,9 @@ int run_program(int argc, char** argv) {
       "  dodgesim explain throw                                   what can be thrown, and how\n"
       "  dodgesim validate mine.yaml                              every mistake, with its line\n"
       "Your own video:\n"
-      "  dodgesim emulate v.npy --timestamps t.npy --camera ideal --out events.h5\n\n"
+      "  dodgesim emulate v.npy --timestamps t.npy --camera ideal --out events.h5\n"
+      "Your own recording:\n"
+      "  dodgesim detect events.h5 --calibration camera.yaml --imu imu.csv --out out/detect\n\n"
       "Exit codes: 0 ok, 1 not as it should be (below the baseline, not as recorded, a check that\n"
       "fails), 2 usage or scenario error, 3 incomplete, 4 input/output error. \"dodgesim COMMAND "
       "--help\" says more.");
@@ -108,6 +110,7 @@ int run_program(int argc, char** argv) {
   add_validate_command(program, exit_code);
   add_explain_command(program, exit_code);
   add_emulate_command(program, exit_code);
+  add_detect_command(program, exit_code);
   add_bench_command(program, joined(argc, argv), exit_code);
   add_check_sensor_command(program, joined(argc, argv), exit_code);
   add_paper_command(program, joined(argc, argv), exit_code);

@@ -231,6 +231,12 @@ void Reader::operator()(const char* key, std::vector<Eigen::Vector3d>& value, do
   }
 }
 
+void Reader::operator()(const char* key, std::vector<double>& value, double min, double max,
+                        const char*) {
+  const YamlNode* list = take_list(key, "a list of numbers", kMostPoints);
+  if (list != nullptr) read_numbers(*list, full(key), value, min, max);
+}
+
 namespace {
 
 // The keys of !normal.

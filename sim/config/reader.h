@@ -57,9 +57,10 @@ class Reader {
   void operator()(const char* key, std::optional<Eigen::Vector3d>& value, double min, double max,
                   const char*);
 
-  // A list of up to kMostPoints.
+  // Lists of up to kMostPoints.
   void operator()(const char* key, std::vector<Eigen::Vector3d>& value, double min, double max,
                   const char*);
+  void operator()(const char* key, std::vector<double>& value, double min, double max, const char*);
 
   // A number or a distribution whose whole support lies in [min, max].
   void operator()(const char* key, Distribution& value, double min, double max, const char*);

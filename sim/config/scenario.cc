@@ -59,8 +59,8 @@ Scenario read(const std::string& text, const std::string& file, const std::strin
 }  // namespace
 
 Scenario parse_scenario(const std::string& text, const std::string& file,
-                        const std::string& models_dir) {
-  return read(text, file, models_dir, {});
+                        const std::string& models_dir, const std::vector<Setting>& settings) {
+  return read(text, file, models_dir, settings);
 }
 
 Scenario load_scenario(const std::string& path, const std::string& models_dir,

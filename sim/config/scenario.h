@@ -269,7 +269,7 @@ struct Scenario {
 Scenario load_scenario(const std::string& path, const std::string& models_dir,
                        const std::vector<Setting>& settings = {});
 Scenario parse_scenario(const std::string& text, const std::string& file,
-                        const std::string& models_dir);
+                        const std::string& models_dir, const std::vector<Setting>& settings = {});
 
 // Every value spelled out; parse_scenario reads it back equal to the last bit.
 std::string to_yaml(const Scenario& scenario);

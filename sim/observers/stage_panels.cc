@@ -66,23 +66,15 @@ std::vector<cv::Mat3b> stage_panels(const dodge::Dodger& pilot, int camera, int 
           titled_panel(found, panel_width, "obstacles")};
 }
 
-StageFilm::StageFilm(std::string directory) : directory_(std::move(directory)) {
-  make_directory(directory_);
-}
-
-void StageFilm::on_tick(const World& world) { object_in_flight_ = world.snapshot().any_launched(); }
-
-void StageFilm::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
-  if (!object_in_flight_) return;
-  const auto stamp_us = static_cast<double>(now_us);
+cv::Mat3b stage_picture(const dodge::Dodger& pilot, TimeUs t_us) {
   cv::Mat3b picture;
   for (int camera = 0; camera < 2; ++camera) {
-    const int width = std::max(kLeastPanelWidth, dodger.stage_images(camera).events.cols);
-    std::vector<cv::Mat3b> panels = stage_panels(dodger, camera, width);
+    const int width = std::max(kLeastPanelWidth, pilot.stage_images(camera).events.cols);
+    std::vector<cv::Mat3b> panels = stage_panels(pilot, camera, width);
     if (panels.empty()) continue;  // mono
     write_caption(panels[0],
                   formatted("%s camera, %.3f s", kCameraNames[static_cast<std::size_t>(camera)],
-                            1e-6 * stamp_us),
+                            seconds(t_us)),
                   6, panels[0].rows - 8);
     cv::Mat3b row;
     cv::hconcat(panels, row);
@@ -92,7 +84,19 @@ void StageFilm::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
       cv::vconcat(picture, row, picture);
     }
   }
-  write_file(directory_ + formatted("/stages_%09.0f_us.png", stamp_us), png_of(picture));
+  return picture;
+}
+
+StageFilm::StageFilm(std::string directory) : directory_(std::move(directory)) {
+  make_directory(directory_);
+}
+
+void StageFilm::on_tick(const World& world) { object_in_flight_ = world.snapshot().any_launched(); }
+
+void StageFilm::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
+  if (!object_in_flight_) return;
+  write_file(directory_ + formatted("/stages_%09.0f_us.png", static_cast<double>(now_us)),
+             png_of(stage_picture(dodger, now_us)));
   ++pictures_;
 }
 

@@ -23,6 +23,9 @@ cv::Mat3b titled_panel(const cv::Mat3b& image, int width, const std::string& tit
 // capture them or has no such camera.
 std::vector<cv::Mat3b> stage_panels(const dodge::Dodger& pilot, int camera, int panel_width);
 
+// A row of such stages for each camera in use; empty without any. t_us is written into it.
+cv::Mat3b stage_picture(const dodge::Dodger& pilot, TimeUs t_us);
+
 // Writes one PNG a cycle of the paper's pilot while an object is in flight: a row of stages for
 // each camera.
 class StageFilm : public DodgerObserver {

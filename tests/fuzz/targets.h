@@ -24,6 +24,7 @@ bool result(Bytes bytes);    // a result and a campaign's identity from a worker
 bool csv(Bytes bytes);       // throws.csv of a baseline
 bool manifest(Bytes bytes);  // manifest.json of a baseline
 bool npy(Bytes bytes);       // frames and time stamps of a video
+bool events(Bytes bytes);    // recordings of events, of an IMU and of states
 
 // Names a target in the messages of tests.
 inline std::ostream& operator<<(std::ostream& out, const Target& target) {
@@ -32,7 +33,7 @@ inline std::ostream& operator<<(std::ostream& out, const Target& target) {
 
 inline constexpr Target kTargets[] = {
     {"scenario", scenario}, {"camera", camera},     {"journal", journal}, {"result", result},
-    {"csv", csv},           {"manifest", manifest}, {"npy", npy},
+    {"csv", csv},           {"manifest", manifest}, {"npy", npy},         {"events", events},
 };
 
 }  // namespace dodgesim::fuzz

@@ -32,6 +32,7 @@ void add_replay_command(CLI::App& program, int& exit_code);
 void add_validate_command(CLI::App& program, int& exit_code);
 void add_explain_command(CLI::App& program, int& exit_code);
 void add_emulate_command(CLI::App& program, int& exit_code);
+void add_detect_command(CLI::App& program, int& exit_code);
 void add_bench_command(CLI::App& program, const std::string& command_line, int& exit_code);
 void add_check_sensor_command(CLI::App& program, const std::string& command_line, int& exit_code);
 void add_paper_command(CLI::App& program, const std::string& command_line, int& exit_code);

@@ -1,7 +1,6 @@
 // dodgesim replay: flies one throw of a campaign again, bit-identically.
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <initializer_list>
 #include <iostream>
@@ -22,11 +21,14 @@
 #include "sim/files/csv_table.h"
 #include "sim/flight/fly_throw.h"
 #include "sim/flight/setup.h"
+#include "sim/observers/event_recorder.h"
 #include "sim/observers/event_truth.h"
 #include "sim/observers/film.h"
 #include "sim/observers/mcap_recorder.h"
+#include "sim/observers/observers.h"
 #include "sim/observers/poster.h"
 #include "sim/observers/stage_panels.h"
+#include "sim/observers/vehicle_log.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
 #include "sim/recordings/event_writer.h"
@@ -48,71 +50,16 @@ struct ReplayArguments {
   std::string picture;  // empty: none
   std::string mcap;     // empty: none
   std::string events;   // empty: none
+  std::string record;   // empty: none
   std::string camera = kCameraNames[0];
 };
 
-// Hands everything on to several observers.
-class Observers : public FlightObserver {
+// Ends the flight when the user asks for it.
+class Stopper : public FlightObserver {
  public:
-  void add(FlightObserver* observer) { observers_.push_back(observer); }
-  bool wants_causes() const override {
-    return std::any_of(observers_.begin(), observers_.end(),
-                       [](const FlightObserver* o) { return o->wants_causes(); });
-  }
-  void on_start(dodge::Pilot& pilot) override {
-    for (FlightObserver* o : observers_) o->on_start(pilot);
-  }
-  void on_tick(const World& world) override {
+  void on_tick(const World& /*world*/) override {
     if (asked_to_stop()) throw std::runtime_error("The replay was stopped.");
-    for (FlightObserver* o : observers_) o->on_tick(world);
   }
-  void on_imu(const ImuReading& reading) override {
-    for (FlightObserver* o : observers_) o->on_imu(reading);
-  }
-  void on_state(const StateReading& reading) override {
-    for (FlightObserver* o : observers_) o->on_state(reading);
-  }
-  void on_range(const RangeReading& reading) override {
-    for (FlightObserver* o : observers_) o->on_range(reading);
-  }
-  void on_events(int camera, const Packet& packet) override {
-    for (FlightObserver* o : observers_) o->on_events(camera, packet);
-  }
-  void on_first_detection() override {
-    for (FlightObserver* o : observers_) o->on_first_detection();
-  }
-  void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override {
-    for (FlightObserver* o : observers_) o->on_cycle(now_us, pilot);
-  }
-  void on_velocity(TimeUs now_us, const dodge::VelocityCommand& command) override {
-    for (FlightObserver* o : observers_) o->on_velocity(now_us, command);
-  }
-  void on_command(TimeUs now_us, bool evading) override {
-    for (FlightObserver* o : observers_) o->on_command(now_us, evading);
-  }
-
- private:
-  std::vector<FlightObserver*> observers_;
-};
-
-// Writes a camera's events with their causes.
-class EventRecorder : public FlightObserver {
- public:
-  EventRecorder(const std::string& path, const Recording& recording, int camera)
-      : writer_(make_event_writer(path, recording)), camera_(camera) {}
-  bool wants_causes() const override { return true; }
-  void on_events(int camera, const Packet& packet) override {
-    if (camera != camera_) return;
-    writer_->add(packet.events, packet.causes);
-    count_ += packet.events.size();
-  }
-  void finish() { writer_->finish(); }
-  std::size_t count() const { return count_; }
-
- private:
-  std::unique_ptr<EventWriter> writer_;
-  int camera_;
-  std::size_t count_ = 0;
 };
 
 // Says on a terminal how far the flight is.
@@ -188,6 +135,7 @@ class Onlookers {
   Onlookers(const Scenario& scenario, const ReplayArguments& arguments,
             std::optional<TimeUs> duration_us)
       : arguments_(arguments), poster_(intrinsics(scenario.sensors.camera)) {
+    observers_.add(&stopper_);
     if (duration_us) observers_.add(&progress_.emplace(*duration_us));
     const Intrinsics camera = intrinsics(scenario.sensors.camera);
     if (!arguments.video.empty()) {
@@ -203,6 +151,10 @@ class Onlookers {
       observers_.add(mcap_.get());
     }
     if (!arguments.picture.empty()) observers_.add(&poster_);
+    if (!arguments.record.empty()) {
+      log_ = std::make_unique<VehicleLog>(arguments.record, scenario);
+      observers_.add(log_.get());
+    }
     if (!arguments.events.empty()) {
       events_ = make_event_recorder(scenario, arguments);
       observers_.add(events_.get());
@@ -225,7 +177,7 @@ class Onlookers {
       std::cout << "Recording for Foxglove or Lichtblick: " << arguments_.mcap << "\n";
     }
     if (result.flown.failed()) {
-      const bool more = film_ || stages_ || events_ || !arguments_.picture.empty();
+      const bool more = film_ || stages_ || events_ || log_ || !arguments_.picture.empty();
       if (more) std::cerr << "Of a flight that fails --mcap alone shows something.\n";
       return !more;
     }
@@ -237,6 +189,10 @@ class Onlookers {
       std::cout << events_->count() << " events of the " << arguments_.camera
                 << " camera: " << arguments_.events << "\n"
                 << truth_text(sums) << "\n";
+    }
+    if (log_) {
+      log_->finish();
+      std::cout << "Recorded as the vehicle would: " << arguments_.record << "\n";
     }
     if (film_) {
       film_->close();
@@ -252,10 +208,12 @@ class Onlookers {
  private:
   const ReplayArguments& arguments_;
   Observers observers_;
+  Stopper stopper_;
   std::optional<FlightProgress> progress_;
   std::unique_ptr<Film> film_;
   std::unique_ptr<StageFilm> stages_;
   std::unique_ptr<McapRecorder> mcap_;
+  std::unique_ptr<VehicleLog> log_;
   Poster poster_;
   EventTruth truth_;
   std::unique_ptr<EventRecorder> events_;
@@ -279,9 +237,10 @@ void expect_showable(const Scenario& scenario, const ReplayArguments& arguments)
   const OutputOption events = {"--events", arguments.events};
   const OutputOption stages = {"--stages", arguments.stages};
   const OutputOption picture = {"--picture", arguments.picture};
+  const OutputOption record = {"--record", arguments.record};
   if (!perceives(scenario.pilot)) {
-    refuse({events, stages}, "the pilot of throw " + number + " is " + scenario.pilot +
-                                 ", which flies without cameras.");
+    refuse({events, stages, record}, "the pilot of throw " + number + " is " + scenario.pilot +
+                                         ", which flies without cameras.");
   }
   if (!scenario.anyone_throws()) {
     refuse({picture, stages}, "in throw " + number + " nobody throws.");
@@ -375,6 +334,11 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->check(CLI::IsMember(std::vector<std::string>(kCameraNames.begin(), kCameraNames.end())))
       ->needs(events)
       ->capture_default_str();
+  command
+      ->add_option("--record", arguments->record,
+                   "Write what the pilot gets (events and calibration of both cameras, IMU, state\n"
+                   "estimates, range) and the truth, for `dodgesim detect` or a detector of yours")
+      ->type_name("DIR3");
   add_models_option(*command, arguments->models_dir);
   add_plugin_option(*command, arguments->plugin);
   command->footer(

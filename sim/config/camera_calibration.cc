@@ -1,0 +1,213 @@
+#include "sim/config/camera_calibration.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <vector>
+
+#include "sim/base/numbers.h"
+#include "sim/camera/camera.h"
+#include "sim/config/closest_name.h"
+#include "sim/config/reader.h"
+#include "sim/config/writer.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr double kAssumedFovDeg = 80;  // of the paper's cameras
+constexpr double kFar = 1e4;           // of pixels and metres
+constexpr const char* kDistortion = "radtan_k1_k2_p1_p2_k3";
+
+struct IntrinsicsKeys {
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("fx", fx, 1, kFar, "");
+    v("fy", fy, 1, kFar, "");
+    v("cx", cx, -kFar, kFar, "");
+    v("cy", cy, -kFar, kFar, "");
+  }
+};
+
+struct DistortionKeys {
+  std::string model = kDistortion;
+  std::vector<double> coeffs;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("model", model, {kDistortion, "radtan", "none"}, "");
+    v("coeffs", coeffs, -100, 100, "");
+  }
+};
+
+struct CalibrationKeys {
+  int width = 0, height = 0;
+  std::optional<IntrinsicsKeys> intrinsics;
+  std::optional<DistortionKeys> distortion;
+  Eigen::Vector3d p_BC_m = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> R_BC = {{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}};
+  std::string imu_axes;
+  Eigen::Vector3d p_BR_m = Eigen::Vector3d::Zero();
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("width", width, 16, 4096, "");
+    v("height", height, 16, 4096, "");
+    v("intrinsics", intrinsics, "");
+    v("distortion", distortion, "");
+    v("p_BC_m", p_BC_m, -kFar, kFar, "");
+    v("R_BC", R_BC, -1, 1, "");
+    v.text("imu_axes", imu_axes, "");
+    v("p_BR_m", p_BR_m, -kFar, kFar, "");
+  }
+};
+
+// Keys without a value count as not given.
+void drop_empty(YamlNode& map) {
+  for (std::size_t i = map.keys.size(); i-- > 0;) {
+    if (map.items[i].kind != YamlNode::Kind::kNull) continue;
+    map.keys.erase(map.keys.begin() + static_cast<std::ptrdiff_t>(i));
+    map.items.erase(map.items.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+// In place of Reader::finish(): any other key may stand there for people.
+void expect_no_misspelling(const YamlNode& root, Problems& problems) {
+  const std::vector<std::string> names = {"width",  "height", "intrinsics", "distortion",
+                                          "p_BC_m", "R_BC",   "imu_axes",   "p_BR_m"};
+  for (const YamlNode::Key& key : root.keys) {
+    if (std::find(names.begin(), names.end(), key.name) != names.end()) continue;
+    const std::string meant = closest_name(key.name, names);
+    if (meant.empty()) continue;
+    problems.add(key.at, key.name + " is not a known key; did you mean " + meant + "?");
+  }
+}
+
+void expect_given(const char* key, const std::map<std::string, Position>& where,
+                  Problems& problems) {
+  if (where.count(key) == 0) problems.add({}, std::string(key) + " is missing.");
+}
+
+// The rotation that "right down forward" stands for; nothing if these are no three axes of a
+// right-handed frame.
+std::optional<Eigen::Matrix3d> rotation_of(const std::string& axes) {
+  const std::map<std::string, Eigen::Vector3d> directions = {
+      {"forward", {1, 0, 0}}, {"backward", {-1, 0, 0}}, {"left", {0, 1, 0}},
+      {"right", {0, -1, 0}},  {"up", {0, 0, 1}},        {"down", {0, 0, -1}}};
+  std::istringstream words(axes);
+  Eigen::Matrix3d R;
+  std::string word;
+  for (int i = 0; i < 3; ++i) {
+    words >> word;
+    const auto found = directions.find(word);
+    if (!words || found == directions.end()) return std::nullopt;
+    R.col(i) = found->second;
+  }
+  if (words >> word || R.determinant() < 0.5) return std::nullopt;
+  return R;
+}
+
+void read_rotations(const CalibrationKeys& keys, const ReadContext& context, Problems& problems,
+                    CameraCalibration& calibration) {
+  constexpr double kRoundingOfText = 1e-4;
+  Eigen::Matrix3d R_BC = Eigen::Matrix3d::Zero();
+  if (keys.R_BC.size() == 3) R_BC << keys.R_BC[0], keys.R_BC[1], keys.R_BC[2];
+  R_BC.transposeInPlace();
+  const bool orthonormal = (R_BC * R_BC.transpose()).isIdentity(kRoundingOfText);
+  if (!orthonormal || R_BC.determinant() < 0) {
+    problems.add(context.position_of("R_BC"),
+                 "R_BC must be a rotation: three rows of three numbers, at right angles to each "
+                 "other, of length 1 and right-handed.");
+  }
+  calibration.camera.X_BC.linear() = R_BC;
+  calibration.camera.X_BC.translation() = keys.p_BC_m;
+  calibration.imu_axes_assumed = keys.imu_axes.empty();
+  const auto R_BG =
+      rotation_of(calibration.imu_axes_assumed ? "right down forward" : keys.imu_axes);
+  if (R_BG) {
+    calibration.R_BG = *R_BG;
+  } else {
+    problems.add(context.position_of("imu_axes"),
+                 "imu_axes is " + in_quotes(keys.imu_axes) +
+                     ", but must be three of forward, backward, left, right, up and down, that "
+                     "make a right-handed frame, such as right down forward.");
+  }
+}
+
+void read_lens(const CalibrationKeys& keys, const ReadContext& context, Problems& problems,
+               dodge::CameraModel& camera) {
+  camera.width = keys.width;
+  camera.height = keys.height;
+  if (keys.intrinsics) {
+    for (const char* key : {"fx", "fy", "cx", "cy"}) {
+      expect_given((std::string("intrinsics.") + key).c_str(), context.where, problems);
+    }
+    camera.fx = keys.intrinsics->fx;
+    camera.fy = keys.intrinsics->fy;
+    camera.cx = keys.intrinsics->cx;
+    camera.cy = keys.intrinsics->cy;
+  } else {
+    camera.fx = camera.fy = focal_length_px(keys.width, kAssumedFovDeg);
+    camera.cx = 0.5 * (keys.width - 1);
+    camera.cy = 0.5 * (keys.height - 1);
+  }
+  if (!keys.distortion || keys.distortion->model == "none") return;
+  const std::vector<double>& k = keys.distortion->coeffs;
+  if (k.size() != 4 && k.size() != 5) {
+    problems.add(context.position_of("distortion"),
+                 "distortion.coeffs must be the four or five numbers k1, k2, p1, p2 and k3.");
+    return;
+  }
+  camera.k1 = k[0];
+  camera.k2 = k[1];
+  camera.p1 = k[2];
+  camera.p2 = k[3];
+  camera.k3 = k.size() == 5 ? k[4] : 0;
+}
+
+}  // namespace
+
+CameraCalibration load_camera_calibration(const std::string& path) {
+  ReadContext context(path);
+  YamlNode root = parse_yaml(read_scenario_text(path), context.problems);
+  drop_empty(root);
+  CalibrationKeys keys;
+  Reader reader(root, "", context);
+  keys.visit(reader);
+  expect_no_misspelling(root, context.problems);
+  for (const char* key : {"width", "height"}) expect_given(key, context.where, context.problems);
+  context.problems.raise_if_any();
+  CameraCalibration calibration;
+  read_lens(keys, context, context.problems, calibration.camera);
+  read_rotations(keys, context, context.problems, calibration);
+  context.problems.raise_if_any();
+  calibration.p_BR = keys.p_BR_m;
+  calibration.focal_length_assumed = !keys.intrinsics;
+  return calibration;
+}
+
+std::string to_yaml(const dodge::CameraModel& camera, const Eigen::Vector3d& p_BR) {
+  const auto list = [](std::initializer_list<double> values) {
+    std::string text;
+    for (const double value : values) text += (text.empty() ? "[" : ", ") + to_text(value);
+    return text + "]";
+  };
+  const Eigen::Vector3d p = camera.X_BC.translation();
+  const Eigen::Matrix3d R = camera.X_BC.linear();
+  std::string rows;
+  for (int i = 0; i < 3; ++i) {
+    rows += (i > 0 ? ", " : "") + list({R(i, 0) + 0.0, R(i, 1) + 0.0, R(i, 2) + 0.0});
+  }
+  return "width: " + to_text(camera.width) + "\nheight: " + to_text(camera.height) +
+         "\nintrinsics: {fx: " + to_text(camera.fx) + ", fy: " + to_text(camera.fy) +
+         ", cx: " + to_text(camera.cx) + ", cy: " + to_text(camera.cy) +
+         "}\ndistortion: {model: " + kDistortion +
+         ", coeffs: " + list({camera.k1, camera.k2, camera.p1, camera.p2, camera.k3}) +
+         "}\np_BC_m: " + list({p.x(), p.y(), p.z()}) + "\nR_BC: [" + rows +
+         "]\nimu_axes: forward left up\np_BR_m: " + list({p_BR.x(), p_BR.y(), p_BR.z()}) + "\n";
+}
+
+}  // namespace dodgesim

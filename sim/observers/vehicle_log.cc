@@ -1,0 +1,105 @@
+#include "sim/observers/vehicle_log.h"
+
+#include <array>
+#include <optional>
+
+#include "sim/config/camera_calibration.h"
+#include "sim/files/csv.h"
+#include "sim/files/directory.h"
+#include "sim/flight/setup.h"
+#include "sim/recordings/sensor_log.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr TimeUs kLongestFlightUs = 3600'000'000;  // of all that scenarios can ask for
+
+struct TrueBody {
+  std::array<double, 3> p_W{};
+  std::array<double, 4> q_wxyz{};  // body to world
+  std::array<double, 3> v_W{}, w_W{};
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("p_W", p_W);
+    v("q_wxyz", q_wxyz);
+    v("v_W", v_W);
+    v("w_W", w_W);
+  }
+};
+
+TrueBody true_body(const BodyState& body) {
+  const Eigen::Vector3d &p = body.p_W, &v = body.v_W, &w = body.w_W;
+  const Eigen::Quaterniond& q = body.q_W;
+  return {{p.x(), p.y(), p.z()},
+          {q.w(), q.x(), q.y(), q.z()},
+          {v.x(), v.y(), v.z()},
+          {w.x(), w.y(), w.z()}};
+}
+
+}  // namespace
+
+VehicleLog::VehicleLog(const std::filesystem::path& directory, const Scenario& scenario)
+    : directory_(make_directory(directory)),
+      scenario_(scenario),
+      imu_(directory / "imu.csv"),
+      states_(directory / "state.csv"),
+      ranges_(directory / "range.csv"),
+      truth_(directory / "truth.csv") {
+  imu_.write(imu_header());
+  states_.write(state_header());
+  ranges_.write(range_header());
+}
+
+void VehicleLog::on_tick(const World& world) {
+  if (cameras_.empty()) open_cameras(world.vehicle());
+  now_ = world.snapshot();
+}
+
+void VehicleLog::open_cameras(const VehicleParameters& vehicle) {
+  const dodge::Config config = core_config(scenario_, vehicle);
+  const std::size_t count = config.position.depth == "stereo" ? 2 : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const dodge::CameraModel& camera = config.cameras.at(i);
+    const std::string path = (directory_ / kCameraNames.at(i)).string();
+    cameras_.push_back(
+        make_event_writer(path + ".h5", {camera.width, camera.height, 0, kLongestFlightUs, true}));
+    write_file(path + ".yaml", to_yaml(camera, config.p_BR));
+  }
+}
+
+void VehicleLog::on_imu(const ImuReading& reading) {
+  imu_.write(log_line(reading));
+  write_truth();
+}
+
+void VehicleLog::on_state(const StateReading& reading) { states_.write(log_line(reading)); }
+
+void VehicleLog::on_range(const RangeReading& reading) { ranges_.write(log_line(reading)); }
+
+void VehicleLog::on_events(int camera, const Packet& packet) {
+  cameras_.at(static_cast<std::size_t>(camera))->add(packet.events, packet.causes);
+}
+
+void VehicleLog::write_truth() {
+  CsvLine line;
+  line("t_us", now_.t_us);
+  TrueBody vehicle = true_body(now_.vehicle);
+  line("vehicle", vehicle);
+  for (std::size_t i = 0; i < now_.objects.size(); ++i) {
+    std::optional<TrueBody> object;
+    if (now_.launched[i]) object = true_body(now_.objects[i]);
+    line("object_" + std::to_string(i), object);
+  }
+  if (!truth_begun_) truth_.write(line.header());
+  truth_begun_ = true;
+  truth_.write(line.row());
+}
+
+void VehicleLog::finish() {
+  for (const auto& camera : cameras_) camera->finish();
+  for (OutputFile* file : {&imu_, &states_, &ranges_, &truth_}) file->commit();
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,136 @@
+#include "sim/playback/playback.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "sim/base/error.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr TimeUs kLongestGapUs = 600'000'000;  // a longer one is a clock that jumps
+
+// Hands over the readings up to now_us, of which the first `sent` have been.
+template <class Reading, class Send>
+void send_until(TimeUs now_us, const std::vector<Reading>& log, std::size_t& sent, Send send) {
+  for (; sent < log.size() && log[sent].t_us <= now_us; ++sent) send(log[sent]);
+}
+
+template <class Reading>
+void expect_near(TimeUs event_us, const std::vector<Reading>& log, const char* name) {
+  if (log.empty()) return;
+  if (log.front().t_us < event_us + kLongestGapUs && log.back().t_us > event_us) return;
+  throw ScenarioError(std::string("The ") + name + " log is from " +
+                      std::to_string(log.front().t_us) + " to " + std::to_string(log.back().t_us) +
+                      " us, but the first event comes at " + std::to_string(event_us) +
+                      " us: all files must have one clock.");
+}
+
+}  // namespace
+
+Playback::Playback(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot,
+                   RecordedSensors sensors)
+    : delays_(delays),
+      computer_(delays, std::move(pilot)),
+      imu_(std::move(sensors.imu)),
+      states_(std::move(sensors.states)),
+      ranges_(std::move(sensors.ranges)) {
+  TimeUs first_us = std::numeric_limits<TimeUs>::max();
+  for (auto& reader : sensors.cameras) {
+    eyes_.emplace_back(std::move(reader), delays.packet_us);
+    look(eyes_.back());
+    if (!eyes_.back().ended) first_us = std::min(first_us, eyes_.back().waiting.front().t_us);
+  }
+  if (first_us == std::numeric_limits<TimeUs>::max()) {
+    throw ScenarioError("There is no event in the recording.");
+  }
+  first_event_us_ = last_event_us_ = first_us;
+  now_us_ = first_us / delays.period_us() * delays.period_us();
+  expect_same_clock();
+  if (states_.empty()) states_ = states_from_rates();
+}
+
+void Playback::expect_same_clock() const {
+  expect_near(first_event_us_, imu_, "IMU's");
+  expect_near(first_event_us_, states_, "state's");
+  expect_near(first_event_us_, ranges_, "range sensor's");
+}
+
+// The attitude that the IMU's rates add up to, from that of W at its first reading; the place stays
+// the origin.
+std::vector<StateReading> Playback::states_from_rates() const {
+  std::vector<StateReading> states;
+  for (const ImuReading& reading : imu_) {
+    StateReading state{.t_us = reading.t_us, .w_B = reading.w_B_radps};
+    if (!states.empty()) {
+      const StateReading& before = states.back();
+      const Eigen::Vector3d turn =
+          0.5 * seconds(state.t_us - before.t_us) * (before.w_B + state.w_B);
+      const Eigen::AngleAxisd rotation(turn.norm(), turn.stableNormalized());
+      state.q_W = (before.q_W * Eigen::Quaterniond(rotation)).normalized();
+    }
+    states.push_back(state);
+  }
+  if (states.empty()) states.push_back({.t_us = now_us_});
+  return states;
+}
+
+std::int64_t Playback::events(int camera) const {
+  return eyes_.at(static_cast<std::size_t>(camera)).count;
+}
+
+// Reads on, if nothing is waiting.
+void Playback::look(Eye& eye) {
+  if (!eye.waiting.empty() || eye.ended) return;
+  eye.waiting = eye.reader->next();
+  eye.ended = eye.waiting.empty();
+}
+
+bool Playback::next() {
+  const bool ended = std::all_of(eyes_.begin(), eyes_.end(), [](const Eye& e) { return e.ended; });
+  if (ended && now_us_ >= last_event_us_ + delays_.packet_us + delays_.transport_us) return false;
+  now_us_ += delays_.period_us();
+  send_readings();
+  for (std::size_t camera = 0; camera < eyes_.size(); ++camera) {
+    send_events(static_cast<int>(camera));
+  }
+  computer_.run_cycle(now_us_);
+  const auto command = computer_.take_command(now_us_ + delays_.pilot_us());
+  command_ = command.value_or(dodge::VelocityCommand{});
+  return true;
+}
+
+void Playback::send_readings() {
+  send_until(now_us_, imu_, imu_sent_, [this](const auto& r) { computer_.send_imu(r); });
+  send_until(now_us_, states_, states_sent_, [this](const auto& r) { computer_.send_state(r); });
+  send_until(now_us_, ranges_, ranges_sent_, [this](const auto& r) { computer_.send_range(r); });
+}
+
+// Events that stand in the file behind a later one come with it: so the pilot gets them, too late.
+void Playback::send_events(int camera) {
+  Eye& eye = eyes_[static_cast<std::size_t>(camera)];
+  std::vector<Event> due;
+  for (look(eye); !eye.ended; look(eye)) {
+    const Event& event = eye.waiting.front();
+    if (event.t_us > now_us_) {
+      if (event.t_us - last_event_us_ <= kLongestGapUs) break;
+      throw ScenarioError("Camera " + std::to_string(camera) + " has an event at " +
+                          std::to_string(event.t_us) + " us after one at " +
+                          std::to_string(last_event_us_) +
+                          " us: gaps of more than ten minutes are not played.");
+    }
+    due.push_back(event);
+    last_event_us_ = std::max(last_event_us_, event.t_us);
+    eye.waiting = eye.waiting.subspan(1);
+    ++eye.count;
+  }
+  eye.packetizer.push(due, now_us_);
+  while (const auto packet = eye.packetizer.take()) {
+    computer_.send_events(camera, packet->end_us, packet->events);
+  }
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,74 @@
+// A pilot on recorded data: handed to it cycle by cycle, as late as the computer of a vehicle would
+// get it (sim/bridge/onboard_computer.h). What it commands moves nobody.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dodge/pilot.h"
+#include "sim/bridge/onboard_computer.h"
+#include "sim/events/packetizer.h"
+#include "sim/recordings/event_reader.h"
+#include "sim/sensors/readings.h"
+
+namespace dodgesim {
+
+struct RecordedSensors {
+  std::vector<std::unique_ptr<EventReader>> cameras;  // in the order of the pilot's
+  std::vector<ImuReading> imu;                        // in B; may be empty, as the others
+  std::vector<StateReading> states;  // empty: in its place, turning as the IMU says, if it does
+  std::vector<RangeReading> ranges;
+};
+
+class Playback {
+ public:
+  // Cycles begin at multiples of delays.period_us() on the recording's clock, the first after the
+  // first event. Throws ScenarioError if no camera has any event, or a log has no reading while
+  // there are events; all functions throw as EventReader does.
+  Playback(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot, RecordedSensors sensors);
+
+  // Runs the next cycle; false when the pilot has had every event.
+  bool next();
+
+  // Of the last cycle.
+  TimeUs now_us() const { return now_us_; }
+  const dodge::VelocityCommand& command() const { return command_; }
+  const dodge::Pilot& pilot() const { return computer_.pilot(); }
+  dodge::Pilot& pilot() { return computer_.pilot(); }
+
+  TimeUs first_event_us() const { return first_event_us_; }
+  TimeUs last_event_us() const { return last_event_us_; }  // of those handed over so far
+  std::int64_t events(int camera) const;                   // so far
+
+ private:
+  // What comes from one camera.
+  struct Eye {
+    Eye(std::unique_ptr<EventReader> events, TimeUs packet_us)
+        : reader(std::move(events)), packetizer(packet_us) {}
+
+    std::unique_ptr<EventReader> reader;
+    Packetizer packetizer;
+    std::span<const Event> waiting;  // read and not yet due
+    std::int64_t count = 0;          // of those that were due
+    bool ended = false;
+  };
+
+  void look(Eye& eye);
+  void send_events(int camera);
+  void send_readings();
+  void expect_same_clock() const;
+  std::vector<StateReading> states_from_rates() const;
+
+  DelaySpec delays_;
+  OnboardComputer computer_;
+  std::vector<Eye> eyes_;
+  std::vector<ImuReading> imu_;
+  std::vector<StateReading> states_;
+  std::vector<RangeReading> ranges_;
+  std::size_t imu_sent_ = 0, states_sent_ = 0, ranges_sent_ = 0;
+  TimeUs now_us_ = 0, first_event_us_ = 0, last_event_us_ = 0;
+  dodge::VelocityCommand command_;
+};
+
+}  // namespace dodgesim

@@ -1,0 +1,40 @@
+// Reads recordings of events, a portion at a time, whatever their length.
+//
+// .h5   DSEC and RVT: events/x, y, t [us], p (0 or -1 OFF, 1 ON), and t_offset, if there is one,
+//       which is added to t.
+// .npy  Records t <i8 [us], x <u2, y <u2, p |i1, as event_writer.h has them.
+// .txt  A line "t x y p" an event: t is in microseconds if the first event's is a whole number, and
+//       otherwise in seconds, as in the rpg data sets. Lines that begin with # are left out.
+// .csv  The same with commas, after a line that names the columns: t_us, x, y and p in any order.
+//
+// Columns and fields other than these, such as the causes of events, are passed over.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "sim/events/event.h"
+
+namespace dodgesim {
+
+struct ImageSize {
+  int width = 0;   // [px]
+  int height = 0;  // [px]
+};
+
+// All functions throw ScenarioError, one sentence that names the file and the line or event, for
+// what is not as above and for pixels outside of the image, and IoError when reading fails.
+class EventReader {
+ public:
+  virtual ~EventReader() = default;
+
+  // The next events, in the order of the file, which need not be that of time; none at the end.
+  // Valid until the next call.
+  virtual std::span<const Event> next() = 0;
+};
+
+// The format follows from the name's end.
+std::unique_ptr<EventReader> open_events(const std::string& path, const ImageSize& image);
+
+}  // namespace dodgesim

@@ -1,0 +1,131 @@
+#include "sim/recordings/hdf5_event_reader.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "sim/recordings/raw_event.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr hsize_t kChunkEvents = 1 << 15;  // events: the chunks of hdf5_event_writer.cc
+
+class Hdf5Reader : public EventReader {
+ public:
+  Hdf5Reader(const std::string& path, const ImageSize& image) : path_(path), image_(image) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are ours to report
+    if (!std::filesystem::is_regular_file(path)) {
+      throw IoError(path + " cannot be read: it is no file.");
+    }
+    file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (file_ < 0) throw ScenarioError(path + " cannot be opened as HDF5.");
+    expect_size("events/width", image.width);
+    expect_size("events/height", image.height);
+    if (const std::optional<std::int64_t> offset_us = scalar("t_offset")) offset_us_ = *offset_us;
+    const std::array<const char*, 4> names = {"events/t", "events/x", "events/y", "events/p"};
+    for (std::size_t i = 0; i < names.size(); ++i) open_column(names[i], columns_[i]);
+  }
+  Hdf5Reader(const Hdf5Reader&) = delete;
+  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+
+  ~Hdf5Reader() override {
+    for (const Column& column : columns_) H5Dclose(column.dataset);
+    H5Fclose(file_);
+  }
+
+  std::span<const Event> next() override {
+    const hsize_t count = std::min(kChunkEvents, size_ - read_);
+    for (Column& column : columns_) read(column, count);
+    events_.clear();
+    for (std::size_t i = 0; i < count; ++i, ++read_) {
+      events_.push_back(checked_event({columns_[0].values[i] + offset_us_, columns_[1].values[i],
+                                       columns_[2].values[i], columns_[3].values[i]},
+                                      image_,
+                                      [&] { return path_ + ", event " + std::to_string(read_); }));
+    }
+    return events_;
+  }
+
+ private:
+  struct Column {
+    const char* name = "";
+    hid_t dataset = -1;
+    std::vector<std::int64_t> values;  // of the portion
+  };
+
+  std::optional<std::int64_t> scalar(const char* name) const {
+    if (H5Lexists(file_, "events", H5P_DEFAULT) <= 0) return std::nullopt;
+    if (H5Lexists(file_, name, H5P_DEFAULT) <= 0) return std::nullopt;
+    const hid_t dataset = H5Dopen2(file_, name, H5P_DEFAULT);
+    if (dataset < 0) return std::nullopt;
+    const hid_t space = H5Dget_space(dataset);
+    std::int64_t value = 0;
+    const bool read =
+        H5Sget_simple_extent_npoints(space) == 1 &&
+        H5Dread(dataset, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0;
+    H5Sclose(space);
+    H5Dclose(dataset);
+    if (!read) throw ScenarioError(path_ + ": " + name + " must be one whole number.");
+    return value;
+  }
+
+  void expect_size(const char* name, int expected) const {
+    const std::optional<std::int64_t> value = scalar(name);
+    if (!value || *value == expected) return;
+    throw ScenarioError(path_ + ": " + name + " is " + std::to_string(*value) +
+                        ", but the calibration says " + std::to_string(expected) + ".");
+  }
+
+  void open_column(const char* name, Column& column) {
+    column.name = name;
+    column.dataset = H5Dopen2(file_, name, H5P_DEFAULT);
+    if (column.dataset < 0) {
+      throw ScenarioError(path_ + " has no " + name + "; it must have events/t, x, y and p.");
+    }
+    const hid_t space = H5Dget_space(column.dataset);
+    const int dimensions = H5Sget_simple_extent_ndims(space);
+    const auto size = static_cast<hsize_t>(H5Sget_simple_extent_npoints(space));
+    H5Sclose(space);
+    if (&column == &columns_.front()) size_ = size;
+    if (dimensions == 1 && size == size_) return;
+    throw ScenarioError(path_ + ": " + name + " must be a list as long as events/t.");
+  }
+
+  void read(Column& column, hsize_t count) const {
+    column.values.resize(count);
+    if (count == 0) return;
+    const hid_t memory = H5Screate_simple(1, &count, nullptr);
+    const hid_t disk = H5Dget_space(column.dataset);
+    H5Sselect_hyperslab(disk, H5S_SELECT_SET, &read_, nullptr, &count, nullptr);
+    const herr_t status =
+        H5Dread(column.dataset, H5T_NATIVE_INT64, memory, disk, H5P_DEFAULT, column.values.data());
+    H5Sclose(disk);
+    H5Sclose(memory);
+    if (status >= 0) return;
+    throw IoError(path_ + ": " + column.name +
+                  " cannot be read: it is damaged, or packed with a filter that the HDF5 library "
+                  "finds no plug-in for (blosc, say; h5repack -f GZIP=1 unpacks it).");
+  }
+
+  std::string path_;
+  ImageSize image_;
+  hid_t file_ = -1;
+  std::int64_t offset_us_ = 0;
+  std::array<Column, 4> columns_;  // t, x, y, p
+  hsize_t size_ = 0, read_ = 0;    // events
+  std::vector<Event> events_;
+};
+
+}  // namespace
+
+std::unique_ptr<EventReader> open_hdf5_events(const std::string& path, const ImageSize& image) {
+  return std::make_unique<Hdf5Reader>(path, image);
+}
+
+}  // namespace dodgesim

@@ -1,0 +1,181 @@
+// dodgesim detect, on flights that replay --record has recorded and on real cameras.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "sim/files/csv_table.h"
+#include "tests/cli/command_test.h"
+#include "tests/dodge/recording.h"
+
+namespace dodgesim::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+
+class DetectTest : public CommandTest {
+ protected:
+  // Flies the scenario's only throw and records it.
+  void record(const std::string& scenario) const {
+    write("s.yaml", scenario);
+    const Outcome flown =
+        dodgesim("run " + path("s.yaml") + " --set fly_oracle=false --out " + path("campaign"));
+    ASSERT_EQ(flown.exit_code, 0) << flown.output;
+    const Outcome replay =
+        dodgesim("replay " + path("campaign") + " --throw 0 --record " + path("rec"));
+    ASSERT_EQ(replay.exit_code, 0) << replay.output;
+    EXPECT_THAT(replay.output, HasSubstr("Recorded as the vehicle would: " + path("rec")));
+  }
+
+  Outcome detect(const std::string& options) const {
+    return dodgesim("detect " + options + " --out " + path("found"));
+  }
+
+  CsvTable table(const std::string& name) const { return CsvTable(root_ / name); }
+
+  // The pilot finds in the recording what it found in flight, to the last bit.
+  void expect_found_as_flown() const {
+    const CsvTable flown = table("campaign/detections.csv"), found = table("found/detections.csv");
+    ASSERT_GT(flown.rows(), 3u);
+    ASSERT_GE(found.rows(), flown.rows());  // those of the last cycle never left it in flight
+    ASSERT_LE(found.rows(), flown.rows() + 2);
+    for (std::size_t row = 0; row < flown.rows(); ++row) {
+      for (const char* column : {"t_us", "obstacle_id", "p_W_0", "p_W_1", "p_W_2", "size_m",
+                                 "depth_m", "depth_sigma_m"}) {
+        EXPECT_EQ(found.at(row, column), flown.at(row, column)) << row << " " << column;
+      }
+    }
+  }
+};
+
+constexpr const char* kThrow =
+    "seed: 5\nthrow: {distance_m: 2.5, speed_mps: 5, launch_s: 0.1, launch_height_m: 2}\n"
+    "after_s: 0.1\n";
+
+TEST_F(DetectTest, FindsInARecordedFlightWhatThePilotFoundInIt) {
+  record(kThrow);
+  const std::string stereo = path("rec/top.h5") + " " + path("rec/bottom.h5") + " --calibration " +
+                             path("rec/top.yaml") + " " + path("rec/bottom.yaml") + " --imu " +
+                             path("rec/imu.csv");
+  const std::string all =
+      stereo + " --state " + path("rec/state.csv") + " --range " + path("rec/range.csv");
+  const Outcome outcome = detect(all);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, ContainsRegex("top camera: [0-9]+ events\nbottom camera: "));
+  expect_found_as_flown();
+  const CsvTable cycles = table("found/cycles.csv");
+  std::size_t evading = 0;
+  for (std::size_t row = 0; row < cycles.rows(); ++row) evading += cycles.boolean(row, "evading");
+  EXPECT_GT(evading, 3u);
+  EXPECT_GT(table("found/clusters.csv").rows(), 10u);
+  EXPECT_GT(table("found/obstacles.csv").rows(), 3u);
+
+  // Other keys, other detections; and the same of a scenario's file.
+  EXPECT_EQ(detect(all + " --set dodger.position.max_range_m=0.7").exit_code, 0);
+  EXPECT_LT(table("found/detections.csv").rows(), table("campaign/detections.csv").rows());
+  EXPECT_EQ(detect(all + " --scenario " + path("campaign/scenario.resolved.yaml")).exit_code, 0);
+  expect_found_as_flown();
+}
+
+// W of the detections has the place where the vehicle began to fly for an origin. Depth from a
+// known size errs as soon as something of the room is taken for a part of the ball; the direction
+// does not.
+TEST_F(DetectTest, FindsWithOneCameraAndItsImuInWhichDirectionTheBallIs) {
+  record(
+      "seed: 5\nthrow: {distance_m: 2.5, speed_mps: 5, launch_s: 0.1, launch_height_m: 2.4, "
+      "bearing_deg: 15}\nafter_s: 0.1\ndodger: {position: {depth: mono}}\n");
+  EXPECT_FALSE(fs::exists(path("rec/bottom.h5")));
+  const Outcome outcome = detect(path("rec/top.h5") + " --calibration " + path("rec/top.yaml") +
+                                 " --imu " + path("rec/imu.csv"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("depth comes from a known size, 0.2 m"));
+  const CsvTable found = table("found/detections.csv"), truth = table("rec/truth.csv");
+  const auto vector = [](const CsvTable& table, std::size_t row, const std::string& name) {
+    return Eigen::Vector3d(table.number(row, name + "_0"), table.number(row, name + "_1"),
+                           table.number(row, name + "_2"));
+  };
+  const Eigen::Vector3d p_BC(0.12, 0, 0.075);  // the upper camera
+  std::vector<double> errors_deg;
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < found.rows(); ++i) {
+    while (row + 1 < truth.rows() && truth.number(row, "t_us") < found.number(i, "t_us")) ++row;
+    if (truth.at(row, "object_0_p_W_0").empty()) continue;
+    const Eigen::Vector3d ball =
+        vector(truth, row, "object_0_p_W") - vector(truth, row, "vehicle_p_W") - p_BC;
+    const Eigen::Vector3d seen = vector(found, i, "p_W") - p_BC;
+    errors_deg.push_back(std::acos(ball.normalized().dot(seen.normalized())) * 180 / M_PI);
+  }
+  ASSERT_GT(errors_deg.size(), 2u);
+  std::sort(errors_deg.begin(), errors_deg.end());
+  EXPECT_LT(errors_deg[errors_deg.size() / 2], 3);
+}
+
+TEST_F(DetectTest, WritesAVideoOfThePilotsStages) {
+  write("e.csv", "t_us,x,y,p\n100,5,5,1\n9000,6,6,0\n");
+  write("c.yaml", "{width: 64, height: 48}");
+  const Outcome outcome =
+      detect(path("e.csv") + " --calibration " + path("c.yaml") + " --video " + path("v.mp4"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_GT(fs::file_size(path("v.mp4")), 1000u);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("has no intrinsics: 80 degrees over 64 columns"),
+                                    HasSubstr("the camera is taken not to turn")));
+}
+
+TEST_F(DetectTest, RunsThePilotOfAUser) {
+  write("e.csv", "t_us,x,y,p\n100,5,5,1\n9000,6,6,0\n");
+  write("c.yaml", "{width: 64, height: 48}");
+  const std::string events = path("e.csv") + " --calibration " + path("c.yaml");
+  const std::string plugin = " --plugin " DODGESIM_BINARY_DIR "/tests/plugins/libobedient.so";
+  EXPECT_EQ(detect(events + " --set pilot=plugin" + plugin).exit_code, 0);
+  EXPECT_EQ(table("found/cycles.csv").rows(), 3u);
+  EXPECT_EQ(detect(events + " --set pilot=plugin").exit_code, 2);
+  EXPECT_EQ(detect(events + plugin).exit_code, 2);
+}
+
+TEST_F(DetectTest, SaysWhatIsWrongAndWritesNothing) {
+  write("e.csv", "t_us,x,y,p\n100,5,5,1\n9000,700,6,0\n");
+  write("c.yaml", "{width: 64, height: 48}");
+  const std::string events = path("e.csv") + " --calibration " + path("c.yaml");
+  const Outcome outside = detect(events);
+  EXPECT_EQ(outside.exit_code, 2);
+  EXPECT_THAT(outside.output, HasSubstr("e.csv:3: x is 700, but must be from 0 to 63."));
+  EXPECT_FALSE(fs::exists(path("found/cycles.csv")));
+  EXPECT_EQ(detect(path("none.csv") + " --calibration " + path("c.yaml")).exit_code, 4);
+  EXPECT_EQ(detect(events + " --imu " + path("none.csv")).exit_code, 4);
+  EXPECT_THAT(detect(events + " " + path("c.yaml")).output,
+              HasSubstr("1 file of events, but 2 calibrations"));
+  EXPECT_THAT(detect(events + " --set pilot=oracle").output, HasSubstr("sees nothing"));
+  EXPECT_THAT(detect(events + " --set dodger.windo=3").output, HasSubstr("dodger.window"));
+}
+
+// Real event cameras; skips where the recordings are absent.
+TEST_F(DetectTest, TakesNoStaticSceneAndNoNoiseForAnObstacle) {
+  const auto file = [](const std::string& name) { return dodge::recording::path(name); };
+  const std::string shapes = file("mueggler_shapes_rotation.events.csv");
+  if (!fs::exists(shapes)) GTEST_SKIP() << "The recordings are absent.";
+  const std::string turning =
+      shapes + " --calibration " + file("mueggler_shapes_rotation.calib.yaml");
+  // Without the rates, the wall of shapes moves; with those of the calibration's file it rests.
+  EXPECT_EQ(detect(turning).exit_code, 0);
+  EXPECT_GT(table("found/clusters.csv").rows(), 20u);
+  write("gyro.csv",
+        "t_us,wx,wy,wz\n1,1.89,-0.04,1.64\n15000,1.97,-0.11,1.15\n25000,2.03,-0.26,"
+        "0.92\n35000,2.24,-0.01,0.26\n60000,2.24,0.01,0.16\n110000,2.14,0.01,0.06\n");
+  EXPECT_EQ(detect(turning + " --imu " + path("gyro.csv")).exit_code, 0);
+  EXPECT_EQ(table("found/clusters.csv").rows(), 0u);
+
+  EXPECT_EQ(detect(file("codecs_dvxplorer_noise.events.csv") + " --calibration " +
+                   file("codecs_dvxplorer_noise.calib.yaml"))
+                .exit_code,
+            0);
+  EXPECT_EQ(table("found/clusters.csv").rows(), 0u);
+}
+
+}  // namespace
+}  // namespace dodgesim::testing

@@ -1,0 +1,112 @@
+#include "sim/config/camera_calibration.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "sim/base/error.h"
+#include "tests/sim/files/temporary_directory.h"
+
+namespace dodgesim {
+namespace {
+
+using ::testing::AllOf;
+using testing::complaint;
+using ::testing::HasSubstr;
+using testing::put;
+using testing::TemporaryDirectory;
+
+class Calibration : public ::testing::Test {
+ protected:
+  CameraCalibration load(const std::string& text) const {
+    return load_camera_calibration(put(root_ / "camera.yaml", text));
+  }
+  std::string refusal(const std::string& text) const {
+    return complaint<ScenarioError>([&] { load(text); });
+  }
+
+  TemporaryDirectory root_;
+};
+
+TEST_F(Calibration, ReadsBackToTheLastBit) {
+  dodge::CameraModel camera{.width = 346,
+                            .height = 260,
+                            .fx = 331.1 / 3,
+                            .fy = 330.9 / 7,
+                            .cx = 172.123456789012345,
+                            .cy = 130.1,
+                            .k1 = -0.3684363,
+                            .k2 = 0.15,
+                            .p1 = -3e-4,
+                            .p2 = -7e-4,
+                            .k3 = 1e-9};
+  camera.X_BC.rotate(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()));
+  camera.X_BC.translation() = Eigen::Vector3d(0.1, -1.0 / 3, 0);
+  const Eigen::Vector3d p_BR(0.01, 0, -1.0 / 7);
+  const CameraCalibration read = load(to_yaml(camera, p_BR));
+  EXPECT_EQ(read.camera.width, camera.width);
+  EXPECT_EQ(read.camera.height, camera.height);
+  EXPECT_EQ(read.camera.fx, camera.fx);
+  EXPECT_EQ(read.camera.fy, camera.fy);
+  EXPECT_EQ(read.camera.cx, camera.cx);
+  EXPECT_EQ(read.camera.cy, camera.cy);
+  EXPECT_EQ(read.camera.k1, camera.k1);
+  EXPECT_EQ(read.camera.k2, camera.k2);
+  EXPECT_EQ(read.camera.p1, camera.p1);
+  EXPECT_EQ(read.camera.p2, camera.p2);
+  EXPECT_EQ(read.camera.k3, camera.k3);
+  EXPECT_EQ(read.camera.X_BC.matrix(), camera.X_BC.matrix());
+  EXPECT_EQ(read.p_BR, p_BR);
+  EXPECT_EQ(read.R_BG, Eigen::Matrix3d::Identity());
+  EXPECT_FALSE(read.focal_length_assumed);
+  EXPECT_FALSE(read.imu_axes_assumed);
+}
+
+TEST_F(Calibration, AssumesACameraThatLooksForwardWithTheImuInItsAxes) {
+  const CameraCalibration read = load("{width: 321, height: 200, intrinsics: ~}");
+  EXPECT_TRUE(read.focal_length_assumed);
+  EXPECT_TRUE(read.imu_axes_assumed);
+  // Half the width lies 40 degrees off the axis.
+  EXPECT_NEAR(std::atan(160.5 / read.camera.fx) * 180 / std::numbers::pi, 40, 1e-9);
+  EXPECT_EQ(read.camera.fy, read.camera.fx);
+  EXPECT_EQ(read.camera.cx, 160);
+  const Eigen::Matrix3d R_BC = read.camera.X_BC.linear();
+  EXPECT_EQ(R_BC * Eigen::Vector3d::UnitZ(), Eigen::Vector3d(1, 0, 0));   // its axis: forward
+  EXPECT_EQ(R_BC * Eigen::Vector3d::UnitX(), Eigen::Vector3d(0, -1, 0));  // its x: to the right
+  EXPECT_EQ(read.R_BG, R_BC);
+}
+
+TEST_F(Calibration, TurnsTheAxesOfTheImu) {
+  const std::string camera = "width: 320\nheight: 240\nimu_axes: ";
+  const Eigen::Matrix3d R_BG = load(camera + "up left backward\n").R_BG;
+  EXPECT_EQ(R_BG * Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(-3, 2, 1));
+  for (const char* wrong :
+       {"left up backward", "up up left", "up left", "up left sideways", "up left backward down"}) {
+    EXPECT_THAT(refusal(camera + wrong), AllOf(HasSubstr("camera.yaml:3:"), HasSubstr(wrong)));
+  }
+}
+
+TEST_F(Calibration, PassesOverWhatIsForPeopleButNotMisspelledKeys) {
+  EXPECT_EQ(load("width: 320\nheight: 240\nsensor: DVXplorer\nlicence: MIT\n").camera.width, 320);
+  EXPECT_THAT(refusal("width: 320\nheigth: 240\n"), HasSubstr("did you mean height?"));
+  EXPECT_THAT(refusal("width: 320\nheight: 240\nintrinsic: {fx: 1, fy: 1, cx: 1, cy: 1}\n"),
+              HasSubstr("camera.yaml:3:1: intrinsic is not a known key; did you mean intrinsics?"));
+}
+
+TEST_F(Calibration, SaysWhatIsMissingOrWrong) {
+  EXPECT_THAT(refusal("width: 320\n"), HasSubstr("height is missing"));
+  EXPECT_THAT(refusal("width: 0\nheight: 240\n"), HasSubstr("width is 0"));
+  const std::string size = "width: 320\nheight: 240\n";
+  EXPECT_THAT(refusal(size + "intrinsics: {fx: 190, cx: 1, cy: 1}\n"),
+              HasSubstr("intrinsics.fy is missing"));
+  EXPECT_THAT(refusal(size + "distortion: {model: fisheye, coeffs: [0, 0, 0, 0]}\n"),
+              HasSubstr("distortion.model is \"fisheye\""));
+  EXPECT_THAT(refusal(size + "distortion: {coeffs: [0, 0, 0]}\n"), HasSubstr("four or five"));
+  EXPECT_THAT(refusal(size + "R_BC: [[1, 0, 0], [0, 1, 0], [0, 0, -1]]\n"),
+              AllOf(HasSubstr("camera.yaml:3:"), HasSubstr("must be a rotation")));
+  EXPECT_THAT(refusal(size + "R_BC: [[1, 0, 0], [0, 1, 0]]\n"), HasSubstr("must be a rotation"));
+}
+
+}  // namespace
+}  // namespace dodgesim

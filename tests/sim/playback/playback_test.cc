@@ -1,0 +1,210 @@
+#include "sim/playback/playback.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "sim/base/error.h"
+#include "sim/base/random.h"
+#include "tests/sim/files/temporary_directory.h"
+
+namespace dodgesim {
+namespace {
+
+using testing::complaint;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// Hands out events in portions of odd sizes.
+class ListedEvents : public EventReader {
+ public:
+  explicit ListedEvents(std::vector<Event> events) : events_(std::move(events)) {}
+  std::span<const Event> next() override {
+    const std::size_t count = std::min<std::size_t>(7, events_.size() - read_);
+    read_ += count;
+    return std::span(events_).subspan(read_ - count, count);
+  }
+
+ private:
+  std::vector<Event> events_;
+  std::size_t read_ = 0;
+};
+
+// Writes down in which cycle each thing reaches it. Its command carries the cycle.
+class Witness : public dodge::Pilot {
+ public:
+  struct Arrivals {
+    std::map<int, std::vector<std::pair<TimeUs, TimeUs>>> events;  // by camera: stamp, cycle
+    std::vector<std::pair<TimeUs, TimeUs>> imu, states, ranges;
+    std::vector<dodge::StateEstimate> estimates;
+    std::vector<TimeUs> cycles;
+  };
+
+  explicit Witness(Arrivals& seen) : seen_(seen) {}
+  void add_events(int camera, std::span<const dodge::Event> events) override {
+    for (const dodge::Event& event : events) new_.events[camera].emplace_back(event.t_us, 0);
+  }
+  void add_imu(const dodge::ImuSample& sample) override { new_.imu.emplace_back(sample.t_us, 0); }
+  void add_state(const dodge::StateEstimate& state) override {
+    new_.states.emplace_back(state.t_us, 0);
+    seen_.estimates.push_back(state);
+  }
+  void add_range(const dodge::RangeReading& r) override { new_.ranges.emplace_back(r.t_us, 0); }
+  void set_goal(const dodge::Goal& /*goal*/) override {}
+  dodge::VelocityCommand update(TimeUs now_us) override {
+    seen_.cycles.push_back(now_us);
+    for (auto& [camera, events] : new_.events) move(events, seen_.events[camera], now_us);
+    move(new_.imu, seen_.imu, now_us);
+    move(new_.states, seen_.states, now_us);
+    move(new_.ranges, seen_.ranges, now_us);
+    return {now_us, Eigen::Vector3d(static_cast<double>(now_us), 0, 0), true, false};
+  }
+  std::span<const dodge::Detection> detections() const override { return {}; }
+  std::span<const dodge::Obstacle> obstacles() const override { return {}; }
+
+ private:
+  using Stamps = std::vector<std::pair<TimeUs, TimeUs>>;
+  static void move(Stamps& from, Stamps& to, TimeUs now_us) {
+    for (const auto& [stamp_us, cycle] : from) to.emplace_back(stamp_us, now_us);
+    from.clear();
+  }
+
+  Arrivals& seen_;
+  Arrivals new_;
+};
+
+std::vector<Event> random_events(TimeUs first_us, std::size_t count, std::uint64_t seed) {
+  RandomStream random(seed, 0, "events");
+  std::vector<Event> events;
+  TimeUs t_us = first_us;
+  for (std::size_t i = 0; i < count; ++i) {
+    events.push_back({t_us, static_cast<std::uint16_t>(i % 300), 2, 1});
+    t_us += static_cast<TimeUs>(random.uniform(0, 150));
+  }
+  return events;
+}
+
+RecordedSensors sensors_of(const std::vector<std::vector<Event>>& cameras) {
+  RecordedSensors sensors;
+  for (const auto& events : cameras) {
+    sensors.cameras.push_back(std::make_unique<ListedEvents>(events));
+  }
+  return sensors;
+}
+
+Witness::Arrivals play(const DelaySpec& delays, RecordedSensors sensors) {
+  Witness::Arrivals seen;
+  Playback playback(delays, std::make_unique<Witness>(seen), std::move(sensors));
+  while (playback.next()) {
+    EXPECT_EQ(playback.now_us(), seen.cycles.back());
+    EXPECT_EQ(playback.command().v_W.x(), static_cast<double>(playback.now_us()));
+  }
+  return seen;
+}
+
+constexpr TimeUs kEpochUs = 1600000000001234;
+
+// Stamps of a log, one every period from `first_us` on.
+template <class Reading>
+std::vector<Reading> every(TimeUs period_us, TimeUs first_us, std::size_t count) {
+  std::vector<Reading> log(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    log[i].t_us = first_us + static_cast<TimeUs>(i) * period_us;
+  }
+  return log;
+}
+
+// Each reading that has arrived did so in the first cycle that is `delay_us` later than its stamp.
+void expect_prompt(const std::vector<std::pair<TimeUs, TimeUs>>& arrivals, TimeUs delay_us,
+                   const std::vector<TimeUs>& cycles) {
+  ASSERT_FALSE(arrivals.empty());
+  for (const auto& [stamp_us, cycle_us] : arrivals) {
+    EXPECT_EQ(cycle_us, *std::lower_bound(cycles.begin(), cycles.end(), stamp_us + delay_us));
+  }
+}
+
+TEST(Playback, HandsOverEverythingAsLateAsInFlight) {
+  DelaySpec delays;
+  delays.packet_us = 1500;
+  delays.transport_us = 700;
+  delays.imu_us = 300;
+  const std::vector<std::vector<Event>> cameras = {random_events(kEpochUs, 2000, 1),
+                                                   random_events(kEpochUs + 9000, 1500, 2)};
+  RecordedSensors sensors = sensors_of(cameras);
+  sensors.imu = every<ImuReading>(1000, kEpochUs - 500, 150);
+  sensors.states = every<StateReading>(4000, kEpochUs - 700, 40);
+  sensors.ranges = every<RangeReading>(5000, kEpochUs + 100, 30);
+  const Witness::Arrivals seen = play(delays, std::move(sensors));
+
+  ASSERT_FALSE(seen.cycles.empty());
+  for (std::size_t i = 0; i < seen.cycles.size(); ++i) {
+    EXPECT_EQ(seen.cycles[i] % delays.period_us(), 0);
+    EXPECT_EQ(seen.cycles[i] - seen.cycles[0], static_cast<TimeUs>(i) * delays.period_us());
+  }
+  for (int camera = 0; camera < 2; ++camera) {
+    const auto& arrivals = seen.events.at(camera);
+    const auto& sent = cameras[static_cast<std::size_t>(camera)];
+    ASSERT_EQ(arrivals.size(), sent.size());
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+      ASSERT_EQ(arrivals[i].first, sent[i].t_us);
+      // The end of its packet, then the way to the computer, then the next cycle.
+      const TimeUs packets = (sent[i].t_us + delays.packet_us - 1) / delays.packet_us;
+      const TimeUs arrival_us = packets * delays.packet_us + delays.transport_us;
+      ASSERT_EQ(arrivals[i].second,
+                *std::lower_bound(seen.cycles.begin(), seen.cycles.end(), arrival_us));
+    }
+  }
+  expect_prompt(seen.imu, delays.imu_us, seen.cycles);
+  expect_prompt(seen.states, delays.state_estimate_us, seen.cycles);
+  expect_prompt(seen.ranges, delays.range_us, seen.cycles);
+}
+
+TEST(Playback, HandsOverAnEventThatStandsTooLateInTheFile) {
+  std::vector<Event> events = random_events(0, 300, 3);
+  events[250].t_us = events[10].t_us;
+  const Witness::Arrivals seen = play({}, sensors_of({events}));
+  ASSERT_EQ(seen.events.at(0).size(), events.size());
+  EXPECT_EQ(seen.events.at(0)[250].first, events[10].t_us);
+  EXPECT_GE(seen.events.at(0)[250].second, events[249].t_us);
+}
+
+TEST(Playback, WithoutStatesTurnsAsTheRatesSayAndStaysInItsPlace) {
+  // A constant rate about an axis of B: the closed form is a turn about it.
+  const Eigen::Vector3d w(0.4, -1.1, 2.3);
+  RecordedSensors sensors = sensors_of({random_events(kEpochUs, 4000, 4)});
+  sensors.imu = every<ImuReading>(1000, kEpochUs, 280);
+  for (ImuReading& reading : sensors.imu) reading.w_B_radps = w;
+  const Witness::Arrivals seen = play({}, std::move(sensors));
+  ASSERT_GT(seen.estimates.size(), 200u);
+  for (const dodge::StateEstimate& state : seen.estimates) {
+    const double t_s = seconds(state.t_us - kEpochUs);
+    const Eigen::Quaterniond expected(Eigen::AngleAxisd(w.norm() * t_s, w.normalized()));
+    EXPECT_LT(state.q_WB.angularDistance(expected), 1e-9);
+    EXPECT_EQ(state.p_WB, Eigen::Vector3d::Zero());
+    EXPECT_EQ(state.w_WB_B, w);
+  }
+}
+
+TEST(Playback, WithoutStatesAndRatesIsAtRest) {
+  const Witness::Arrivals seen = play({}, sensors_of({random_events(kEpochUs, 1000, 5)}));
+  ASSERT_EQ(seen.estimates.size(), 1u);
+  EXPECT_LE(seen.estimates[0].t_us, kEpochUs);
+  EXPECT_TRUE(seen.imu.empty());
+}
+
+TEST(Playback, RefusesRecordingsThatCannotBePlayed) {
+  const auto refusal = [](RecordedSensors sensors) {
+    return complaint<ScenarioError>([&] { play({}, std::move(sensors)); });
+  };
+  EXPECT_THAT(refusal(sensors_of({{}, {}})), HasSubstr("no event"));
+  RecordedSensors other_clock = sensors_of({random_events(kEpochUs, 100, 6)});
+  other_clock.imu = every<ImuReading>(1000, 0, 100);
+  EXPECT_THAT(refusal(std::move(other_clock)), HasSubstr("must have one clock"));
+  std::vector<Event> jump = random_events(0, 100, 7);
+  jump.back().t_us = 3'600'000'000;
+  EXPECT_THAT(refusal(sensors_of({jump})), HasSubstr("ten minutes"));
+}
+
+}  // namespace
+}  // namespace dodgesim

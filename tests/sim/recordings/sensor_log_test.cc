@@ -1,0 +1,88 @@
+#include "sim/recordings/sensor_log.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/base/error.h"
+#include "sim/base/random.h"
+#include "tests/sim/files/temporary_directory.h"
+
+namespace dodgesim {
+namespace {
+
+using testing::complaint;
+using ::testing::HasSubstr;
+using testing::put;
+using testing::TemporaryDirectory;
+
+class SensorLog : public ::testing::Test {
+ protected:
+  std::string file(const std::string& text) const { return put(root_ / "log.csv", text); }
+  std::string refusal(const std::string& text) const {
+    return complaint<ScenarioError>([&] { read_imu_log(file(text)); });
+  }
+  Eigen::Vector3d vector() { return {random_.normal(), random_.normal(), 1e-9 * random_.normal()}; }
+
+  TemporaryDirectory root_;
+  RandomStream random_{11, 0, "log"};
+};
+
+TEST_F(SensorLog, ReadsBackToTheLastBit) {
+  std::vector<ImuReading> imu;
+  std::vector<StateReading> states;
+  std::vector<RangeReading> ranges;
+  std::string imu_text = imu_header(), state_text = state_header(), range_text = range_header();
+  for (TimeUs t_us = 1600000000000000; t_us < 1600000000050000; t_us += 997) {
+    imu.push_back({t_us, vector(), vector()});
+    const Eigen::Quaterniond q =
+        Eigen::Quaterniond(random_.normal(), random_.normal(), random_.normal(), random_.normal())
+            .normalized();
+    states.push_back({t_us, vector(), q, vector(), vector()});
+    ranges.push_back({t_us, random_.normal()});
+    imu_text += log_line(imu.back());
+    state_text += log_line(states.back());
+    range_text += log_line(ranges.back());
+  }
+  const auto imu_read = read_imu_log(file(imu_text));
+  const auto states_read = read_state_log(file(state_text));
+  const auto ranges_read = read_range_log(file(range_text));
+  ASSERT_EQ(imu_read.size(), imu.size());
+  ASSERT_EQ(states_read.size(), states.size());
+  ASSERT_EQ(ranges_read.size(), ranges.size());
+  for (std::size_t i = 0; i < imu.size(); ++i) {
+    EXPECT_EQ(imu_read[i].t_us, imu[i].t_us);
+    EXPECT_EQ(imu_read[i].w_B_radps, imu[i].w_B_radps);
+    EXPECT_EQ(imu_read[i].f_B_mps2, imu[i].f_B_mps2);
+    EXPECT_EQ(states_read[i].t_us, states[i].t_us);
+    EXPECT_EQ(states_read[i].p_W, states[i].p_W);
+    EXPECT_EQ(states_read[i].q_W.coeffs(), states[i].q_W.coeffs());
+    EXPECT_EQ(states_read[i].v_W, states[i].v_W);
+    EXPECT_EQ(states_read[i].w_B, states[i].w_B);
+    EXPECT_EQ(ranges_read[i].range_m, ranges[i].range_m);
+  }
+}
+
+TEST_F(SensorLog, OfRatesAloneHasNoForces) {
+  const auto imu = read_imu_log(file("wz,wy,wx,t_us,temperature\n3,2,1,5,20\n"));
+  ASSERT_EQ(imu.size(), 1u);
+  EXPECT_EQ(imu[0].w_B_radps, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(imu[0].f_B_mps2, Eigen::Vector3d::Zero());
+}
+
+TEST_F(SensorLog, RefusesWhatCannotBeWithItsLine) {
+  EXPECT_THAT(refusal("t_us,wx,wy,wz\n"), HasSubstr("has no reading"));
+  EXPECT_THAT(refusal("t_us,wx,wy,wz\n7,0,0,0\n7,0,0,0\n"),
+              HasSubstr("log.csv:3: t_us is 7, but must be later"));
+  EXPECT_THAT(refusal("t_us,wx,wy,wz\n7.5,0,0,0\n"), HasSubstr("log.csv:2: t_us is \"7.5\""));
+  EXPECT_THAT(complaint<IoError>([&] { read_imu_log(file("t_us,wx,wy,wz\n7,0,fast,0\n")); }),
+              HasSubstr("fast"));
+  EXPECT_THAT(complaint<IoError>([&] { read_imu_log(file("t_us,wx,wy\n7,0,0\n")); }),
+              HasSubstr("wz"));
+  EXPECT_THAT(complaint<ScenarioError>([&] {
+                read_state_log(file("t_us,x,y,z,qw,qx,qy,qz,vx,vy,vz\n1,0,0,0,1,1,0,0,0,0,0\n"));
+              }),
+              HasSubstr("must be a unit quaternion"));
+}
+
+}  // namespace
+}  // namespace dodgesim

@@ -1,0 +1,297 @@
+// dodgesim detect: what a pilot finds in a recording.
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "dodge/dodger.h"
+#include "sim/base/error.h"
+#include "sim/config/camera_calibration.h"
+#include "sim/config/pilot.h"
+#include "sim/files/mp4_file.h"
+#include "sim/files/text_table.h"
+#include "sim/observers/stage_panels.h"
+#include "sim/playback/detection_files.h"
+#include "sim/playback/playback.h"
+#include "sim/recordings/sensor_log.h"
+#include "tools/commands/command.h"
+#include "tools/commands/stop_signal.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr const char* kDetectFooter =
+    R"(The pilot gets what was recorded as late as in flight (`dodgesim explain delays`), in cycles.
+What it commands moves nobody, and its goal is to stay where it is.
+
+EVENTS: .h5 (DSEC, RVT), .npy or .txt as `emulate` and `replay --record` write them; .txt of the
+rpg data sets, with t in seconds; .csv whose first line names the columns t_us, x, y and p.
+CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {model:
+  radtan_k1_k2_p1_p2_k3, coeffs: [...]}; p_BC_m and R_BC (rows), the camera's place on the body,
+  which by default looks forward; imu_axes, where x, y, z of the IMU point, by default "right
+  down forward"; p_BR_m, the range sensor's place. Other keys are passed over.
+IMU.csv: t_us, wx, wy, wz [rad/s]. STATE.csv: t_us, x, y, z, qw, qx, qy, qz (body to world), vx, vy,
+  vz [m, m/s]. RANGE.csv: t_us, range_m. A line with these names first; other columns are passed
+  over. All t_us are of the clock of the events.
+Without IMU.csv the camera is taken not to turn, unless STATE.csv has wx, wy, wz. Without STATE.csv
+the vehicle turns as its IMU says and stays in its place. With one camera, depth comes from a known
+size (dodger.position.known_size_m).
+
+DIR gets cycles.csv (what each cycle found and commands), clusters.csv (what moves in the images),
+detections.csv and obstacles.csv (what was measured and is tracked, in the world).
+
+Examples:
+  dodgesim replay out/demo --throw 3 --record rec
+  dodgesim detect rec/top.h5 rec/bottom.h5 --calibration rec/top.yaml rec/bottom.yaml \
+    --imu rec/imu.csv --state rec/state.csv --out out/detect --video out/detect.mp4
+  dodgesim detect walk.csv --calibration davis.yaml --imu gyro.csv --out out/walk \
+    --set dodger.time_image.threshold_b=0.2)";
+
+struct DetectArguments {
+  std::vector<std::string> events;        // by camera
+  std::vector<std::string> calibrations;  // by camera
+  std::string imu, state, range;          // empty: not recorded
+  std::string scenario;                   // empty: defaults
+  std::vector<std::string> set;
+  std::string plugin;
+  std::string out;
+  std::string video;  // empty: none
+  double slow = 10;   // of the video
+};
+
+// The keys of a scenario that matter here: pilot, dodger, delays.
+Scenario load(const DetectArguments& arguments) {
+  const std::vector<Setting> settings = parse_settings("--set", arguments.set);
+  const Scenario scenario = with_plugin(
+      arguments.scenario.empty()
+          ? parse_scenario("pilot: " + std::string(kPaperPilot), "the defaults", "", settings)
+          : load_scenario(arguments.scenario, "", settings),
+      arguments.plugin);
+  if (!perceives(scenario.pilot)) {
+    throw ScenarioError("The pilot " + scenario.pilot +
+                        " sees nothing in a recording; --set pilot=falanga2020, dodgesim or "
+                        "plugin.");
+  }
+  if ((scenario.pilot == kPluginPilot) == arguments.plugin.empty()) {
+    throw ScenarioError("The pilot plugin and --plugin FILE.so go together.");
+  }
+  return scenario;
+}
+
+std::vector<CameraCalibration> load_calibrations(const DetectArguments& arguments) {
+  if (arguments.calibrations.size() != arguments.events.size()) {
+    throw ScenarioError(
+        "There are " + count_text(static_cast<std::int64_t>(arguments.events.size()), "file") +
+        " of events, but " +
+        count_text(static_cast<std::int64_t>(arguments.calibrations.size()), "calibration") +
+        "; each camera needs one.");
+  }
+  std::vector<CameraCalibration> calibrations;
+  for (const std::string& file : arguments.calibrations) {
+    calibrations.push_back(load_camera_calibration(file));
+  }
+  return calibrations;
+}
+
+dodge::Config core_config(const Scenario& scenario,
+                          const std::vector<CameraCalibration>& calibrations) {
+  dodge::Config config = scenario.dodger;
+  for (const CameraCalibration& c : calibrations) config.cameras.push_back(c.camera);
+  config.p_BR = calibrations.front().p_BR;
+  if (calibrations.size() == 1 && config.position.depth != "mono") {
+    config.position.depth = "mono";
+    std::printf("One camera: depth comes from a known size, %g m (dodger.position.known_size_m).\n",
+                config.position.known_size_m);
+  }
+  try {
+    dodge::validate(config);
+  } catch (const std::invalid_argument& error) {
+    throw ScenarioError(error.what());
+  }
+  return config;
+}
+
+// With the IMU's axes turned into those of B. Says what is missing and what is taken in its place.
+RecordedSensors load_sensors(const DetectArguments& arguments,
+                             const std::vector<CameraCalibration>& calibrations) {
+  RecordedSensors sensors;
+  for (std::size_t i = 0; i < arguments.events.size(); ++i) {
+    const dodge::CameraModel& camera = calibrations[i].camera;
+    sensors.cameras.push_back(open_events(arguments.events[i], {camera.width, camera.height}));
+    if (calibrations[i].focal_length_assumed) {
+      std::printf("%s has no intrinsics: 80 degrees over %d columns are assumed.\n",
+                  arguments.calibrations[i].c_str(), camera.width);
+    }
+  }
+  if (!arguments.state.empty()) sensors.states = read_state_log(arguments.state);
+  if (!arguments.range.empty()) sensors.ranges = read_range_log(arguments.range);
+  if (!arguments.imu.empty()) {
+    sensors.imu = read_imu_log(arguments.imu);
+    for (ImuReading& reading : sensors.imu) {
+      reading.w_B_radps = calibrations.front().R_BG * reading.w_B_radps;
+      reading.f_B_mps2 = calibrations.front().R_BG * reading.f_B_mps2;
+    }
+    if (calibrations.front().imu_axes_assumed) {
+      std::printf("The IMU's axes are taken for the camera's (imu_axes: right down forward).\n");
+    }
+  } else {
+    for (const StateReading& state : sensors.states) sensors.imu.push_back({state.t_us, state.w_B});
+    std::printf("No --imu: %s.\n", sensors.states.empty() ? "the camera is taken not to turn"
+                                                          : "the rates are those of --state");
+  }
+  return sensors;
+}
+
+std::unique_ptr<dodge::Pilot> make_pilot(const Scenario& scenario, const dodge::Config& config) {
+  if (scenario.pilot != kPluginPilot) return std::make_unique<dodge::Dodger>(config);
+  return make_plugin_pilot(scenario.plugin, config, scenario.plugin_parameters);
+}
+
+// A film of the pilot's stages, a picture a cycle.
+class StageVideo {
+ public:
+  StageVideo(const DetectArguments& arguments, TimeUs period_us)
+      : path_(arguments.video), rate_hz_(1 / (seconds(period_us) * arguments.slow)) {}
+
+  void add(const dodge::Dodger& pilot, TimeUs now_us) {
+    const cv::Mat3b picture = stage_picture(pilot, now_us);
+    if (!file_)
+      file_ = std::make_unique<Mp4File>(path_, path_, picture.cols, picture.rows, rate_hz_);
+    file_->write(picture.data);
+  }
+
+  void close() { file_->close(); }
+
+ private:
+  std::string path_;
+  double rate_hz_;
+  std::unique_ptr<Mp4File> file_;
+};
+
+// What the cycles found, in sum.
+struct Sums {
+  long long cycles = 0, with_clusters = 0, with_detections = 0, detections = 0, evading = 0;
+  double stages_us = 0;  // wall clock
+
+  void add(int clusters, const Playback& playback) {
+    const auto found = static_cast<long long>(playback.pilot().detections().size());
+    ++cycles;
+    with_clusters += clusters > 0 ? 1 : 0;
+    with_detections += found > 0 ? 1 : 0;
+    detections += found;
+    evading += playback.command().evading ? 1 : 0;
+    if (const auto* dodger = dynamic_cast<const dodge::Dodger*>(&playback.pilot())) {
+      const dodge::StageTimes& times = dodger->stage_times();
+      stages_us += times.ego_motion_us + times.threshold_us + times.morphology_us +
+                   times.clustering_us + times.rest_us;
+    }
+  }
+};
+
+void report(const Playback& playback, const Sums& sums, int cameras) {
+  const auto* dodger = dynamic_cast<const dodge::Dodger*>(&playback.pilot());
+  for (int camera = 0; camera < cameras; ++camera) {
+    if (cameras > 1) std::printf("%s camera: ", kCameraNames[static_cast<std::size_t>(camera)]);
+    std::printf("%lld events", static_cast<long long>(playback.events(camera)));
+    const std::int64_t dropped = dodger != nullptr ? dodger->dropped_events(camera) : 0;
+    if (dropped > 0) {
+      std::printf(", %lld of which were dropped for their time", static_cast<long long>(dropped));
+    }
+    std::printf("\n");
+  }
+  std::printf(
+      "%.3f s, %lld cycles: something moves in %lld, is measured in %lld (%lld "
+      "detections), is evaded in %lld\n",
+      seconds(playback.last_event_us() - playback.first_event_us()), sums.cycles,
+      sums.with_clusters, sums.with_detections, sums.detections, sums.evading);
+  if (dodger == nullptr) return;
+  std::printf("The pilot's stages take %.3f ms a cycle here\n",
+              1e-3 * sums.stages_us / static_cast<double>(sums.cycles));
+}
+
+// A pilot that may be filmed, if that is asked for.
+std::optional<StageVideo> make_video(const DetectArguments& arguments, const Scenario& scenario,
+                                     dodge::Dodger* dodger) {
+  if (arguments.video.empty()) return std::nullopt;
+  if (dodger == nullptr) {
+    throw ScenarioError("--video shows the stages of our own pilots; a plug-in has none.");
+  }
+  dodger->set_capture(true);
+  return StageVideo(arguments, scenario.delays.period_us());
+}
+
+void detect(const DetectArguments& arguments) {
+  watch_stop_signals();
+  const Scenario scenario = load(arguments);
+  const std::vector<CameraCalibration> calibrations = load_calibrations(arguments);
+  const dodge::Config config = core_config(scenario, calibrations);
+  Playback playback(scenario.delays, make_pilot(scenario, config),
+                    load_sensors(arguments, calibrations));
+  auto* dodger = dynamic_cast<dodge::Dodger*>(&playback.pilot());
+  std::optional<StageVideo> video = make_video(arguments, scenario, dodger);
+  DetectionFiles files(arguments.out);
+  Sums sums;
+  while (playback.next()) {
+    if (asked_to_stop()) throw std::runtime_error("Stopped; nothing is written.");
+    sums.add(files.add(playback.now_us(), playback.pilot(), playback.command()), playback);
+    if (video) video->add(*dodger, playback.now_us());
+  }
+  files.finish();
+  report(playback, sums, static_cast<int>(arguments.events.size()));
+  std::printf("%s: cycles.csv, clusters.csv, detections.csv, obstacles.csv\n",
+              arguments.out.c_str());
+  if (!video) return;
+  video->close();
+  std::printf("Video: %s\n", arguments.video.c_str());
+}
+
+}  // namespace
+
+void add_detect_command(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<DetectArguments>();
+  CLI::App* command =
+      program.add_subcommand("detect", "Run a pilot on recorded events, and write what it finds");
+  command
+      ->add_option("events", arguments->events,
+                   "The events of one camera, or of the upper and the lower one")
+      ->required()
+      ->expected(1, 2)
+      ->type_name("EVENTS");
+  command->add_option("--calibration", arguments->calibrations, "The cameras, in the same order")
+      ->required()
+      ->expected(1, 2)
+      ->type_name("CALIBRATION.yaml");
+  command->add_option("--imu", arguments->imu, "Angular rates")->type_name("IMU.csv");
+  command->add_option("--state", arguments->state, "State estimates")->type_name("STATE.csv");
+  command->add_option("--range", arguments->range, "Readings of the range sensor")
+      ->type_name("RANGE.csv");
+  command
+      ->add_option("--scenario", arguments->scenario,
+                   "Whose keys pilot, plugin_parameters, dodger and delays are taken; without it\n"
+                   "the defaults, with the pilot falanga2020")
+      ->type_name("SCENARIO.yaml");
+  add_set_option(*command, arguments->set);
+  add_plugin_option(*command, arguments->plugin);
+  command->add_option("--out", arguments->out, "Folder for the results")
+      ->required()
+      ->type_name("DIR");
+  CLI::Option* video =
+      command
+          ->add_option("--video", arguments->video,
+                       "Write a video (H.264) of the pilot's stages, a picture a cycle")
+          ->check(file_ending(".mp4"))
+          ->type_name("FILE.mp4");
+  command->add_option("--slow", arguments->slow, "How many times slower than real the video is")
+      ->check(number_between(1, 1000))
+      ->needs(video)
+      ->capture_default_str();
+  command->footer(kDetectFooter);
+  command->callback([arguments, &exit_code] {
+    detect(*arguments);
+    exit_code = kOk;
+  });
+}
+
+}  // namespace dodgesim
