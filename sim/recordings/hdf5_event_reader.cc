@@ -1,13 +1,12 @@
 #include "sim/recordings/hdf5_event_reader.h"
 
-#include <hdf5.h>
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
+#include "sim/recordings/hdf5_library.h"
 #include "sim/recordings/raw_event.h"
 
 namespace dodgesim {
@@ -16,27 +15,39 @@ namespace {
 
 constexpr hsize_t kChunkEvents = 1 << 15;  // events: the chunks of hdf5_event_writer.cc
 
-class Hdf5Reader : public EventReader {
+// Open for reading; closes all that is in it, too.
+class Hdf5File {
  public:
-  Hdf5Reader(const std::string& path, const ImageSize& image) : path_(path), image_(image) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are ours to report
+  explicit Hdf5File(const std::string& path) {
+    prepare_hdf5();
     if (!std::filesystem::is_regular_file(path)) {
       throw IoError(path + " cannot be read: it is no file.");
     }
-    file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (file_ < 0) throw ScenarioError(path + " cannot be opened as HDF5.");
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    id_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
+    H5Pclose(access);
+    if (id_ < 0) throw ScenarioError(path + " cannot be opened as HDF5.");
+  }
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+  ~Hdf5File() { H5Fclose(id_); }
+
+  hid_t id() const { return id_; }
+
+ private:
+  hid_t id_ = -1;
+};
+
+class Hdf5Reader : public EventReader {
+ public:
+  Hdf5Reader(const std::string& path, const ImageSize& image)
+      : path_(path), image_(image), file_(path) {
     expect_size("events/width", image.width);
     expect_size("events/height", image.height);
     if (const std::optional<std::int64_t> offset_us = scalar("t_offset")) offset_us_ = *offset_us;
     const std::array<const char*, 4> names = {"events/t", "events/x", "events/y", "events/p"};
     for (std::size_t i = 0; i < names.size(); ++i) open_column(names[i], columns_[i]);
-  }
-  Hdf5Reader(const Hdf5Reader&) = delete;
-  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
-
-  ~Hdf5Reader() override {
-    for (const Column& column : columns_) H5Dclose(column.dataset);
-    H5Fclose(file_);
   }
 
   std::span<const Event> next() override {
@@ -60,9 +71,9 @@ class Hdf5Reader : public EventReader {
   };
 
   std::optional<std::int64_t> scalar(const char* name) const {
-    if (H5Lexists(file_, "events", H5P_DEFAULT) <= 0) return std::nullopt;
-    if (H5Lexists(file_, name, H5P_DEFAULT) <= 0) return std::nullopt;
-    const hid_t dataset = H5Dopen2(file_, name, H5P_DEFAULT);
+    if (H5Lexists(file_.id(), "events", H5P_DEFAULT) <= 0) return std::nullopt;
+    if (H5Lexists(file_.id(), name, H5P_DEFAULT) <= 0) return std::nullopt;
+    const hid_t dataset = H5Dopen2(file_.id(), name, H5P_DEFAULT);
     if (dataset < 0) return std::nullopt;
     const hid_t space = H5Dget_space(dataset);
     std::int64_t value = 0;
@@ -84,7 +95,7 @@ class Hdf5Reader : public EventReader {
 
   void open_column(const char* name, Column& column) {
     column.name = name;
-    column.dataset = H5Dopen2(file_, name, H5P_DEFAULT);
+    column.dataset = H5Dopen2(file_.id(), name, H5P_DEFAULT);
     if (column.dataset < 0) {
       throw ScenarioError(path_ + " has no " + name + "; it must have events/t, x, y and p.");
     }
@@ -115,7 +126,7 @@ class Hdf5Reader : public EventReader {
 
   std::string path_;
   ImageSize image_;
-  hid_t file_ = -1;
+  Hdf5File file_;
   std::int64_t offset_us_ = 0;
   std::array<Column, 4> columns_;  // t, x, y, p
   hsize_t size_ = 0, read_ = 0;    // events

@@ -1,13 +1,12 @@
 #include "sim/recordings/hdf5_event_writer.h"
 
-#include <hdf5.h>
-
 #include <cerrno>
 #include <limits>
 #include <vector>
 
 #include "sim/base/error.h"
 #include "sim/files/staged_file.h"
+#include "sim/recordings/hdf5_library.h"
 
 namespace dodgesim {
 
@@ -16,17 +15,10 @@ namespace {
 constexpr hsize_t kChunkValues = 1 << 15;  // values that are compressed together
 constexpr unsigned kGzipLevel = 1;
 
-// Errors are ours to report, and files left open after one (see ~Hdf5Writer()) must not be closed
-// when the program ends.
-void prepare_library() {
-  [[maybe_unused]] static const herr_t once = H5dont_atexit();
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-}
-
 class Hdf5Writer : public EventWriter {
  public:
   Hdf5Writer(const std::filesystem::path& path, const Recording& recording) : staged_(path) {
-    prepare_library();
+    prepare_hdf5();
     file_ = create_file();
     const hid_t group = checked(H5Gcreate2(file_, "events", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
     x_.dataset = create_column("events/x", H5T_STD_U16LE);
