@@ -18,7 +18,8 @@ constexpr double kSceneDistanceM = 4.2;
 constexpr std::size_t kMaxTrail = 2000;
 constexpr TimeUs kTrailEveryUs = 4000;
 constexpr TimeUs kLongestShownUs = 4000;  // events that no others follow
-constexpr TimeUs kShownEveryUs = 40000;   // 25 pictures a second
+constexpr int kPicturesPerS = 25;
+constexpr TimeUs kShownEveryUs = 1000000 / kPicturesPerS;
 static_assert(Film::kSlowest * kTickUs <= kShownEveryUs);
 
 }  // namespace
@@ -101,7 +102,7 @@ void Film::caption(const Snapshot& snapshot) {
   for (std::size_t i = 0; i < snapshot.objects.size(); ++i) {
     if (!snapshot.launched[i]) continue;
     const double distance_m = (snapshot.objects[i].p_W - snapshot.vehicle.p_W).norm();
-    write_caption(picture_, formatted("object at %.2f m", distance_m), 10,
+    write_caption(picture_, formatted("object's centre at %.2f m", distance_m), 10,
                   40 + 20 * static_cast<int>(i));
   }
   write_caption(picture_,
@@ -111,7 +112,9 @@ void Film::caption(const Snapshot& snapshot) {
   write_caption(picture_, "events, bottom camera", kSceneWidth + 8, kSceneHeight / 2 + 18);
 }
 
-void Film::close() {
+void Film::finish(const std::string& verdict) {
+  write_caption(picture_, verdict, 10, kSceneHeight - 32);
+  for (int i = 0; i < kPicturesPerS; ++i) video_.write(picture_.data);
   video_.close();
   place_.commit();
 }

@@ -45,8 +45,9 @@ class Film : public FlightObserver {
   void on_cycle(TimeUs now_us, const dodge::Pilot& pilot) override;
   void on_command(TimeUs now_us, bool evading) override;
 
-  // Finishes the file. Throws IoError if it does not hold every picture.
-  void close();
+  // Shows the last picture for a second more, with what became of the throw, and finishes the file.
+  // Throws IoError if it does not hold every picture.
+  void finish(const std::string& verdict);
 
   // The last picture [BGR].
   const cv::Mat3b& picture() const { return picture_; }

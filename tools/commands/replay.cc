@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/journal.h"
 #include "sim/campaign/progress.h"
@@ -29,6 +30,7 @@
 #include "sim/observers/poster.h"
 #include "sim/observers/stage_panels.h"
 #include "sim/observers/vehicle_log.h"
+#include "sim/outcome/fate.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
 #include "sim/recordings/event_writer.h"
@@ -128,6 +130,14 @@ std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
       arguments.camera == kCameraNames[0] ? 0 : 1);
 }
 
+// "dodged, at least 0.23 m between the surfaces"
+std::string verdict_text(const ThrowResult& result) {
+  const std::optional<double>& clearance_m = result.flown.clearance_m;
+  const std::string fate = to_text(fate_of(result));
+  if (!clearance_m || result.flown.hit) return fate;
+  return fate + formatted(", at least %.2f m between the surfaces", *clearance_m);
+}
+
 // Everything that looks on, as the arguments ask for.
 class Onlookers {
  public:
@@ -195,7 +205,7 @@ class Onlookers {
       std::cout << "Recorded as the vehicle would: " << arguments_.record << "\n";
     }
     if (film_) {
-      film_->close();
+      film_->finish(verdict_text(result));
       std::cout << "Video: " << arguments_.video << "\n";
     }
     if (stages_) {
