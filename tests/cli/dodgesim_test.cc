@@ -2,8 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -23,6 +24,14 @@ using ::testing::Not;
 using ::testing::StartsWith;
 
 const fs::path kSource = DODGESIM_SOURCE_DIR;
+
+// Where the records of a results.bin begin: behind its mark and the campaign's identity.
+std::size_t records_at(const std::string& results) {
+  constexpr std::size_t kMark = 8, kHeader = 16;
+  std::uint32_t size = 0;
+  std::memcpy(&size, results.data() + kMark, sizeof size);
+  return kMark + kHeader + size;
+}
 
 class DodgesimTest : public CommandTest {
  protected:
@@ -147,24 +156,41 @@ TEST_F(DodgesimTest, FliesACampaignAndReplaysAThrowOfIt) {
             0);
   EXPECT_EQ(contents(one + "/throws.csv"), contents(two + "/throws.csv"));
 
-  const Outcome other =
+  const Outcome ten =
       dodgesim("run " + scenario + " --out " + one + " --throws 3 --seed 10 --resume");
-  EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.output, HasSubstr("holds results of another scenario (seed is 9, not 10);"));
+  EXPECT_EQ(ten.exit_code, 2);
+  EXPECT_THAT(ten.output, HasSubstr("holds results of another scenario (seed is 9, not 10);"));
 
   const Outcome replay = dodgesim("replay " + one + " --throw 2");
   EXPECT_EQ(replay.exit_code, 0) << replay.output;
   EXPECT_EQ(dodgesim("replay " + one + " --throw 3").exit_code, 2) << "there are three throws";
 
-  // With another seed it is another throw.
-  const std::string kept = contents(one + "/scenario.resolved.yaml");
-  std::ofstream(one + "/scenario.resolved.yaml")
-      << std::regex_replace(kept, std::regex("seed: 9"), "seed: 8");
+  // Results of another seed are of other throws.
+  const std::string eight = (root_ / "eight").string();
+  ASSERT_EQ(dodgesim("run " + scenario + " --out " + eight + " --throws 3 --seed 8").exit_code, 0);
+  const std::string results = contents("one/results.bin"), other = contents("eight/results.bin");
+  write("one/results.bin",
+        results.substr(0, records_at(results)) + other.substr(records_at(other)));
   const Outcome changed = dodgesim("replay " + one + " --throw 2");
   EXPECT_EQ(changed.exit_code, 1) << changed.output;
   EXPECT_THAT(changed.output, HasSubstr("Throw 2 did not fly as recorded"));
   EXPECT_THAT(changed.output, ContainsRegex("\n  distance_m: recorded [0-9.]+, flown [0-9.]+\n"));
   EXPECT_THAT(changed.output, Not(HasSubstr("  throw: ")));
+}
+
+TEST_F(DodgesimTest, ReplaysNoScenarioThatWasChangedAfterTheFlight) {
+  const std::string out = path("out"), resolved = "out/scenario.resolved.yaml";
+  ASSERT_EQ(
+      dodgesim("run " + file("pilot: none\nseed: 9\nthrow: {}\n") + " --out " + out).exit_code, 0);
+  const std::string kept = contents(resolved);
+  write(resolved, std::regex_replace(kept, std::regex("seed: 9"), "seed: 8"));
+  const Outcome changed = dodgesim("replay " + out + " --throw 0");
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_EQ(changed.output, path(resolved) + " is not the scenario that " + out +
+                                " was flown with (seed is 8, not 9); to fly another one, "
+                                "`dodgesim run` it.\n");
+  write(resolved, "# a remark\n" + kept);
+  EXPECT_EQ(dodgesim("replay " + out + " --throw 0").exit_code, 0);
 }
 
 TEST_F(DodgesimTest, WritesTheTruthAboutEvents) {

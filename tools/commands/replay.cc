@@ -18,6 +18,8 @@
 #include "sim/campaign/result_files.h"
 #include "sim/config/expand.h"
 #include "sim/config/pilot.h"
+#include "sim/config/scenario_changes.h"
+#include "sim/config/yaml_tree.h"
 #include "sim/files/csv.h"
 #include "sim/files/csv_table.h"
 #include "sim/flight/fly_throw.h"
@@ -79,6 +81,16 @@ class FlightProgress : public FlightObserver {
   static constexpr TimeUs kUsPerMs = 1000, kFirstUs = 50 * kUsPerMs;
   Progress progress_;
 };
+
+// Somebody may have changed the file since: what it says now, nobody has flown.
+void expect_scenario(const std::string& directory, const JournalIndex& index) {
+  const std::string file = directory + "/" + kScenarioFile;
+  const std::string text = read_scenario_text(file);
+  if (scenario_changes(text, index.identity.scenario).empty()) return;
+  throw ScenarioError(file + " is not the scenario that " + directory + " was flown with (" +
+                      scenario_difference(text, index.identity.scenario) +
+                      "); to fly another one, `dodgesim run` it.");
+}
 
 // With other models, or with another plug-in if that is the pilot, it would be another throw.
 void expect_models(const Scenario& campaign, const std::string& pilot, const std::string& directory,
@@ -262,6 +274,7 @@ int replay(const ReplayArguments& arguments) {
   const JournalIndex index = read_journal(std::filesystem::path(directory) / kJournalFile);
   const Scenario campaign = with_plugin(
       load_scenario(directory + "/" + kScenarioFile, arguments.models_dir), arguments.plugin);
+  expect_scenario(directory, index);
   if (arguments.throw_index >= throw_count(campaign)) {
     throw ScenarioError(directory + " has no throw " + std::to_string(arguments.throw_index) + ".");
   }
