@@ -69,33 +69,6 @@ std::optional<Number> parse_number(const std::string& text) {
 
 }  // namespace
 
-// What the user may have meant by a key that is none.
-std::string Reader::hint(const std::string& unknown_key) const {
-  const auto meant = [](const std::string& path) { return "; did you mean " + path + "?"; };
-  const std::string longer = name_with(unknown_key, known_);
-  if (!longer.empty()) return meant(full(longer));
-  std::vector<std::string> elsewhere, below;
-  for (const std::string& path : context_.all_keys) {
-    if (last_part(path) == unknown_key) elsewhere.push_back(path);
-    if (path.starts_with(full(""))) below.push_back(path);
-  }
-  if (!elsewhere.empty()) {
-    return "; " + joined(elsewhere, {}, " and ") + (elsewhere.size() == 1 ? " is." : " are.");
-  }
-  const std::string near = closest_name(unknown_key, known_);
-  if (!near.empty()) return meant(full(near));
-  const std::string deeper = closest_key(unknown_key, below);
-  return deeper.empty() ? "." : meant(deeper);
-}
-
-void Reader::finish() {
-  for (const YamlNode::Key& key : map_.keys) {
-    if (std::find(known_.begin(), known_.end(), key.name) != known_.end()) continue;
-    if (key.name == "<<") continue;  // already a problem of the parser
-    context_.problems.add(key.at, full(key.name) + " is not a known key" + hint(key.name));
-  }
-}
-
 const YamlNode* Reader::take(const char* key) {
   known_.emplace_back(key);
   for (std::size_t i = 0; i < map_.keys.size(); ++i) {

@@ -115,7 +115,7 @@ class Reader {
     nested.finish();
   }
 
-  std::string hint(const std::string& unknown_key) const;
+  std::string hint(const std::string& unknown_key, const YamlNode& value) const;
   std::string full(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   const YamlNode* take(const char* key);
   const YamlNode* take_map(const char* key);

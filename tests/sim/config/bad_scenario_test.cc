@@ -110,6 +110,14 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:1:1: compute_us is not a known key; delays.compute_us is."},
     {"WrongPlaceOfTwo", "throw: {}\nspeed_mps: 5\n",
      "bad.yaml:2:1: speed_mps is not a known key; mission.speed_mps and throw.speed_mps are."},
+    {"Dotted", "seed: 1\nthrow.size_m: 0.2\n",
+     "bad.yaml:2:1: throw.size_m is not a known key; write throw: {size_m: 0.2} or use --set "
+     "throw.size_m=VALUE."},
+    {"DottedFurtherDown", "dodger: {position.stereo.max_cost: 2}\n",
+     "bad.yaml:1:10: dodger.position.stereo.max_cost is not a known key; write position: {stereo: "
+     "{max_cost: 2}} or use --set dodger.position.stereo.max_cost=VALUE."},
+    {"DottedAndMisspelled", "throw.sise_m: 0.2\n",
+     "bad.yaml:1:1: throw.sise_m is not a known key; did you mean throw.size_m?"},
     {"Unknown", "throw:\n  colour_of_the_sky: 3\n",
      "bad.yaml:2:3: throw.colour_of_the_sky is not a known key."},
     {"Duplicate", "seed: 1\nrepeats: 2\nseed: 3\n",

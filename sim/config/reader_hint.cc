@@ -1,0 +1,61 @@
+// Reader: what is said of keys that are none.
+#include <algorithm>
+
+#include "sim/base/joined.h"
+#include "sim/config/closest_name.h"
+#include "sim/config/reader.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr std::size_t kLongestValue = 60;  // that is repeated in a message
+
+// "throw: {size_m: 0.2}" of throw.size_m.
+std::string nested(const std::string& dotted_key, const YamlNode& value) {
+  const std::string text = to_text(value);
+  std::string before, after;
+  for (const char c : dotted_key) {
+    before += c == '.' ? ": {" : std::string(1, c);
+    if (c == '.') after += '}';
+  }
+  return before + ": " + (text.size() > kLongestValue ? "..." : text) + after;
+}
+
+}  // namespace
+
+// What the user may have meant by a key that is none.
+std::string Reader::hint(const std::string& unknown_key, const YamlNode& value) const {
+  const auto& all = context_.all_keys;
+  if (std::find(all.begin(), all.end(), full(unknown_key)) != all.end()) {
+    return "; write " + nested(unknown_key, value) + " or use --set " + full(unknown_key) +
+           "=VALUE.";
+  }
+  const auto meant = [](const std::string& path) { return "; did you mean " + path + "?"; };
+  const std::string longer = name_with(unknown_key, known_);
+  if (!longer.empty()) return meant(full(longer));
+  std::vector<std::string> elsewhere, below;
+  for (const std::string& path : context_.all_keys) {
+    if (last_part(path) == unknown_key) elsewhere.push_back(path);
+    if (path.starts_with(full(""))) below.push_back(path);
+  }
+  if (!elsewhere.empty()) {
+    return "; " + joined(elsewhere, {}, " and ") + (elsewhere.size() == 1 ? " is." : " are.");
+  }
+  const std::string near = closest_name(unknown_key, known_);
+  if (!near.empty()) return meant(full(near));
+  const std::string deeper = closest_key(unknown_key, below);
+  return deeper.empty() ? "." : meant(deeper);
+}
+
+void Reader::finish() {
+  for (std::size_t i = 0; i < map_.keys.size(); ++i) {
+    const YamlNode::Key& key = map_.keys[i];
+    if (std::find(known_.begin(), known_.end(), key.name) != known_.end()) continue;
+    if (key.name == "<<") continue;  // already a problem of the parser
+    context_.problems.add(key.at,
+                          full(key.name) + " is not a known key" + hint(key.name, map_.items[i]));
+  }
+}
+
+}  // namespace dodgesim
