@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "sim/base/error.h"
 #include "sim/config/check_presets.h"
 #include "sim/config/check_scenario.h"
 #include "sim/config/reader.h"
@@ -21,11 +22,30 @@ bool may_vary(const ParameterDoc& doc) {
          std::find(std::begin(kSingle), std::end(kSingle), doc.path) == std::end(kSingle);
 }
 
+// The list of grid and sweep that is longest; nullptr without any.
+const VariedKey* longest_axis(const Scenario& scenario) {
+  const VariedKey* longest = nullptr;
+  for (const VariedKeys* const axes : {&scenario.grid, &scenario.sweep}) {
+    for (const VariedKey& axis : *axes) {
+      if (longest == nullptr || axis.values.size() > longest->values.size()) longest = &axis;
+    }
+  }
+  return longest;
+}
+
 // A campaign keeps its scenario with every value spelled out, and must be able to read it again.
-void check_resolved(const Scenario& scenario, const std::string& file) {
-  Problems problems(file + ", with every value spelled out");
-  parse_yaml(to_yaml(scenario), problems);
-  problems.raise_if_any();
+void check_resolved(const Scenario& scenario, ReadContext& context) {
+  Problems resolved("");
+  try {
+    parse_yaml(to_yaml(scenario), resolved);
+    resolved.raise_if_any();
+  } catch (const ScenarioError&) {
+    // Its lines are not the user's. It is too long, mostly for one list.
+    const VariedKey* const longest = longest_axis(scenario);
+    context.problems.fail(
+        longest == nullptr ? Position{} : longest->at,
+        resolved.all().back().sentence + " That is so with every value spelled out.");
+  }
 }
 
 Scenario read(const std::string& text, const std::string& file, const std::string& models_dir,
@@ -52,7 +72,7 @@ Scenario read(const std::string& text, const std::string& file, const std::strin
   check_scenario(scenario, context);
   context.problems.raise_if_any();
   for (const auto& [key, at] : context.where) scenario.places[key] = context.problems.place(at);
-  check_resolved(scenario, file);
+  check_resolved(scenario, context);
   return scenario;
 }
 

@@ -162,6 +162,14 @@ TEST_F(ScenarioCommandTest, BadSettingsAreUsageErrors) {
   const Outcome over = dodgesim("sweep " + path("s.yaml") + " --out x --over delays.compute_us=-1");
   EXPECT_EQ(over.exit_code, 2);
   EXPECT_THAT(over.output, HasSubstr("--over delays.compute_us=-1: delays.compute_us is -1, but"));
+  std::string many = "!uniform [1, 8]";
+  for (int i = 1; i < 1640; ++i) many += ", !uniform [1, 8." + std::to_string(i) + "]";
+  const Outcome values =
+      dodgesim("sweep " + path("s.yaml") + " --out x --over 'throw.speed_mps=" + many + "'");
+  EXPECT_EQ(values.exit_code, 2);
+  EXPECT_THAT(values.output,
+              AllOf(::testing::StartsWith("--over throw.speed_mps=!uniform [1, 8], "),
+                    HasSubstr("...: There are more than 5000 values, which no scenario needs.")));
 }
 
 TEST_F(ScenarioCommandTest, ASweepFliesTheSameThrowsAndItsTablesStayApart) {
