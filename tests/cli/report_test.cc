@@ -122,6 +122,10 @@ TEST_F(ReportCommandTest, CompareSaysWhatACampaignLacks) {
   EXPECT_THAT(outcome.output,
               HasSubstr(path("part") + " has 2 of the 4 throws of its scenario.\n"));
   EXPECT_THAT(outcome.output, Not(HasSubstr(path("out") + " has 4")));
+  ASSERT_EQ(dodgesim(run + "6/8 --out " + path("none")).exit_code, 0);
+  const Outcome none = dodgesim("compare " + path("out") + " " + path("none"));
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_EQ(none.output, path("none") + " has no throw, so there is nothing to compare.\n");
   const Outcome empty = dodgesim(run + "'' --out " + path("empty"));
   EXPECT_EQ(empty.exit_code, 2);
   EXPECT_THAT(empty.output, HasSubstr("--shard: nothing was given"));

@@ -9,6 +9,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
+#include "sim/campaign/merge.h"
 #include "sim/campaign/result_files.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
@@ -69,6 +70,9 @@ void print_difference(const std::filesystem::path& first, const std::filesystem:
 // Outcomes by the number of their sweep value: of different values they are never pooled.
 std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& directory) {
   const CampaignTables tables = read_tables(directory);
+  if (tables.throws.rows() == 0) {
+    throw MissingThrows(directory.string() + " has no throw, so there is nothing to compare.");
+  }
   if (tables.planned && tables.throws.rows() < *tables.planned) {
     std::cerr << directory.string() << " has " << tables.throws.rows() << " of the "
               << *tables.planned << " throws of its scenario.\n";
@@ -93,7 +97,6 @@ std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& d
     const int sweep = outcome.sweep;
     parts[sweep].push_back(std::move(outcome));
   }
-  if (parts.empty()) throw IoError((directory / kThrowsFile).string() + " holds no throw.");
   return parts;
 }
 
@@ -178,7 +181,14 @@ void add_compare_command(CLI::App& program, int& exit_code) {
       "  dodgesim run s.yaml --out paper\n"
       "  dodgesim run s.yaml --out told --set pilot=oracle\n"
       "  dodgesim compare paper told");
-  command->callback([arguments, &exit_code] { exit_code = compare_campaigns(*arguments); });
+  command->callback([arguments, &exit_code] {
+    try {
+      exit_code = compare_campaigns(*arguments);
+    } catch (const MissingThrows& error) {
+      std::cerr << error.what() << "\n";
+      exit_code = kIncomplete;
+    }
+  });
 }
 
 }  // namespace dodgesim
