@@ -97,6 +97,7 @@ class RecordReader {
 
  private:
   [[noreturn]] void fail_to_open(int error) const {
+    refuse_file(path_.parent_path());
     const bool nothing = error == ENOENT || error == ENOTDIR;
     fail(std::string("could not be opened: ") + std::strerror(error) +
          (nothing ? std::string("; ") + kWhatNamesACampaign : ""));

@@ -97,6 +97,11 @@ void expect_no_campaign(const fs::path& out) {
   throw ScenarioError("--out " + out.string() + " holds a campaign; choose another directory.");
 }
 
+void refuse_file(const fs::path& directory) {
+  if (!fs::is_regular_file(directory)) return;
+  throw IoError(directory.string() + " is a file; " + kWhatNamesACampaign + ".");
+}
+
 bool belongs_to_campaign(const fs::path& file) {
   const fs::path whole = StagedFile::target(file);
   if (!holds_campaign(whole.parent_path())) return false;

@@ -29,6 +29,9 @@ bool belongs_to_campaign(const std::filesystem::path& file);
 inline constexpr const char* kWhatNamesACampaign =
     "a campaign is named by the directory that `dodgesim run --out DIR` wrote";
 
+// Throws IoError if a file stands where the directory of a campaign must be.
+void refuse_file(const std::filesystem::path& directory);
+
 inline constexpr const char* kJournalFile = "results.bin";
 inline constexpr const char* kScenarioFile = "scenario.resolved.yaml";
 inline constexpr const char* kManifestFile = "manifest.json";

@@ -12,7 +12,9 @@ std::filesystem::path make_directory(const std::filesystem::path& directory) {
   std::filesystem::create_directories(directory, error);
   if (std::filesystem::is_directory(directory, unknown)) return directory;
   throw IoError(directory.string() + " could not be created: " +
-                (error ? error.message() : "a file of that name exists") + ".");
+                (std::filesystem::exists(directory, unknown) ? "a file of that name exists"
+                                                             : error.message()) +
+                ".");
 }
 
 }  // namespace dodgesim

@@ -186,6 +186,7 @@ Json manifest_or_nothing(const fs::path& path) {
 
 CampaignTables read_tables(const fs::path& directory) {
   const fs::path throws = directory / kThrowsFile;
+  refuse_file(directory);
   if (!fs::exists(throws) && fs::exists(directory / kJournalFile)) {
     throw IoError(directory.string() + " is not finished, so it has no throws.csv: the same run " +
                   "with --resume flies what is missing.");

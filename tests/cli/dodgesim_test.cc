@@ -245,6 +245,22 @@ TEST_F(DodgesimTest, WhatReadsACampaignSaysWhatNamesOne) {
   }
 }
 
+TEST_F(DodgesimTest, WhatReadsACampaignSaysThatAFileIsNone) {
+  const std::string scenario = file("pilot: none\n");
+  for (const std::string& command :
+       {"replay " + scenario + " --throw 0", "table " + scenario, "report " + scenario,
+        "merge --check " + scenario, "compare " + scenario + " " + scenario}) {
+    const Outcome outcome = dodgesim(command);
+    EXPECT_EQ(outcome.exit_code, 4) << command;
+    EXPECT_EQ(outcome.output, scenario +
+                                  " is a file; a campaign is named by the directory that "
+                                  "`dodgesim run --out DIR` wrote.\n");
+  }
+  const Outcome out = dodgesim("run " + scenario + " --out " + scenario);
+  EXPECT_EQ(out.exit_code, 4);
+  EXPECT_EQ(out.output, scenario + " could not be created: a file of that name exists.\n");
+}
+
 TEST_F(DodgesimTest, ReportsPathsThatCannotBeUsed) {
   const std::string loop = (root_ / "loop").string();
   fs::create_symlink(loop, loop);

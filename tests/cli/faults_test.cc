@@ -167,7 +167,8 @@ TEST_F(FaultsTest, OutputThatNobodyCanStoreIsNoSuccess) {
   EXPECT_EQ(dodgesim(run_arguments("out", "--throws 1 >/dev/full")).exit_code, 4);
   const Outcome outcome = dodgesim("run " + path("s.yaml") + " --out /dev/full");
   EXPECT_EQ(outcome.exit_code, 4);
-  EXPECT_THAT(outcome.output, HasSubstr("/dev/full could not be created: Not a directory."));
+  EXPECT_THAT(outcome.output,
+              HasSubstr("/dev/full could not be created: a file of that name exists."));
 }
 
 TEST_F(FaultsTest, ADivergedSimulationCountsAsNoSuccessAndReplays) {
