@@ -6,6 +6,8 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -322,14 +324,19 @@ std::string read_scenario_text(const std::string& path) {
   if (error) throw IoError(path + " could not be read: " + error.message() + ".");
   // To open a pipe may take for ever.
   if (!std::filesystem::is_regular_file(status)) {
-    throw ScenarioError(path + ": This is not a regular file; a scenario is a YAML file.");
+    const bool directory = std::filesystem::is_directory(status);
+    throw ScenarioError(path + ": This is " + (directory ? "a directory" : "not a regular file") +
+                        "; a scenario is a YAML file.");
   }
+  const auto fail = [&path] {
+    throw IoError(path + " could not be read: " + std::strerror(errno) + ".");
+  };
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw IoError(path + ": The file could not be opened for reading.");
+  if (!file) fail();
   // One byte beyond the limit is enough to know that it is exceeded.
   std::string text(kMostBytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad()) throw IoError(path + ": The file could not be read.");
+  if (file.bad()) fail();
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kMostBytes) {
     throw ScenarioError(path + ": The file has more than " + std::to_string(kMostBytes) +

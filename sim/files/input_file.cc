@@ -1,6 +1,8 @@
 #include "sim/files/input_file.h"
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "sim/base/error.h"
@@ -16,13 +18,17 @@ std::string read_file(const std::filesystem::path& path) {
   if (!error && kind != std::filesystem::file_type::regular) {
     throw IoError(path.string() + " is not a regular file.");
   }
+  const auto fail = [&path] {
+    throw IoError(path.string() + " could not be read: " + std::strerror(errno) + ".");
+  };
   std::ifstream file(path, std::ios::binary);
+  if (!file) fail();
   std::string text;
   std::array<char, 1 << 16> block;
   while (file.read(block.data(), block.size()) || file.gcount() > 0) {
     text.append(block.data(), static_cast<std::size_t>(file.gcount()));
   }
-  if (!file.is_open() || file.bad()) throw IoError(path.string() + " could not be read.");
+  if (file.bad()) fail();
   return text;
 }
 

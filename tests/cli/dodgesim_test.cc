@@ -261,6 +261,15 @@ TEST_F(DodgesimTest, WhatReadsACampaignSaysThatAFileIsNone) {
   EXPECT_EQ(out.output, scenario + " could not be created: a file of that name exists.\n");
 }
 
+TEST_F(DodgesimTest, SaysWhyAScenarioCannotBeRead) {
+  const Outcome folder = dodgesim("validate " + root_.string());
+  EXPECT_EQ(folder.exit_code, 2);
+  EXPECT_EQ(folder.output, root_.string() + ": This is a directory; a scenario is a YAML file.\n");
+  const Outcome memory = dodgesim("validate /proc/self/mem");
+  EXPECT_EQ(memory.exit_code, 4);
+  EXPECT_EQ(memory.output, "/proc/self/mem could not be read: Input/output error.\n");
+}
+
 TEST_F(DodgesimTest, ReportsPathsThatCannotBeUsed) {
   const std::string loop = (root_ / "loop").string();
   fs::create_symlink(loop, loop);

@@ -33,9 +33,9 @@ TEST(InputFile, IsAFile) {
   EXPECT_EQ(complaint_about(none), none.string() + " is missing.");
 }
 
-TEST(InputFile, ThatCannotBeReadIsNamed) {
+TEST(InputFile, ThatCannotBeReadIsNamedWithTheReason) {
   EXPECT_EQ(complaint<IoError>([] { read_file("/proc/self/mem"); }),
-            "/proc/self/mem could not be read.");
+            "/proc/self/mem could not be read: Input/output error.");
 }
 
 }  // namespace
