@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/base/formatted.h"
+
 namespace dodgesim {
 
 std::size_t utf8_length(std::string_view text) {
@@ -28,6 +30,17 @@ std::string valid_utf8(std::string_view text) {
     text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return out;
+}
+
+std::string beyond_ascii(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  std::size_t at = 0;
+  while (at < text.size() && byte(at) < 0x80) ++at;
+  const std::size_t length = at < text.size() ? utf8_length(text.substr(at)) : 0;
+  if (length == 0) return "";
+  unsigned code = byte(at) & (0xffu >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) code = (code << 6) | (byte(at + i) & 0x3fu);
+  return formatted("U+%04X", code);
 }
 
 }  // namespace dodgesim

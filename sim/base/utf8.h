@@ -15,4 +15,8 @@ inline constexpr std::string_view kReplacement = "\xef\xbf\xbd";  // U+FFFD
 // What is no UTF-8 of the text becomes U+FFFD.
 std::string valid_utf8(std::string_view text);
 
+// The first character beyond ASCII, which may look like a space or a letter of ASCII, as "U+00A0";
+// empty if there is none or it is no UTF-8.
+std::string beyond_ascii(std::string_view text);
+
 }  // namespace dodgesim

@@ -7,6 +7,7 @@
 #include "sim/base/joined.h"
 #include "sim/base/names.h"
 #include "sim/base/numbers.h"
+#include "sim/base/utf8.h"
 #include "sim/config/closest_name.h"
 
 namespace dodgesim {
@@ -18,10 +19,12 @@ using Kind = YamlNode::Kind;
 constexpr std::size_t kLongestQuote = 60;  // of the user's text in a message
 
 std::string quote(const std::string& text) {
-  if (text.size() <= kLongestQuote) return "\"" + text + "\"";
+  const std::string strange = beyond_ascii(text);
+  const std::string behind = strange.empty() ? "\"" : "\" (with the character " + strange + ")";
+  if (text.size() <= kLongestQuote) return "\"" + text + behind;
   std::size_t end = kLongestQuote;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80) --end;  // whole UTF-8
-  return "\"" + text.substr(0, end) + "...\"";
+  return "\"" + text.substr(0, end) + "..." + behind;
 }
 
 // "{mean: 3, sd: 1}", if it is short.

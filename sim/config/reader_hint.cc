@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "sim/base/joined.h"
+#include "sim/base/utf8.h"
 #include "sim/config/closest_name.h"
 #include "sim/config/reader.h"
 
@@ -20,6 +21,12 @@ std::string nested(const std::string& dotted_key, const YamlNode& value) {
     if (c == '.') after += '}';
   }
   return before + ": " + (text.size() > kLongestValue ? "..." : text) + after;
+}
+
+// Of a name that may look like a known one.
+std::string strange_character(const std::string& name) {
+  const std::string character = beyond_ascii(name);
+  return character.empty() ? "" : " (it has the character " + character + ")";
 }
 
 }  // namespace
@@ -53,8 +60,8 @@ void Reader::finish() {
     const YamlNode::Key& key = map_.keys[i];
     if (std::find(known_.begin(), known_.end(), key.name) != known_.end()) continue;
     if (key.name == "<<") continue;  // already a problem of the parser
-    context_.problems.add(key.at,
-                          full(key.name) + " is not a known key" + hint(key.name, map_.items[i]));
+    context_.problems.add(key.at, full(key.name) + " is not a known key" +
+                                      strange_character(key.name) + hint(key.name, map_.items[i]));
   }
 }
 

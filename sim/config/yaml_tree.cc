@@ -26,6 +26,9 @@ constexpr std::size_t kMostBytes = 256 * 1024;  // a long scenario has 10 kB
 constexpr std::size_t kMostNodes = 5000;
 constexpr std::size_t kDeepest = 16;
 
+// What yaml-cpp makes of !! in front of a tag.
+constexpr std::string_view kYamlTags = "tag:yaml.org,2002:";
+
 // What the positions of a text say.
 struct Place {
   int source = 0;
@@ -97,7 +100,7 @@ class TreeBuilder : public YAML::EventHandler {
     YamlNode node;
     node.kind = kind;
     node.at = position(mark);
-    node.tag = tag;
+    node.tag = tag.starts_with(kYamlTags) ? "!!" + tag.substr(kYamlTags.size()) : tag;
     return node;
   }
 
@@ -284,7 +287,10 @@ YamlNode parse_yaml(std::string_view text, Problems& problems, int source) {
   YamlNode root = parse_document(text, problems, place);
   if (root.kind == YamlNode::Kind::kNull) problems.fail(place.whole(), "The file is empty.");
   if (root.kind != YamlNode::Kind::kMap) {
-    problems.fail(root.at, "The file must be a map of keys, one a line, such as \"seed: 1\".");
+    const std::string strange = beyond_ascii(root.text);
+    problems.fail(root.at,
+                  "The file must be a map of keys, one a line, such as \"seed: 1\"" +
+                      (strange.empty() ? "." : "; this has the character " + strange + "."));
   }
   return root;
 }

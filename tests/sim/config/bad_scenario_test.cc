@@ -96,6 +96,22 @@ const BadScenario kBadScenarios[] = {
      "you mean "
      "oracle?)."},
     {"TagOnNumber", "after_s: !int 1\n", "bad.yaml:1:10: after_s is !int"},
+    {"TagOfYamlOnNumber", "seed: !!int 5\n",
+     "bad.yaml:1:7: seed is !!int 5, but must be a whole number between"},
+    // Characters that look like others.
+    {"NoBreakSpaceBeforeKey", "throw:\n  \xc2\xa0size_m: 0.2\n",
+     "bad.yaml:2:3: throw.\xc2\xa0size_m is not a known key (it has the character U+00A0); did "
+     "you mean throw.size_m?"},
+    {"CyrillicLetterInKey", "s\xd0\xb5\x65\x64: 1\n",
+     "bad.yaml:1:1: s\xd0\xb5\x65\x64 is not a known key (it has the character U+0435); did you "
+     "mean seed?"},
+    {"NoBreakSpaceBehindColon", "throw:\n  size_m:\xc2\xa0\x30.2\n",
+     "bad.yaml:2:3: throw is \"size_m:\xc2\xa0\x30.2\" (with the character U+00A0), but must be"},
+    {"NoBreakSpaceBehindNumber", "seed: 1\xc2\xa0\n",
+     "bad.yaml:1:7: seed is \"1\xc2\xa0\" (with the character U+00A0), but must be"},
+    {"NoBreakSpaceForAllSpaces", "seed:\xc2\xa0\x31\n",
+     "bad.yaml:1:1: The file must be a map of keys, one a line, such as \"seed: 1\"; this has the "
+     "character U+00A0."},
     // Keys.
     {"Misspelled", "throw:\n  sise_m: 0.1\n",
      "bad.yaml:2:3: throw.sise_m is not a known key; did you mean throw.size_m?"},
