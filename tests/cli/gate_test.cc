@@ -219,6 +219,13 @@ TEST_F(GateCommandTest, ComparePairsTheThrowsOfASweepWhateverTheRepeats) {
   EXPECT_THAT(text, Not(HasSubstr("of different throws")));
   EXPECT_THAT(text, HasSubstr("because only " + path("four") + " has them: throws 3\n"));
   EXPECT_THAT(text, HasSubstr("because only " + path("four") + " has them: throws 7\n"));
+  ASSERT_EQ(dodgesim("run " + path("s.yaml") + " --out " + path("plain")).exit_code, 0);
+  const Outcome plain = dodgesim("compare " + path("plain") + " " + path("three"));
+  EXPECT_EQ(plain.exit_code, 2);
+  EXPECT_EQ(plain.output,
+            path("plain") + " has no sweep, or only its first value; " + path("three") +
+                " has 2 sweep values (number 0, 1). Campaigns can be compared if they have the "
+                "same sweep.\n");
 }
 
 TEST_F(GateCommandTest, ComparePairsThrowsOfOneSeedAndSaysWhatDiffers) {

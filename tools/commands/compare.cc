@@ -108,9 +108,12 @@ bool is_quiet(const std::map<int, std::vector<ThrowOutcome>>& parts) {
   });
 }
 
-// "0, 1, 3"
-std::string names(const std::map<int, std::vector<ThrowOutcome>>& parts) {
-  return joined(parts, [](const auto& part) { return std::to_string(part.first); });
+// "3 sweep values (number 0, 1, 3)"
+std::string sweep_text(const std::map<int, std::vector<ThrowOutcome>>& parts) {
+  if (parts.size() == 1 && parts.contains(0)) return "no sweep, or only its first value";
+  const auto count = static_cast<std::int64_t>(parts.size());
+  return count_text(count, "sweep value") + " (number " +
+         joined(parts, [](const auto& part) { return std::to_string(part.first); }) + ")";
 }
 
 // "Sweep value 1 (delays.compute_us 60000)": with the keys that are the same for all of its throws.
@@ -137,9 +140,9 @@ int compare_campaigns(const CompareArguments& arguments) {
   }
   if (!std::equal(first.begin(), first.end(), second.begin(), second.end(),
                   [](const auto& a, const auto& b) { return a.first == b.first; })) {
-    throw ScenarioError(arguments.first.string() + " has the sweep values number " + names(first) +
-                        ", " + arguments.second.string() + " has number " + names(second) +
-                        " (one alone: no sweep); they cannot be compared one by one.");
+    throw ScenarioError(arguments.first.string() + " has " + sweep_text(first) + "; " +
+                        arguments.second.string() + " has " + sweep_text(second) +
+                        ". Campaigns can be compared if they have the same sweep.");
   }
   for (const auto& [sweep, outcomes] : first) {
     expect_same_settings(outcomes, second.at(sweep), arguments.first.string(),
