@@ -19,12 +19,13 @@ TimeUs microseconds(double seconds) { return std::llround(seconds * 1e6); }
 TimeUs round_to_tick(TimeUs t_us) { return (t_us + kTickUs / 2) / kTickUs * kTickUs; }
 
 // Where the vehicle's centre is at t_us if nobody throws and nobody dodges.
-BodyState undisturbed_vehicle(const Scenario& scenario, int throw_index, TimeUs t_us) {
+BodyState undisturbed_vehicle(const Scenario& scenario, int throw_index, TimeUs t_us,
+                              FlightObserver* observer) {
   FlightPlan quiet;
   quiet.throw_index = throw_index;
   quiet.pilot = kNoPilot;
   quiet.end_us = t_us;
-  return fly(scenario, quiet).last.vehicle;
+  return fly(scenario, quiet, observer).last.vehicle;
 }
 
 // A throw from behind a wall is a mistake of the scenario, not a miss.
@@ -51,7 +52,7 @@ BodyState launch_at(const BodyState& vehicle, const Throw& drawn, const World& w
 
 }  // namespace
 
-FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
+FlightPlan plan_throw(const Scenario& scenario, int throw_index, FlightObserver* observer) {
   FlightPlan plan;
   plan.throw_index = throw_index;
   plan.pilot = scenario.pilot;
@@ -66,7 +67,8 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index) {
   world.reset(scenario.mission.start_m, 0, Eigen::Vector3d::Zero());
   for (int i = 0; i < world.object_count(); ++i) {
     FlightPlan::Launch& launch = plan.launches[static_cast<std::size_t>(i)];
-    const BodyState vehicle = undisturbed_vehicle(scenario, throw_index, launch.drawn.arrival_us());
+    const BodyState vehicle =
+        undisturbed_vehicle(scenario, throw_index, launch.drawn.arrival_us(), observer);
     try {
       launch.state = launch_at(vehicle, launch.drawn, world, i);
     } catch (const ScenarioError& error) {

@@ -7,6 +7,7 @@
 #include "sim/base/time.h"
 #include "sim/config/pilot.h"
 #include "sim/config/scenario.h"
+#include "sim/flight/flight_observer.h"
 #include "sim/world/snapshot.h"
 #include "sim/world/throw.h"
 
@@ -26,7 +27,8 @@ struct FlightPlan {
 
 // The plan of a throw of a scenario without grid and sweep: draws its numbers, finds out where the
 // vehicle will be when the object arrives if nobody dodges, and solves the throw for that place.
-// Throws ScenarioError and SimulationError.
-FlightPlan plan_throw(const Scenario& scenario, int throw_index);
+// The observer sees the vehicle fly there. Throws ScenarioError and SimulationError.
+FlightPlan plan_throw(const Scenario& scenario, int throw_index,
+                      FlightObserver* observer = nullptr);
 
 }  // namespace dodgesim

@@ -49,21 +49,32 @@ FlightPlan launches_at(TimeUs launch_us, FlightPlan plan) {
   return plan;
 }
 
-// Solves the throw and launches its objects, some of which may start inside something. Returns the
-// simulated time: up to each arrival and each launch.
-double try_throw(const ThrowCase& thrown) {
-  const FlightPlan plan = plan_throw(thrown.scenario, thrown.stream);
-  double sum_s = 0;
+// Adds up the simulated time of flights, and ends the one that makes it too long.
+class Budget : public FlightObserver {
+ public:
+  struct Spent {};
+
+  void on_tick(const World& /*world*/) override {
+    flown_us_ += kTickUs;
+    if (flown_s() > kMostTriedS) throw Spent();
+  }
+  double flown_s() const { return seconds(flown_us_); }
+
+ private:
+  TimeUs flown_us_ = 0;
+};
+
+// Solves the throw and launches its objects, some of which may start inside something: flights up
+// to each arrival and each launch.
+void try_throw(const ThrowCase& thrown, Budget& budget) {
+  const FlightPlan plan = plan_throw(thrown.scenario, thrown.stream, &budget);
   std::set<TimeUs> launches_us;
   for (const FlightPlan::Launch& launch : plan.launches) {
-    sum_s += seconds(launch.drawn.arrival_us());
     launches_us.insert(launch.drawn.launch_us);
   }
   for (const TimeUs launch_us : launches_us) {
-    fly(thrown.scenario, launches_at(launch_us, plan));
-    sum_s += seconds(launch_us);
+    fly(thrown.scenario, launches_at(launch_us, plan), &budget);
   }
-  return sum_s;
 }
 
 }  // namespace
@@ -72,11 +83,14 @@ int try_throws(const Scenario& campaign) {
   if (!campaign.anyone_throws()) return 0;
   const int throws = throw_count(campaign);
   const std::int64_t stride = stride_through(throws);
+  Budget budget;
   int solved = 0;
-  for (double sum_s = 0; solved < throws && sum_s < kMostSolvedS; ++solved) {
+  for (; solved < throws && budget.flown_s() < kMostSolvedS; ++solved) {
     const ThrowCase thrown = case_of(campaign, static_cast<int>(solved * stride % throws));
     try {
-      sum_s += try_throw(thrown);
+      try_throw(thrown, budget);
+    } catch (const Budget::Spent&) {
+      break;
     } catch (const std::runtime_error& error) {
       throw ScenarioError(
           placed("In " + name_of(thrown) + ": " + error.what(), place_of(error.what(), campaign)));

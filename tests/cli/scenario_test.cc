@@ -100,6 +100,12 @@ TEST_F(ScenarioCommandTest, ThrowsThatAreImpossibleAreFoundBeforeTheyAreFlown) {
                                  HasSubstr("the air drag of the object is too strong")));
 }
 
+TEST_F(ScenarioCommandTest, AThrowThatTakesLongToSolveIsNotTriedToItsEnd) {
+  const Outcome late = dodgesim("validate " + path("s.yaml") + " --set throw.launch_s=600");
+  EXPECT_EQ(late.exit_code, 0) << late.output;
+  EXPECT_THAT(late.output, HasSubstr("of 2 throws (not solved: that takes too long), pilot none"));
+}
+
 TEST_F(ScenarioCommandTest, ThrowsThatStartInsideSomethingAreFound) {
   const std::string keys = "{distance_m: 2, size_m: 0.3, launch_height_m: ";
   write("floor.yaml", "pilot: none\nthrow: " + keys + "0.1}\n");

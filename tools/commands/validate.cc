@@ -35,7 +35,11 @@ void validate(const ValidateArguments& arguments) {
   std::cout << arguments.scenario << ": a valid scenario";
   if (scenario.anyone_throws()) {
     std::cout << " of " << count_text(throw_count(scenario), "throw");
-    if (tried < throw_count(scenario)) std::cout << " (" << tried << " of which were solved)";
+    if (tried == 0) {
+      std::cout << " (not solved: that takes too long)";
+    } else if (tried < throw_count(scenario)) {
+      std::cout << " (" << tried << " of which were solved)";
+    }
   } else {
     std::cout << " in which nobody throws";
   }
@@ -62,8 +66,8 @@ void add_validate_command(CLI::App& program, int& exit_code) {
   add_models_option(*command, arguments->models_dir);
   add_plugin_option(*command, arguments->plugin);
   command->footer(
-      "Throws are solved, too, as many as it can in some 2 s: one that is impossible is a problem\n"
-      "(run loses that throw only).");
+      "Throws are solved, too, as many as it can in some 2 s, or the first if that takes no more\n"
+      "than some 10 s: one that is impossible is a problem (run loses that throw only).");
   command->callback([arguments, &exit_code] {
     validate(*arguments);
     exit_code = kOk;
