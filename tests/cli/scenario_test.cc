@@ -100,6 +100,15 @@ TEST_F(ScenarioCommandTest, ThrowsThatAreImpossibleAreFoundBeforeTheyAreFlown) {
                                  HasSubstr("the air drag of the object is too strong")));
 }
 
+TEST_F(ScenarioCommandTest, KeysWithoutEffectAreNotedButNoMistake) {
+  const Outcome idle = dodgesim("validate " + path("s.yaml") + " --set oracle.range_cap_m=2");
+  EXPECT_EQ(idle.exit_code, 0);
+  EXPECT_THAT(idle.output,
+              ::testing::StartsWith("--set oracle.range_cap_m=2: oracle.range_cap_m has no "
+                                    "effect: the pilot oracle does not fly.\n" +
+                                    path("s.yaml") + ": a valid scenario of 2 throws"));
+}
+
 TEST_F(ScenarioCommandTest, AThrowThatTakesLongToSolveIsNotTriedToItsEnd) {
   const Outcome late = dodgesim("validate " + path("s.yaml") + " --set throw.launch_s=600");
   EXPECT_EQ(late.exit_code, 0) << late.output;

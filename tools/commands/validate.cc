@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "sim/config/expand.h"
+#include "sim/config/idle_keys.h"
 #include "sim/files/text_table.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
@@ -31,6 +32,7 @@ void validate(const ValidateArguments& arguments) {
     std::cout << to_yaml(scenario);
     return;
   }
+  for (const std::string& note : idle_keys(scenario)) std::cerr << note << "\n";
   const int tried = try_throws(scenario);
   std::cout << arguments.scenario << ": a valid scenario";
   if (scenario.anyone_throws()) {
@@ -67,7 +69,8 @@ void add_validate_command(CLI::App& program, int& exit_code) {
   add_plugin_option(*command, arguments->plugin);
   command->footer(
       "Throws are solved, too, as many as it can in some 2 s, or the first if that takes no more\n"
-      "than some 10 s: one that is impossible is a problem (run loses that throw only).");
+      "than some 10 s: one that is impossible is a problem (run loses that throw only).\n"
+      "Keys that have no effect are named, and are no problem.");
   command->callback([arguments, &exit_code] {
     validate(*arguments);
     exit_code = kOk;

@@ -1,0 +1,80 @@
+#include "sim/config/idle_keys.h"
+
+#include <algorithm>
+
+#include "sim/base/joined.h"
+#include "sim/config/expand.h"
+#include "sim/config/pilot.h"
+
+namespace dodgesim {
+
+namespace {
+
+struct IdleRule {
+  std::string key;     // or a group of them
+  std::string except;  // the key of the group that always counts
+  bool (*acts)(const Scenario&);
+  std::string reason;
+};
+
+// A plug-in may do as it likes with the keys of dodger.
+const IdleRule kRules[] = {
+    {"plugin_parameters", "", [](const Scenario& s) { return s.pilot == kPluginPilot; },
+     "the pilot is not plugin"},
+    {"oracle", "", [](const Scenario& s) { return s.fly_oracle || s.pilot == kOraclePilot; },
+     "the pilot oracle does not fly"},
+    {"dodger.escape", "dodger.escape.law",
+     [](const Scenario& s) {
+       return s.pilot == kPluginPilot || s.dodger.escape.law != "potential_field";
+     },
+     "dodger.escape.law is potential_field"},
+    {"mission.waypoint_radius_m", "",
+     [](const Scenario& s) { return s.mission.type == "waypoints"; },
+     "mission.type is not waypoints"},
+    {"throw.interval_s", "",
+     [](const Scenario& s) { return !s.throw_spec || s.throw_spec->count > 1; },
+     "throw.count is 1"},
+    {"after_s", "", [](const Scenario& s) { return s.anyone_throws(); },
+     "nobody throws, and duration_s is the length of a flight"},
+    {"duration_s", "", [](const Scenario& s) { return !s.anyone_throws(); },
+     "after_s ends a flight with a throw"},
+};
+
+// The keys that the scenario gives of a rule's, without those of groups.
+std::vector<std::string> given(const IdleRule& rule, const Scenario& scenario) {
+  std::vector<std::string> keys;
+  for (const auto& [key, place] : scenario.places) {
+    const auto below = scenario.places.lower_bound(key + ".");
+    const bool is_group = below != scenario.places.end() && below->first.starts_with(key + ".");
+    const bool ruled = key == rule.key || key.starts_with(rule.key + ".");
+    if (ruled && !is_group && key != rule.except) keys.push_back(key);
+  }
+  return keys;
+}
+
+// As a resolved scenario does; nobody writes all keys of a group so large.
+bool gives_all_keys(const Scenario& scenario) {
+  const std::vector<ParameterDoc> docs = scenario_docs();
+  return std::all_of(docs.begin(), docs.end(), [&scenario](const ParameterDoc& doc) {
+    return !doc.path.starts_with("sensors.") || scenario.places.contains(doc.path);
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> idle_keys(const Scenario& scenario) {
+  std::vector<std::string> notes;
+  if (gives_all_keys(scenario)) return notes;
+  for (const IdleRule& rule : kRules) {
+    const std::vector<std::string> keys = given(rule, scenario);
+    if (keys.empty()) continue;
+    bool acts = false;
+    for_each_combination(scenario, [&](const Scenario& flown) { acts = acts || rule.acts(flown); });
+    if (acts) continue;
+    notes.push_back(scenario.places.at(keys.front()) + ": " + joined(keys, {}, " and ") +
+                    (keys.size() == 1 ? " has" : " have") + " no effect: " + rule.reason + ".");
+  }
+  return notes;
+}
+
+}  // namespace dodgesim
