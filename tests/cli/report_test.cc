@@ -58,6 +58,9 @@ TEST_F(ReportCommandTest, APageOpensWithoutErrorsAndShowsChartsAndAThrow) {
   EXPECT_THAT(dom, HasSubstr("class=\"cell\" role=\"button\""));  // the heat map
   EXPECT_THAT(dom, HasSubstr("class=\"band\""));                  // a curve with its band
   EXPECT_THAT(dom, HasSubstr("class=\"bar\""));                   // a histogram
+  EXPECT_THAT(dom, HasSubstr(">speed [m/s]; a point stands for a bin, such as 4 to 5</text>"));
+  EXPECT_THAT(dom, HasSubstr("at most one in 10 ms is drawn, in a flight of more than 5 s\nfewer; "
+                             "detections.csv has all."));
   EXPECT_THAT(dom, HasSubstr("<h2 id=\"throw-title\">Throw 2</h2>"));
   EXPECT_THAT(dom,
               HasSubstr("dodgesim replay " + path("out") +

@@ -81,13 +81,15 @@ function fillCells() {
 function fillSpeed() {
   const pilots = section().pilots.filter((p) => p.role !== 'none');
   const {values, middles} = data.speed;
+  const bin = values.find((value) => value.includes(' to '));
   byId('speed').replaceChildren(
       !values.length ? empty('Nobody threw.') :
       !middles.length ? empty('The speeds of the grid are no numbers; see the table of its cells.') :
       rateCurves({
         series: pilots.map((p) => ({name: p.name,
                                     points: p.by_speed.map((rate, k) => [middles[k], rate])})),
-        xLabel: 'speed [m/s]', label: 'Rate of dodged throws over speed'}));
+        xLabel: bin ? `speed [m/s]; a point stands for a bin, such as ${bin}` : 'speed [m/s]',
+        label: 'Rate of dodged throws over speed'}));
 }
 
 // What the curves of a sweep tell apart: its other keys, else the cells of the grid, else the
