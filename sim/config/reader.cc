@@ -105,6 +105,7 @@ const YamlNode* Reader::take_list(const char* key, const char* wanted, std::size
 }
 
 void Reader::problem(const YamlNode& node, const std::string& name, const std::string& complaint) {
+  if (node.alias) return;
   context_.problems.add(node.at, name + " is " + describe(node) + ", but " + complaint + ".");
 }
 

@@ -60,7 +60,9 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     problems_.add(position(mark), "Aliases (*name) are not supported; write the value out.");
-    add(make(YamlNode::Kind::kNull, mark, "", 0));
+    YamlNode node = make(YamlNode::Kind::kNull, mark, "", 0);
+    node.alias = true;
+    add(std::move(node));
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {

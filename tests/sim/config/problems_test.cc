@@ -42,6 +42,13 @@ TEST(Problems, MoreValuesThanCanBeReadAgainAreRefused) {
                          "That is so with every value spelled out."));
 }
 
+TEST(Problems, AnAliasIsOneProblem) {
+  EXPECT_EQ(error_of("seed: &a 1\nrepeats: *a\nthrow: *a\n"),
+            "bad.yaml:1:7: Anchors (&name) are not supported; write the value out.\n"
+            "bad.yaml:2:10: Aliases (*name) are not supported; write the value out.\n"
+            "bad.yaml:3:8: Aliases (*name) are not supported; write the value out.");
+}
+
 TEST(Problems, AnAliasBombIsRefusedWithoutBeingExpanded) {
   std::string yaml = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int i = 1; i < 12; ++i) {
