@@ -20,7 +20,7 @@ constexpr double kWidestBearing = 1e3;  // of the axis' unit: 89.9 degrees
 [[noreturn]] void fail(const std::string& sentence) { throw std::invalid_argument(sentence); }
 
 void check_odd(const char* name, int size) {
-  if (size % 2 == 0 && size != 0) {
+  if (size % 2 == 0) {
     fail(std::string("The parameter ") + name + " is " + std::to_string(size) +
          " but must be odd, so that the kernel has a centre.");
   }
@@ -140,6 +140,8 @@ void validate(const Config& config) {
     refuse_order({"repulsive.k_r0", config.repulsive.k_r0}, "exceed",
                  {"repulsive.k_tau", config.repulsive.k_tau});
   }
+  check_less({"velocity_limit.evading_threshold_mps", config.velocity_limit.evading_threshold_mps},
+             {"velocity_limit.max_speed_mps", config.velocity_limit.max_speed_mps});
   check_not_more({"landing.touchdown_mps", config.landing.touchdown_mps},
                  {"landing.descent_mps", config.landing.descent_mps});
 

@@ -117,9 +117,16 @@ void Dodger::move_window(TimeUs now_us) {
   for (Eye& eye : eyes_) eye.events.forget_until(begin_us_);
 }
 
+// A rate from before the window would compensate for a turn that may long be over.
+Eigen::Vector3d Dodger::mean_rate() const {
+  const bool silent = rates_.newest_us().value_or(begin_us_) <= begin_us_;
+  const bool newer = states_.newest_us().value_or(begin_us_) > begin_us_;
+  return silent && newer ? states_.at(end_us_)->w_WB_B : rates_.mean(begin_us_, end_us_);
+}
+
 void Dodger::find_clusters(Eye& eye) {
   Stopwatch watch;
-  const Eigen::Vector3d w_WC_C = eye.R_CB * rates_.mean(begin_us_, end_us_);
+  const Eigen::Vector3d w_WC_C = eye.R_CB * mean_rate();
   eye.ego_motion.set_motion(w_WC_C, begin_us_, end_us_);
   eye.time_image.accumulate(eye.events.until(end_us_), eye.ego_motion, begin_us_, end_us_);
   watch.add_to(stage_times_.ego_motion_us);

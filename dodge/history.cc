@@ -56,6 +56,10 @@ void RateHistory::add(const ImuSample& sample) {
   if (sample.w_WB_B.allFinite()) keep(samples_, sample);
 }
 
+std::optional<TimeUs> RateHistory::newest_us() const {
+  return samples_.empty() ? std::nullopt : std::optional(samples_.back().t_us);
+}
+
 Eigen::Vector3d RateHistory::at(TimeUs t_us) const {
   if (t_us <= samples_.front().t_us) return samples_.front().w_WB_B;
   if (t_us >= samples_.back().t_us) return samples_.back().w_WB_B;

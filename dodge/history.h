@@ -21,6 +21,9 @@ class RateHistory {
   // constant outside of them. Zero as long as there is no sample. Requires begin_us <= end_us.
   Eigen::Vector3d mean(TimeUs begin_us, TimeUs end_us) const;
 
+  // Of the newest sample that was not left out.
+  std::optional<TimeUs> newest_us() const;
+
  private:
   Eigen::Vector3d at(TimeUs t_us) const;
 

@@ -19,9 +19,9 @@ class Avoider {
   Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attractive,
           const VelocityLimitConfig& limit, const EscapeConfig& escape);
 
-  // The velocity command at `now`. Vehicle and obstacles are moved on at constant velocity, from
-  // the instants of their states to `now`. Obstacles that are not confirmed, or not finite, do not
-  // act. Call once a cycle.
+  // The velocity command at `now`. Vehicle and obstacles are moved on from the instants of their
+  // states to `now`, at constant velocity or, obstacles with an escape's law, in free fall.
+  // Obstacles that are not confirmed, or not finite, do not act. Call once a cycle.
   VelocityCommand command(TimeUs now, const StateEstimate& state, const Goal& goal,
                           std::span<const TrackedObstacle> obstacles);
 

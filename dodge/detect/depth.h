@@ -94,7 +94,7 @@ class DepthEstimator {
 
   // Appends the obstacles among the clusters of the cameras (indexed as the cameras) to detections,
   // best match first. Pixels are those of the window's end, the instant of `state`; a detection's
-  // instant is the mean time of its cluster's events, some ms before.
+  // instant is the mean of its cluster's pixels' mean times, some ms before.
   void locate(std::span<const View> views, const StateEstimate& state,
               std::vector<Detection>& detections);
 

@@ -47,8 +47,8 @@ Eigen::Vector3d vector_if_any(const CsvTable& table, std::size_t row,
 }
 
 Eigen::Quaterniond rotation(const CsvTable& table, std::size_t row) {
-  const Eigen::Quaterniond q(table.number(row, "qw"), table.number(row, "qx"),
-                             table.number(row, "qy"), table.number(row, "qz"));
+  Eigen::Quaterniond q(table.number(row, "qw"), table.number(row, "qx"), table.number(row, "qy"),
+                       table.number(row, "qz"));
   constexpr double kRoundingOfText = 0.01;
   if (std::abs(q.norm() - 1) < kRoundingOfText) return q;
   throw ScenarioError(table.name() + ":" + std::to_string(table.line(row)) +

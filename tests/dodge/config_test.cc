@@ -62,6 +62,9 @@ TEST(Config, RefusesKernelsWithoutACentreAndEmptyRanges) {
   config.landing.touchdown_mps = 1;
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("landing.descent_mps"));
   config = valid();
+  config.velocity_limit = {.max_speed_mps = 3, .evading_threshold_mps = 4};
+  EXPECT_THAT(complaint(config), ::testing::HasSubstr("velocity_limit.evading_threshold_mps is 4"));
+  config = valid();
   config.position.min_range_m = 2;
   EXPECT_THAT(complaint(config), ::testing::HasSubstr("min_range_m"));
   config = valid();

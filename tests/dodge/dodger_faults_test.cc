@@ -67,6 +67,28 @@ TEST(DodgerFaults, ABrokenGyroscopeIsSurvived) {
   }
 }
 
+// The vehicle turns, then rests, and the ball comes; the last rate of the IMU is that of the turn.
+TEST(DodgerFaults, AnImuThatFallsSilentInATurnIsReplacedByTheStateEstimate) {
+  const auto turns_then_rests = [](double t_s) {
+    Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+    X_WB.rotate(Eigen::AngleAxisd(2 * std::min(t_s - 0.15, 0.0), Eigen::Vector3d::UnitZ()));
+    return X_WB;
+  };
+  Flight flight(turns_then_rests, {synthetic::thrown_ball({3, 0, 0}, {0, 0, 0.1}, 5, 0.3, 1)}, {},
+                5);
+  flight.end_imu(100000);
+  Dodger dodger(two_cameras());
+  int detections = 0;
+  bool evading = false;
+  for (TimeUs t = kCycleUs; t <= 500000; t += kCycleUs) {
+    evading |= flight.cycle(dodger, t).evading;
+    detections += static_cast<int>(dodger.detections().size());
+  }
+  EXPECT_EQ(dodger.newest_imu_us(), 100000);
+  EXPECT_GT(detections, 10);
+  EXPECT_TRUE(evading);
+}
+
 TEST(DodgerFaults, EventsALittleAheadWaitForTheirTime) {
   Dodger dodger(two_cameras());
   dodger.set_capture(true);
@@ -83,6 +105,8 @@ TEST(DodgerFaults, TellsHowOldItsDataAre) {
   dodger.update(5000);
   EXPECT_FALSE(dodger.newest_event_us(0).has_value());
   EXPECT_FALSE(dodger.newest_state_us().has_value());
+  EXPECT_FALSE(dodger.newest_imu_us().has_value());
+  dodger.add_imu({.t_us = 7000});
   dodger.add_events(0, std::vector<Event>{{.t_us = 9000}});
   dodger.add_state({.t_us = 8000});
   dodger.update(10000);
@@ -90,6 +114,7 @@ TEST(DodgerFaults, TellsHowOldItsDataAre) {
   EXPECT_EQ(dodger.newest_event_us(0), 9000);
   EXPECT_FALSE(dodger.newest_event_us(1).has_value());
   EXPECT_EQ(dodger.newest_state_us(), 8000);
+  EXPECT_EQ(dodger.newest_imu_us(), 7000);
   EXPECT_FALSE(dodger.newest_event_us(2).has_value());
 }
 

@@ -1,7 +1,9 @@
 // What a flight over a synthetic scene hands to a pilot with a vertical pair of cameras.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -22,6 +24,9 @@ class Flight {
     }
   }
 
+  // The IMU says nothing after that instant.
+  void end_imu(TimeUs t_us) { imu_end_us_ = t_us; }
+
   // Collects the data of the cycle that ends now.
   void advance(TimeUs now_us) {
     for (std::size_t i = 0; i < 2; ++i) {
@@ -29,7 +34,9 @@ class Flight {
       generators_[i].advance(now_us, events_[i]);
     }
     imu_.clear();
-    for (; imu_us_ <= now_us; imu_us_ += 1000) imu_.push_back({imu_us_, rate(imu_us_), {}});
+    for (; imu_us_ <= std::min(now_us, imu_end_us_); imu_us_ += 1000) {
+      imu_.push_back({imu_us_, rate(imu_us_), {}});
+    }
     now_us_ = now_us;
   }
 
@@ -69,6 +76,7 @@ class Flight {
   std::array<std::vector<Event>, 2> events_;
   std::vector<ImuSample> imu_;
   TimeUs imu_us_ = 0, now_us_ = 0;
+  TimeUs imu_end_us_ = std::numeric_limits<TimeUs>::max();
 };
 
 inline Eigen::Isometry3d still(double /*t_s*/) { return Eigen::Isometry3d::Identity(); }
