@@ -92,9 +92,10 @@ bool holds_campaign(const fs::path& directory) {
   return fs::exists(directory / kJournalFile, ignored);
 }
 
-void expect_no_campaign(const fs::path& out) {
-  if (!holds_campaign(out)) return;
-  throw ScenarioError("--out " + out.string() + " holds a campaign; choose another directory.");
+void expect_no_campaign(const fs::path& directory, const std::string& option) {
+  if (!holds_campaign(directory)) return;
+  throw ScenarioError(option + " " + directory.string() +
+                      " holds a campaign; choose another directory.");
 }
 
 void refuse_file(const fs::path& directory) {

@@ -20,8 +20,10 @@ void write_result_files(const std::filesystem::path& out, const Scenario& scenar
                         const JournalIndex& index, bool truth, CampaignSummary& summary);
 
 bool holds_campaign(const std::filesystem::path& directory);
-// Of the option --out, before something else is written there. Throws ScenarioError.
-void expect_no_campaign(const std::filesystem::path& out);
+// Of the directory that an option names, before something else is written there. Throws
+// ScenarioError.
+void expect_no_campaign(const std::filesystem::path& directory,
+                        const std::string& option = "--out");
 // Whether a file of that name belongs to a campaign in the same directory.
 bool belongs_to_campaign(const std::filesystem::path& file);
 

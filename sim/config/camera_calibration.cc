@@ -78,8 +78,16 @@ void drop_empty(YamlNode& map) {
 void expect_no_misspelling(const YamlNode& root, Problems& problems) {
   const std::vector<std::string> names = {"width",  "height", "intrinsics", "distortion",
                                           "p_BC_m", "R_BC",   "imu_axes",   "p_BR_m"};
+  const std::vector<std::string> kalibr = {
+      "cam0", "camera_model", "resolution", "distortion_model", "distortion_coeffs", "T_cam_imu"};
   for (const YamlNode::Key& key : root.keys) {
     if (std::find(names.begin(), names.end(), key.name) != names.end()) continue;
+    if (std::find(kalibr.begin(), kalibr.end(), key.name) != kalibr.end()) {
+      problems.add(key.at, key.name +
+                               " is a key of Kalibr's; what it says must stand under the "
+                               "keys of dodgesim (`dodgesim detect --help`).");
+      continue;
+    }
     const std::string meant = closest_name(key.name, names);
     if (meant.empty()) continue;
     problems.add(key.at, key.name + " is not a known key; did you mean " + meant + "?");
@@ -125,8 +133,7 @@ void read_rotations(const CalibrationKeys& keys, const ReadContext& context, Pro
   calibration.camera.X_BC.linear() = R_BC;
   calibration.camera.X_BC.translation() = keys.p_BC_m;
   calibration.imu_axes_assumed = keys.imu_axes.empty();
-  const auto R_BG =
-      rotation_of(calibration.imu_axes_assumed ? "right down forward" : keys.imu_axes);
+  const auto R_BG = calibration.imu_axes_assumed ? std::optional(R_BC) : rotation_of(keys.imu_axes);
   if (R_BG) {
     calibration.R_BG = *R_BG;
   } else {

@@ -6,13 +6,14 @@
 //   distortion: {model: radtan_k1_k2_p1_p2_k3, coeffs: [-0.37, 0.15, -3e-4, -8e-4, 0]}
 //   p_BC_m: [0.1, 0, 0]                          # where the camera sits on the body
 //   R_BC: [[0, 0, 1], [-1, 0, 0], [0, -1, 0]]    # rows; this is the default: it looks forward
-//   imu_axes: right down forward                # where x, y and z of the IMU point
+//   imu_axes: forward left up                    # where x, y and z of the IMU point
 //   p_BR_m: [0, 0, -0.05]                        # where the range sensor sits on the body
 //
 // Without intrinsics (or with ~ in their place) a field of view of 80 degrees is assumed. The axes
 // of the IMU are named by directions of the body: forward, backward, left, right, up, down; by
-// default they are those of a camera that looks forward, as above. Other keys, such as those that
-// say where a recording comes from, are passed over, unless they look like one of these misspelled.
+// default they are the camera's. Of an IMU that is turned otherwise against the camera, take its
+// axes for the body's (forward left up), and give R_BC in them. Other keys, such as those that say
+// where a recording comes from, are passed over, unless they look like one of these misspelled.
 #pragma once
 
 #include <string>

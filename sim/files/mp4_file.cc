@@ -44,6 +44,8 @@ std::vector<std::string> ffmpeg_command(const std::string& path, int width, int 
           "pipe:0",
           "-vf",
           kPadded,
+          "-r",  // or ffmpeg guesses another from the input's, and leaves pictures out
+          std::to_string(pictures_per_s),
           "-codec:v",
           "libx264",
           "-pix_fmt",

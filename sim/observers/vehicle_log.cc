@@ -47,6 +47,11 @@ VehicleLog::VehicleLog(const std::filesystem::path& directory, const Scenario& s
       states_(directory / "state.csv"),
       ranges_(directory / "range.csv"),
       truth_(directory / "truth.csv") {
+  write_file(directory / "scenario.yaml", to_yaml(scenario));
+  for (const char* camera : kCameraNames) {
+    for (const char* end : {".h5", ".yaml"})
+      std::filesystem::remove(directory / (camera + std::string(end)));
+  }
   imu_.write(imu_header());
   states_.write(state_header());
   ranges_.write(range_header());

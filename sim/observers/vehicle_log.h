@@ -5,6 +5,7 @@
 //   top.yaml, bottom.yaml   the cameras as the pilot is told of them (camera_calibration.h)
 //   imu.csv, state.csv, range.csv   what the pilot gets (sim/recordings/sensor_log.h), by the
 //                           instants that it speaks of, not those at which it arrives
+//   scenario.yaml           pilot, parameters and delays among it, every value spelled out
 //   truth.csv               at the instants of imu.csv, where vehicle and objects truly are
 //                           [m, m/s, rad/s]; cells of objects are empty before their launch
 //
@@ -25,7 +26,8 @@ namespace dodgesim {
 
 class VehicleLog : public FlightObserver {
  public:
-  // All functions throw IoError; without finish() no file of readings appears.
+  // All functions throw IoError; without finish() no file of readings appears. An
+  // earlier recording in the directory gives way.
   VehicleLog(const std::filesystem::path& directory, const Scenario& scenario);
 
   bool wants_causes() const override { return true; }

@@ -90,7 +90,8 @@ void Playback::look(Eye& eye) {
 }
 
 bool Playback::next() {
-  const bool ended = std::all_of(eyes_.begin(), eyes_.end(), [](const Eye& e) { return e.ended; });
+  const bool ended = std::all_of(eyes_.begin(), eyes_.end(),
+                                 [](const Eye& e) { return e.ended && e.held.empty(); });
   if (ended && now_us_ >= last_event_us_ + delays_.packet_us + delays_.transport_us) return false;
   now_us_ += delays_.period_us();
   send_readings();
@@ -109,28 +110,38 @@ void Playback::send_readings() {
   send_until(now_us_, ranges_, ranges_sent_, [this](const auto& r) { computer_.send_range(r); });
 }
 
-// Events that stand in the file behind a later one come with it: so the pilot gets them, too late.
+// Reads the events up to the first that is later.
+void Playback::hold(Eye& eye, TimeUs until_us) {
+  for (look(eye); !eye.ended && eye.waiting.front().t_us <= until_us; look(eye)) {
+    eye.held.push_back(eye.waiting.front());
+    eye.waiting = eye.waiting.subspan(1);
+  }
+  const auto earlier = [](const Event& a, const Event& b) { return a.t_us < b.t_us; };
+  if (!std::is_sorted(eye.held.begin(), eye.held.end(), earlier)) {
+    std::stable_sort(eye.held.begin(), eye.held.end(), earlier);
+  }
+}
+
 void Playback::send_events(int camera) {
   Eye& eye = eyes_[static_cast<std::size_t>(camera)];
-  std::vector<Event> due;
-  for (look(eye); !eye.ended; look(eye)) {
-    const Event& event = eye.waiting.front();
-    if (event.t_us > now_us_) {
-      if (event.t_us - last_event_us_ <= kLongestGapUs) break;
-      throw ScenarioError("Camera " + std::to_string(camera) + " has an event at " +
-                          std::to_string(event.t_us) + " us after one at " +
-                          std::to_string(last_event_us_) +
-                          " us: gaps of more than ten minutes are not played.");
-    }
-    due.push_back(event);
-    last_event_us_ = std::max(last_event_us_, event.t_us);
-    eye.waiting = eye.waiting.subspan(1);
-    ++eye.count;
-  }
-  eye.packetizer.push(due, now_us_);
+  hold(eye, now_us_ + kSortedUs);
+  const auto due = std::find_if(eye.held.begin(), eye.held.end(),
+                                [this](const Event& event) { return event.t_us > now_us_; });
+  if (due != eye.held.begin()) last_event_us_ = std::max(last_event_us_, std::prev(due)->t_us);
+  eye.count += due - eye.held.begin();
+  eye.packetizer.push({eye.held.begin(), due}, now_us_);
+  eye.held.erase(eye.held.begin(), due);
   while (const auto packet = eye.packetizer.take()) {
     computer_.send_events(camera, packet->end_us, packet->events);
   }
+  if (!eye.held.empty() || eye.ended ||
+      eye.waiting.front().t_us <= last_event_us_ + kLongestGapUs) {
+    return;
+  }
+  throw ScenarioError("Camera " + std::to_string(camera) + " has an event at " +
+                      std::to_string(eye.waiting.front().t_us) + " us after one at " +
+                      std::to_string(last_event_us_) +
+                      " us: gaps of more than ten minutes are not played.");
 }
 
 }  // namespace dodgesim

@@ -23,6 +23,10 @@ struct RecordedSensors {
 
 class Playback {
  public:
+  // Events that stand in their file up to kSortedUs too late are put in order; the pilot gets
+  // others too late, and drops them.
+  static constexpr TimeUs kSortedUs = 10000;
+
   // Cycles begin at multiples of delays.period_us() on the recording's clock, the first after the
   // first event. Throws ScenarioError if no camera has any event, or a log has no reading while
   // there are events; all functions throw as EventReader does.
@@ -49,12 +53,14 @@ class Playback {
 
     std::unique_ptr<EventReader> reader;
     Packetizer packetizer;
-    std::span<const Event> waiting;  // read and not yet due
+    std::span<const Event> waiting;  // read and not yet looked at
+    std::vector<Event> held;         // in order of time, not yet due
     std::int64_t count = 0;          // of those that were due
     bool ended = false;
   };
 
   void look(Eye& eye);
+  void hold(Eye& eye, TimeUs until_us);
   void send_events(int camera);
   void send_readings();
   void expect_same_clock() const;

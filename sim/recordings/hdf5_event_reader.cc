@@ -13,7 +13,8 @@ namespace dodgesim {
 
 namespace {
 
-constexpr hsize_t kChunkEvents = 1 << 15;  // events: the chunks of hdf5_event_writer.cc
+constexpr std::size_t kChunkCacheBytes = 256 << 20;  // larger chunks are unpacked again and again
+constexpr hsize_t kChunkEvents = 1 << 15;            // events: the chunks of hdf5_event_writer.cc
 
 // Open for reading; closes all that is in it, too.
 class Hdf5File {
@@ -95,10 +96,14 @@ class Hdf5Reader : public EventReader {
 
   void open_column(const char* name, Column& column) {
     column.name = name;
-    column.dataset = H5Dopen2(file_.id(), name, H5P_DEFAULT);
+    const hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
+    H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, kChunkCacheBytes, 1);
+    column.dataset = H5Dopen2(file_.id(), name, access);
+    H5Pclose(access);
     if (column.dataset < 0) {
       throw ScenarioError(path_ + " has no " + name + "; it must have events/t, x, y and p.");
     }
+    expect_whole_numbers(column);
     const hid_t space = H5Dget_space(column.dataset);
     const int dimensions = H5Sget_simple_extent_ndims(space);
     const auto size = static_cast<hsize_t>(H5Sget_simple_extent_npoints(space));
@@ -106,6 +111,16 @@ class Hdf5Reader : public EventReader {
     if (&column == &columns_.front()) size_ = size;
     if (dimensions == 1 && size == size_) return;
     throw ScenarioError(path_ + ": " + name + " must be a list as long as events/t.");
+  }
+
+  // The library would cut off what stands behind the point.
+  void expect_whole_numbers(const Column& column) const {
+    const hid_t type = H5Dget_type(column.dataset);
+    const H5T_class_t kind = H5Tget_class(type);
+    H5Tclose(type);
+    if (kind == H5T_INTEGER || kind == H5T_ENUM) return;  // booleans are an enumeration
+    throw ScenarioError(path_ + ": " + column.name +
+                        " has no whole numbers; t must be in microseconds, x and y in pixels.");
   }
 
   void read(Column& column, hsize_t count) const {

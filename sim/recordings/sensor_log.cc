@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
+#include <numbers>
 #include <optional>
 
 #include "sim/base/error.h"
@@ -56,6 +57,17 @@ Eigen::Quaterniond rotation(const CsvTable& table, std::size_t row) {
                       ", but must be a unit quaternion.");
 }
 
+// From one attitude to the next; the last state goes on turning as before.
+void fill_in_rates(std::vector<StateReading>& states) {
+  for (std::size_t i = 0; i + 1 < states.size(); ++i) {
+    const StateReading &now = states[i], &next = states[i + 1];
+    const Eigen::AngleAxisd turn(now.q_W.conjugate() * next.q_W);
+    const double angle = std::remainder(turn.angle(), 2 * std::numbers::pi);  // the shorter way
+    states[i].w_B = angle / seconds(next.t_us - now.t_us) * turn.axis();
+  }
+  if (states.size() > 1) states.back().w_B = states[states.size() - 2].w_B;
+}
+
 std::string line(TimeUs t_us, std::initializer_list<double> values) {
   std::string text = to_text(t_us);
   for (const double value : values) text += "," + to_text(value);
@@ -72,11 +84,15 @@ std::vector<ImuReading> read_imu_log(const std::string& path) {
 }
 
 std::vector<StateReading> read_state_log(const std::string& path) {
-  return read_log<StateReading>(path, [](const CsvTable& table, std::size_t row) {
+  bool has_rates = false;
+  auto states = read_log<StateReading>(path, [&](const CsvTable& table, std::size_t row) {
+    has_rates = table.has("wx");
     return StateReading{0, vector(table, row, {"x", "y", "z"}), rotation(table, row),
                         vector(table, row, {"vx", "vy", "vz"}),
                         vector_if_any(table, row, {"wx", "wy", "wz"})};
   });
+  if (!has_rates) fill_in_rates(states);
+  return states;
 }
 
 std::vector<RangeReading> read_range_log(const std::string& path) {

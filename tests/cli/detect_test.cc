@@ -55,7 +55,8 @@ class DetectTest : public CommandTest {
 };
 
 constexpr const char* kThrow =
-    "seed: 5\nthrow: {distance_m: 2.5, speed_mps: 5, launch_s: 0.1, launch_height_m: 2}\n"
+    "seed: 5\ndodger: {time_image: {threshold_b: 0.09}}\nthrow: {distance_m: 2.5, speed_mps: 5, "
+    "launch_s: 0.1, launch_height_m: 2}\n"
     "after_s: 0.1\n";
 
 TEST_F(DetectTest, FindsInARecordedFlightWhatThePilotFoundInIt) {
@@ -63,11 +64,12 @@ TEST_F(DetectTest, FindsInARecordedFlightWhatThePilotFoundInIt) {
   const std::string stereo = path("rec/top.h5") + " " + path("rec/bottom.h5") + " --calibration " +
                              path("rec/top.yaml") + " " + path("rec/bottom.yaml") + " --imu " +
                              path("rec/imu.csv");
-  const std::string all =
-      stereo + " --state " + path("rec/state.csv") + " --range " + path("rec/range.csv");
+  const std::string all = stereo + " --state " + path("rec/state.csv") + " --range " +
+                          path("rec/range.csv") + " --scenario " + path("rec/scenario.yaml");
   const Outcome outcome = detect(all);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, ContainsRegex("top camera: [0-9]+ events\nbottom camera: "));
+  EXPECT_THAT(outcome.output, ContainsRegex("IMU: [0-9]+ readings, covers 0.[5-9].* gap 1.0 ms"));
   expect_found_as_flown();
   const CsvTable cycles = table("found/cycles.csv");
   std::size_t evading = 0;
@@ -76,11 +78,16 @@ TEST_F(DetectTest, FindsInARecordedFlightWhatThePilotFoundInIt) {
   EXPECT_GT(table("found/clusters.csv").rows(), 10u);
   EXPECT_GT(table("found/obstacles.csv").rows(), 3u);
 
-  // Other keys, other detections; and the same of a scenario's file.
+  // Other keys, other detections.
   EXPECT_EQ(detect(all + " --set dodger.position.max_range_m=0.7").exit_code, 0);
   EXPECT_LT(table("found/detections.csv").rows(), table("campaign/detections.csv").rows());
-  EXPECT_EQ(detect(all + " --scenario " + path("campaign/scenario.resolved.yaml")).exit_code, 0);
-  expect_found_as_flown();
+  // Neither writes into a campaign.
+  const Outcome into = dodgesim("detect " + all + " --out " + path("campaign"));
+  EXPECT_EQ(into.exit_code, 2);
+  EXPECT_THAT(into.output, HasSubstr("campaign"));
+  EXPECT_EQ(
+      dodgesim("replay " + path("campaign") + " --throw 0 --record " + path("campaign")).exit_code,
+      2);
 }
 
 // W of the detections has the place where the vehicle began to fly for an origin. Depth from a
@@ -149,7 +156,7 @@ TEST_F(DetectTest, SaysWhatIsWrongAndWritesNothing) {
   EXPECT_EQ(detect(path("none.csv") + " --calibration " + path("c.yaml")).exit_code, 4);
   EXPECT_EQ(detect(events + " --imu " + path("none.csv")).exit_code, 4);
   EXPECT_THAT(detect(events + " " + path("c.yaml")).output,
-              HasSubstr("1 file of events, but 2 calibrations"));
+              HasSubstr("Given are 1 file of events, but 2 calibrations"));
   EXPECT_THAT(detect(events + " --set pilot=oracle").output, HasSubstr("sees nothing"));
   EXPECT_THAT(detect(events + " --set dodger.windo=3").output, HasSubstr("dodger.window"));
 }

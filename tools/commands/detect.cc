@@ -1,4 +1,5 @@
 // dodgesim detect: what a pilot finds in a recording.
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include "dodge/dodger.h"
 #include "sim/base/error.h"
+#include "sim/campaign/result_files.h"
 #include "sim/config/camera_calibration.h"
 #include "sim/config/pilot.h"
 #include "sim/files/mp4_file.h"
@@ -27,15 +29,18 @@ constexpr const char* kDetectFooter =
 What it commands moves nobody, and its goal is to stay where it is.
 
 EVENTS: .h5 (DSEC, RVT), .npy or .txt as `emulate` and `replay --record` write them; .txt of the
-rpg data sets, with t in seconds; .csv whose first line names the columns t_us, x, y and p.
+rpg data sets, with t in seconds; .csv whose first line names the columns t_us, x, y and p. They
+must be in order of time, but for 10 ms.
 CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {model:
   radtan_k1_k2_p1_p2_k3, coeffs: [...]}; p_BC_m and R_BC (rows), the camera's place on the body,
-  which by default looks forward; imu_axes, where x, y, z of the IMU point, by default "right
-  down forward"; p_BR_m, the range sensor's place. Other keys are passed over.
+  which by default looks forward; imu_axes, where x, y, z of the IMU point, by default as
+  the camera's (of one that looks forward: right down forward); p_BR_m, the range sensor's place.
+  Other keys are passed over. Two cameras must be rectified: one size, one set of intrinsics, the
+  second straight below the first. Calibrations stand behind the events.
 IMU.csv: t_us, wx, wy, wz [rad/s]. STATE.csv: t_us, x, y, z, qw, qx, qy, qz (body to world), vx, vy,
   vz [m, m/s]. RANGE.csv: t_us, range_m. A line with these names first; other columns are passed
   over. All t_us are of the clock of the events.
-Without IMU.csv the camera is taken not to turn, unless STATE.csv has wx, wy, wz. Without STATE.csv
+Without IMU.csv the camera turns as STATE.csv says or, without that, not at all. Without STATE.csv
 the vehicle turns as its IMU says and stays in its place. With one camera, depth comes from a known
 size (dodger.position.known_size_m).
 
@@ -45,7 +50,8 @@ detections.csv and obstacles.csv (what was measured and is tracked, in the world
 Examples:
   dodgesim replay out/demo --throw 3 --record rec
   dodgesim detect rec/top.h5 rec/bottom.h5 --calibration rec/top.yaml rec/bottom.yaml \
-    --imu rec/imu.csv --state rec/state.csv --out out/detect --video out/detect.mp4
+    --scenario rec/scenario.yaml --imu rec/imu.csv --state rec/state.csv --range rec/range.csv \
+    --out out/detect --video out/detect.mp4
   dodgesim detect walk.csv --calibration davis.yaml --imu gyro.csv --out out/walk \
     --set dodger.time_image.threshold_b=0.2)";
 
@@ -83,7 +89,7 @@ Scenario load(const DetectArguments& arguments) {
 std::vector<CameraCalibration> load_calibrations(const DetectArguments& arguments) {
   if (arguments.calibrations.size() != arguments.events.size()) {
     throw ScenarioError(
-        "There are " + count_text(static_cast<std::int64_t>(arguments.events.size()), "file") +
+        "Given are " + count_text(static_cast<std::int64_t>(arguments.events.size()), "file") +
         " of events, but " +
         count_text(static_cast<std::int64_t>(arguments.calibrations.size()), "calibration") +
         "; each camera needs one.");
@@ -113,6 +119,42 @@ dodge::Config core_config(const Scenario& scenario,
   return config;
 }
 
+// Says how much of the recording's time a log covers.
+class Coverage {
+ public:
+  template <class Reading>
+  Coverage(const char* name, const std::vector<Reading>& log) : name_(name), count_(log.size()) {
+    if (log.empty()) return;
+    first_us_ = log.front().t_us;
+    last_us_ = log.back().t_us;
+    for (std::size_t i = 1; i < log.size(); ++i) {
+      longest_gap_us_ = std::max(longest_gap_us_, log[i].t_us - log[i - 1].t_us);
+    }
+  }
+
+  void report(TimeUs begin_us, TimeUs end_us) const {
+    if (count_ == 0) return;
+    const TimeUs covered_us = std::min(end_us, last_us_) - std::max(begin_us, first_us_);
+    std::printf("%s: %zu readings, covers %.3f of %.3f s, longest gap %.1f ms\n", name_, count_,
+                seconds(std::max<TimeUs>(covered_us, 0)), seconds(end_us - begin_us),
+                1e-3 * static_cast<double>(longest_gap_us_));
+  }
+
+ private:
+  const char* name_;
+  std::size_t count_;
+  TimeUs first_us_ = 0, last_us_ = 0, longest_gap_us_ = 0;
+};
+
+// No gyroscope of a flight camera measures more than this.
+void warn_of_degrees(const std::vector<ImuReading>& imu) {
+  constexpr double kMostRadps = 40;
+  double most_radps = 0;
+  for (const ImuReading& r : imu) most_radps = std::max(most_radps, r.w_B_radps.norm());
+  if (most_radps <= kMostRadps) return;
+  std::printf("The IMU turns at up to %.0f rad/s: are its rates in degrees?\n", most_radps);
+}
+
 // With the IMU's axes turned into those of B. Says what is missing and what is taken in its place.
 RecordedSensors load_sensors(const DetectArguments& arguments,
                              const std::vector<CameraCalibration>& calibrations) {
@@ -133,8 +175,9 @@ RecordedSensors load_sensors(const DetectArguments& arguments,
       reading.w_B_radps = calibrations.front().R_BG * reading.w_B_radps;
       reading.f_B_mps2 = calibrations.front().R_BG * reading.f_B_mps2;
     }
+    warn_of_degrees(sensors.imu);
     if (calibrations.front().imu_axes_assumed) {
-      std::printf("The IMU's axes are taken for the camera's (imu_axes: right down forward).\n");
+      std::printf("The IMU's axes are taken for the camera's (imu_axes).\n");
     }
   } else {
     for (const StateReading& state : sensors.states) sensors.imu.push_back({state.t_us, state.w_B});
@@ -190,14 +233,15 @@ struct Sums {
   }
 };
 
-void report(const Playback& playback, const Sums& sums, int cameras) {
+void report(const Playback& playback, const Sums& sums, int cameras, double period_us) {
   const auto* dodger = dynamic_cast<const dodge::Dodger*>(&playback.pilot());
   for (int camera = 0; camera < cameras; ++camera) {
     if (cameras > 1) std::printf("%s camera: ", kCameraNames[static_cast<std::size_t>(camera)]);
     std::printf("%lld events", static_cast<long long>(playback.events(camera)));
     const std::int64_t dropped = dodger != nullptr ? dodger->dropped_events(camera) : 0;
     if (dropped > 0) {
-      std::printf(", %lld of which were dropped for their time", static_cast<long long>(dropped));
+      std::printf(", %lld of which were dropped: they stand more than 10 ms too late in their file",
+                  static_cast<long long>(dropped));
     }
     std::printf("\n");
   }
@@ -207,8 +251,8 @@ void report(const Playback& playback, const Sums& sums, int cameras) {
       seconds(playback.last_event_us() - playback.first_event_us()), sums.cycles,
       sums.with_clusters, sums.with_detections, sums.detections, sums.evading);
   if (dodger == nullptr) return;
-  std::printf("The pilot's stages take %.3f ms a cycle here\n",
-              1e-3 * sums.stages_us / static_cast<double>(sums.cycles));
+  std::printf("The pilot's stages take %.3f ms a cycle here; a cycle comes every %g ms\n",
+              1e-3 * sums.stages_us / static_cast<double>(sums.cycles), 1e-3 * period_us);
 }
 
 // A pilot that may be filmed, if that is asked for.
@@ -224,11 +268,14 @@ std::optional<StageVideo> make_video(const DetectArguments& arguments, const Sce
 
 void detect(const DetectArguments& arguments) {
   watch_stop_signals();
+  expect_no_campaign(arguments.out);
   const Scenario scenario = load(arguments);
   const std::vector<CameraCalibration> calibrations = load_calibrations(arguments);
   const dodge::Config config = core_config(scenario, calibrations);
-  Playback playback(scenario.delays, make_pilot(scenario, config),
-                    load_sensors(arguments, calibrations));
+  RecordedSensors sensors = load_sensors(arguments, calibrations);
+  const Coverage logs[] = {
+      {"IMU", sensors.imu}, {"State", sensors.states}, {"Range", sensors.ranges}};
+  Playback playback(scenario.delays, make_pilot(scenario, config), std::move(sensors));
   auto* dodger = dynamic_cast<dodge::Dodger*>(&playback.pilot());
   std::optional<StageVideo> video = make_video(arguments, scenario, dodger);
   DetectionFiles files(arguments.out);
@@ -239,7 +286,11 @@ void detect(const DetectArguments& arguments) {
     if (video) video->add(*dodger, playback.now_us());
   }
   files.finish();
-  report(playback, sums, static_cast<int>(arguments.events.size()));
+  report(playback, sums, static_cast<int>(arguments.events.size()),
+         static_cast<double>(scenario.delays.period_us()));
+  for (const Coverage& log : logs) {
+    log.report(playback.first_event_us(), playback.last_event_us());
+  }
   std::printf("%s: cycles.csv, clusters.csv, detections.csv, obstacles.csv\n",
               arguments.out.c_str());
   if (!video) return;

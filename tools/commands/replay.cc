@@ -283,6 +283,7 @@ int replay(const ReplayArguments& arguments) {
   try_models({campaign});
   if (!campaign.plugin.file.empty() || scenario.pilot == kPluginPilot) try_plugin(campaign);
   expect_showable(scenario, arguments);
+  if (!arguments.record.empty()) expect_no_campaign(arguments.record, "--record");
   const std::optional<ThrowResult> recorded =
       recorded_result(directory, index, arguments.throw_index);
 
@@ -360,7 +361,8 @@ void add_replay_command(CLI::App& program, int& exit_code) {
   command
       ->add_option("--record", arguments->record,
                    "Write what the pilot gets (events and calibration of both cameras, IMU, state\n"
-                   "estimates, range) and the truth, for `dodgesim detect` or a detector of yours")
+                   "estimates, range), its scenario and the truth, for `dodgesim detect` or a "
+                   "detector of yours")
       ->type_name("DIR3");
   add_models_option(*command, arguments->models_dir);
   add_plugin_option(*command, arguments->plugin);

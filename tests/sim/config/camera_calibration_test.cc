@@ -75,6 +75,11 @@ TEST_F(Calibration, AssumesACameraThatLooksForwardWithTheImuInItsAxes) {
   EXPECT_EQ(R_BC * Eigen::Vector3d::UnitZ(), Eigen::Vector3d(1, 0, 0));   // its axis: forward
   EXPECT_EQ(R_BC * Eigen::Vector3d::UnitX(), Eigen::Vector3d(0, -1, 0));  // its x: to the right
   EXPECT_EQ(read.R_BG, R_BC);
+  // Wherever the camera looks.
+  const CameraCalibration back =
+      load("{width: 321, height: 200, R_BC: [[0, 0, -1], [1, 0, 0], [0, -1, 0]]}");
+  EXPECT_EQ(back.R_BG, back.camera.X_BC.linear());
+  EXPECT_NE(back.R_BG, R_BC);
 }
 
 TEST_F(Calibration, TurnsTheAxesOfTheImu) {
@@ -90,6 +95,8 @@ TEST_F(Calibration, TurnsTheAxesOfTheImu) {
 TEST_F(Calibration, PassesOverWhatIsForPeopleButNotMisspelledKeys) {
   EXPECT_EQ(load("width: 320\nheight: 240\nsensor: DVXplorer\nlicence: MIT\n").camera.width, 320);
   EXPECT_THAT(refusal("width: 320\nheigth: 240\n"), HasSubstr("did you mean height?"));
+  EXPECT_THAT(refusal("width: 320\nheight: 240\ndistortion_coeffs: [0.1, 0, 0, 0]\n"),
+              HasSubstr("camera.yaml:3:1: distortion_coeffs is a key of Kalibr's"));
   EXPECT_THAT(refusal("width: 320\nheight: 240\nintrinsic: {fx: 1, fy: 1, cx: 1, cy: 1}\n"),
               HasSubstr("camera.yaml:3:1: intrinsic is not a known key; did you mean intrinsics?"));
 }

@@ -163,6 +163,22 @@ TEST_F(Reading, RefusesHdf5OfAnotherImageOrLayout) {
               HasSubstr("has no events/t"));
 }
 
+TEST_F(Reading, RefusesHdf5WhoseNumbersAreNotWhole) {
+  const Events events = random_recording(100, 5);
+  testing::write(root_ / "e.h5", recording_of(events), events);
+  const hid_t file = H5Fopen((root_ / "e.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Ldelete(file, "events/t", H5P_DEFAULT);
+  const hsize_t size = events.size();
+  const hid_t space = H5Screate_simple(1, &size, nullptr);
+  const hid_t seconds =
+      H5Dcreate2(file, "events/t", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  H5Dclose(seconds);
+  H5Sclose(space);
+  H5Fclose(file);
+  EXPECT_THAT(complaint<ScenarioError>([&] { read(root_ / "e.h5"); }),
+              HasSubstr("events/t has no whole numbers"));
+}
+
 TEST_F(Reading, SaysThatAFileIsCutOrAbsent) {
   const Events events = random_recording(90000, 6);
   testing::write(root_ / "e.h5", recording_of(events), events);

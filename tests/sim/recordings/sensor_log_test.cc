@@ -69,6 +69,24 @@ TEST_F(SensorLog, OfRatesAloneHasNoForces) {
   EXPECT_EQ(imu[0].f_B_mps2, Eigen::Vector3d::Zero());
 }
 
+// Turns at a constant rate about an axis of B, through all signs of the quaternion.
+TEST_F(SensorLog, OfAttitudesAloneHasTheRatesBetweenThem) {
+  const Eigen::Vector3d w(3, -7, 5);
+  std::string text = "t_us,x,y,z,qw,qx,qy,qz,vx,vy,vz\n";
+  for (int i = 0; i < 300; ++i) {
+    Eigen::Quaterniond q(Eigen::AngleAxisd(0.004 * i * w.norm(), w.normalized()));
+    if (i % 3 == 0) q.coeffs() *= -1;  // the same attitude
+    const std::string line = log_line(StateReading{
+        4000 * i, Eigen::Vector3d::Zero(), q, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+    std::size_t end = line.size();
+    for (int cell = 0; cell < 3; ++cell) end = line.rfind(',', end - 1);
+    text += line.substr(0, end) + "\n";
+  }
+  for (const StateReading& state : read_state_log(file(text))) {
+    EXPECT_LT((state.w_B - w).norm(), 1e-6) << state.t_us;
+  }
+}
+
 TEST_F(SensorLog, RefusesWhatCannotBeWithItsLine) {
   EXPECT_THAT(refusal("t_us,wx,wy,wz\n"), HasSubstr("has no reading"));
   EXPECT_THAT(refusal("t_us,wx,wy,wz\n7,0,0,0\n7,0,0,0\n"),
