@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "dodge/detect/disparity.h"
@@ -32,12 +33,11 @@ DepthEstimator::DepthEstimator(const DepthConfig& config, std::span<const Camera
     : config_(config),
       window_us_(static_cast<double>(window_us)),
       camera_(cameras[0]),
-      min_area_rectangle_(8) {
+      min_area_rectangle_(8),
+      assignment_(static_cast<std::size_t>(max_clusters)) {
   const auto most = static_cast<std::size_t>(max_clusters);
-  candidates_.reserve(most * most);
+  costs_.reserve(most * most);
   matches_.reserve(most);
-  top_taken_.reserve(most);
-  bottom_taken_.reserve(most);
   if (cameras.size() > 1) {
     const Eigen::Vector3d baseline = cameras[1].X_BC.translation() - cameras[0].X_BC.translation();
     focal_baseline_ = camera_.fy * baseline.norm();  // a vertical pair
@@ -75,29 +75,30 @@ void DepthEstimator::locate_by_size(const std::vector<Cluster>& clusters,
   }
 }
 
-// Fills matches_: the cheapest pairs first, each cluster in one pair only. Ties keep the order of
-// the scan.
+// Fills matches_, the cheapest first: the pairs with the least sum of costs, where a cluster
+// without a partner costs as much as the dearest pair. The cheapest pair alone may be the upper of
+// two objects in one camera and the lower one in the other.
 void DepthEstimator::match_clusters(const std::vector<Cluster>& top,
                                     const std::vector<Cluster>& bottom) {
-  candidates_.clear();
-  for (std::size_t i = 0; i < top.size(); ++i) {
-    for (std::size_t j = 0; j < bottom.size(); ++j) {
-      if (centre(top[i]).y() <= centre(bottom[j]).y()) continue;  // disparity must be positive
-      const double cost = matching_cost(top[i], bottom[j]);
-      if (cost <= config_.stereo.max_cost) candidates_.push_back({cost, i, j});
+  costs_.clear();
+  for (const Cluster& above : top) {
+    for (const Cluster& below : bottom) {
+      const bool in_front = centre(above).y() > centre(below).y();  // positive disparity
+      costs_.push_back(in_front ? matching_cost(above, below)
+                                : std::numeric_limits<double>::infinity());
     }
   }
-  std::sort(candidates_.begin(), candidates_.end(), [](const Match& a, const Match& b) {
+  const std::span<const int> partners =
+      assignment_.solve(costs_, top.size(), bottom.size(), config_.stereo.max_cost);
+  matches_.clear();
+  for (std::size_t i = 0; i < top.size(); ++i) {
+    if (partners[i] < 0) continue;
+    const auto j = static_cast<std::size_t>(partners[i]);
+    matches_.push_back({costs_[i * bottom.size() + j], i, j});
+  }
+  std::sort(matches_.begin(), matches_.end(), [](const Match& a, const Match& b) {
     return std::tie(a.cost, a.top, a.bottom) < std::tie(b.cost, b.top, b.bottom);
   });
-  matches_.clear();
-  top_taken_.assign(top.size(), false);
-  bottom_taken_.assign(bottom.size(), false);
-  for (const Match& match : candidates_) {
-    if (top_taken_[match.top] || bottom_taken_[match.bottom]) continue;
-    top_taken_[match.top] = bottom_taken_[match.bottom] = true;
-    matches_.push_back(match);
-  }
 }
 
 void DepthEstimator::locate_by_stereo(const View& top, const View& bottom,

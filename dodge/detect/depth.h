@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dodge/camera_model.h"
+#include "dodge/detect/assignment.h"
 #include "dodge/detect/cluster.h"
 #include "dodge/detect/min_area_rectangle.h"
 #include "dodge/types.h"
@@ -125,8 +126,9 @@ class DepthEstimator {
   CameraModel camera_;         // the reference camera
   double focal_baseline_ = 0;  // focal length times baseline [px m]
   MinAreaRectangle min_area_rectangle_;
-  std::vector<Match> candidates_, matches_;
-  std::vector<bool> top_taken_, bottom_taken_;
+  Assignment assignment_;
+  std::vector<double> costs_;  // of each top cluster with each bottom one, row-major
+  std::vector<Match> matches_;
 };
 
 }  // namespace dodge

@@ -6,7 +6,8 @@
 // Range  t_us,range_m: along -z of B
 //
 // Columns in any order, others are passed over; columns in brackets may be missing as a group: then
-// forces are 0, and a state's angular velocity is that by which it turned until the next. The axes of an IMU's log are those of the sensor (see camera_calibration.h).
+// forces are 0, and a state's angular velocity is that by which it turned until the next. The axes
+// of an IMU's log are those of the sensor (see camera_calibration.h).
 #pragma once
 
 #include <string>

@@ -205,6 +205,21 @@ TEST_F(DepthTest, MatchesTwoObjectsCrosswiseAndEachOnce) {
   EXPECT_GT((detections[0].centre_W - detections[1].centre_W).norm(), 0.5);
 }
 
+// One above the other, so that the upper one in the top camera is above the lower one in the bottom
+// camera, too: a disparity of two objects, which looks a little more alike.
+TEST_F(DepthTest, TwoObjectsOneAboveTheOtherAreNotMatchedCrosswise) {
+  const Eigen::Vector3d upper(1.3, 0, 0.3), lower(1.3, 0, -0.3);
+  std::vector<Cluster> top = {seen_by(0, upper, 0.2), seen_by(0, lower, 0.2)};
+  std::vector<Cluster> bottom = {seen_by(1, upper, 0.2), seen_by(1, lower, 0.2)};
+  top[1].pixels += 9;  // as the upper one in the other camera, and no longer as itself
+  bottom[0].pixels += 9;
+  DepthConfig config = centres();
+  config.max_range_m = 10;
+  const auto detections = locate(config, top, bottom);
+  ASSERT_EQ(detections.size(), 2U);
+  for (const Detection& d : detections) EXPECT_NEAR(d.depth_m, 1.2, 1e-4);
+}
+
 TEST_F(DepthTest, UnlikeClustersDoNotMatch) {
   EXPECT_EQ(locate(centres(), {square(100, 130, 20)}, {square(160, 100, 20)}).size(), 0U);
   EXPECT_EQ(locate(centres(), {square(160, 130, 40)}, {square(160, 100, 10)}).size(), 0U);
