@@ -145,7 +145,7 @@ std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
 // "dodged, at least 0.23 m between the surfaces"
 std::string verdict_text(const ThrowResult& result) {
   const std::optional<double>& clearance_m = result.flown.clearance_m;
-  const std::string fate = to_text(fate_of(result));
+  std::string fate = to_text(fate_of(result));
   if (!clearance_m || result.flown.hit) return fate;
   return fate + formatted(", at least %.2f m between the surfaces", *clearance_m);
 }
