@@ -9,6 +9,9 @@
 
 namespace dodgesim {
 
+// No flight that scenarios can ask for is longer: the duration of its recording.
+inline constexpr TimeUs kLongestFlightUs = 3600'000'000;
+
 class EventRecorder : public FlightObserver {
  public:
   EventRecorder(const std::string& path, const Recording& recording, int camera)

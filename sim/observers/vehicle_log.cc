@@ -7,13 +7,12 @@
 #include "sim/files/csv.h"
 #include "sim/files/directory.h"
 #include "sim/flight/setup.h"
+#include "sim/observers/event_recorder.h"
 #include "sim/recordings/sensor_log.h"
 
 namespace dodgesim {
 
 namespace {
-
-constexpr TimeUs kLongestFlightUs = 3600'000'000;  // of all that scenarios can ask for
 
 struct TrueBody {
   std::array<double, 3> p_W{};

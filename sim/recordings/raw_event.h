@@ -13,7 +13,7 @@ struct RawEvent {
 };
 
 // The event, if its pixel lies in the image and p is -1, 0 or 1. Otherwise throws ScenarioError;
-// `place` tells where the event stands: "e.csv:12", "event 11 of e.npy".
+// `place` tells where the event stands: "e.csv:12", "e.npy, event 11".
 template <class Place>
 Event checked_event(const RawEvent& raw, const ImageSize& image, const Place& place) {
   const auto refuse = [&](const char* name, std::int64_t value, std::int64_t least,

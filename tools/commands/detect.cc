@@ -101,8 +101,8 @@ std::vector<CameraCalibration> load_calibrations(const DetectArguments& argument
   return calibrations;
 }
 
-dodge::Config core_config(const Scenario& scenario,
-                          const std::vector<CameraCalibration>& calibrations) {
+dodge::Config pilot_config(const Scenario& scenario,
+                           const std::vector<CameraCalibration>& calibrations) {
   dodge::Config config = scenario.dodger;
   for (const CameraCalibration& c : calibrations) config.cameras.push_back(c.camera);
   config.p_BR = calibrations.front().p_BR;
@@ -271,7 +271,7 @@ void detect(const DetectArguments& arguments) {
   expect_no_campaign(arguments.out);
   const Scenario scenario = load(arguments);
   const std::vector<CameraCalibration> calibrations = load_calibrations(arguments);
-  const dodge::Config config = core_config(scenario, calibrations);
+  const dodge::Config config = pilot_config(scenario, calibrations);
   RecordedSensors sensors = load_sensors(arguments, calibrations);
   const Coverage logs[] = {
       {"IMU", sensors.imu}, {"State", sensors.states}, {"Range", sensors.ranges}};

@@ -135,7 +135,6 @@ std::string differences(const std::string& header, const std::string& recorded,
 
 std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
                                                    const ReplayArguments& arguments) {
-  constexpr TimeUs kLongestFlightUs = 3600'000'000;  // of all that scenarios can ask for
   const CameraSpec& camera = scenario.sensors.camera;
   return std::make_unique<EventRecorder>(
       arguments.events, Recording{camera.width, camera.height, 0, kLongestFlightUs, true},
