@@ -99,15 +99,23 @@ VelocityCommand Dodger::decide(TimeUs now_us) {
   return avoider_.command(now_us, *state, has_goal_ ? goal_ : stay, tracker_.obstacles());
 }
 
-// The window ends at the newest event of any camera, so that it is full whatever the cameras'
-// delay; in silence it moves on with the clock.
+// The window ends where every camera's events have arrived, so that it is full whatever the
+// cameras' delay; a camera that is silent holds it up for a moment only, and in silence it moves on
+// with the clock.
+TimeUs Dodger::window_end(TimeUs now_us) const {
+  const TimeUs earliest_us = now_us - config_.window.event_timeout_us;
+  TimeUs all_us = now_us, any_us = earliest_us;
+  for (const Eye& eye : eyes_) {
+    const TimeUs newest_us = std::min(eye.events.last_taken_us().value_or(earliest_us), now_us);
+    all_us = std::min(all_us, newest_us);
+    any_us = std::max(any_us, newest_us);
+  }
+  return std::max({all_us, any_us - config_.window.camera_lag_us, earliest_us});
+}
+
 void Dodger::move_window(TimeUs now_us) {
   for (Eye& eye : eyes_) eye.events.take(now_us + kMostAheadUs);
-  TimeUs newest_us = now_us - config_.window.event_timeout_us;
-  for (const Eye& eye : eyes_) {
-    if (!eye.events.empty()) newest_us = std::max(newest_us, eye.events.newest_us());
-  }
-  const TimeUs end_us = std::min(newest_us, now_us);
+  const TimeUs end_us = window_end(now_us);
   elapsed_windows_ = started_ ? static_cast<double>(end_us - end_us_) /
                                     static_cast<double>(config_.window.window_us)
                               : 0;
@@ -159,26 +167,31 @@ bool Dodger::locate_obstacles() {
   return true;
 }
 
-std::optional<TimeUs> Dodger::newest_event_us(int camera) const {
+const Dodger::Eye* Dodger::eye(int camera) const {
   const auto index = static_cast<std::size_t>(camera);
-  return index < eyes_.size() ? eyes_[index].events.last_taken_us() : std::nullopt;
+  return index < eyes_.size() ? &eyes_[index] : nullptr;
+}
+
+std::optional<TimeUs> Dodger::newest_event_us(int camera) const {
+  const Eye* const seeing = eye(camera);
+  return seeing != nullptr ? seeing->events.last_taken_us() : std::nullopt;
 }
 
 std::int64_t Dodger::dropped_events(int camera) const {
-  const auto index = static_cast<std::size_t>(camera);
-  return index < eyes_.size() ? eyes_[index].events.dropped() : 0;
+  const Eye* const seeing = eye(camera);
+  return seeing != nullptr ? seeing->events.dropped() : 0;
 }
 
 const std::vector<Cluster>& Dodger::clusters(int camera) const {
   static const std::vector<Cluster> none;
-  const auto index = static_cast<std::size_t>(camera);
-  return index < eyes_.size() ? eyes_[index].clusterer.clusters() : none;
+  const Eye* const seeing = eye(camera);
+  return seeing != nullptr ? seeing->clusterer.clusters() : none;
 }
 
 const StageImages& Dodger::stage_images(int camera) const {
   static const StageImages none;
-  const auto index = static_cast<std::size_t>(camera);
-  return index < eyes_.size() ? eyes_[index].images : none;
+  const Eye* const seeing = eye(camera);
+  return seeing != nullptr ? seeing->images : none;
 }
 
 void Dodger::capture_images(Eye& eye) const {

@@ -74,10 +74,11 @@ class Dodger : public Pilot {
   // For whoever watches the sensors, since the start; of events, as of the last update. The pilot
   // flies on, whatever is missing: it gets nothing from a camera whose newest event is older than
   // window.window_us + window.event_timeout_us, nor, in stereo, from one that lags behind the other
-  // by window.window_us or more (because its clock is behind, say), it carries an old state on at
-  // constant velocity, and it takes the angular rate of the state estimate when the IMU has said
-  // nothing since the window began. An event is dropped if it is older than one before it, or more
-  // than kMostAheadUs later than the update. Nothing for a camera that is not used.
+  // by window.window_us + window.camera_lag_us or more (because its clock is behind, say), it
+  // carries an old state on at constant velocity, and it takes the angular rate of the state
+  // estimate when the IMU has said nothing since the window began. An event is dropped if it is
+  // older than one before it, or more than kMostAheadUs later than the update. When the clock is
+  // set back, what is later is forgotten. Nothing for a camera that is not used.
   static constexpr TimeUs kMostAheadUs = 10000;
   std::optional<TimeUs> newest_event_us(int camera) const;
   std::optional<TimeUs> newest_imu_us() const { return rates_.newest_us(); }
@@ -107,6 +108,8 @@ class Dodger : public Pilot {
     StageImages images;
   };
 
+  const Eye* eye(int camera) const;  // none for a camera that is not used
+  TimeUs window_end(TimeUs now_us) const;
   void move_window(TimeUs now_us);
   Eigen::Vector3d mean_rate() const;  // of B in the window, in B
   void find_clusters(Eye& eye);

@@ -40,38 +40,38 @@ Avoider::Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attra
   acting_.reserve(Tracker::kUsualObstacles);
 }
 
-VelocityCommand Avoider::command(TimeUs now, const StateEstimate& state, const Goal& goal,
+VelocityCommand Avoider::command(TimeUs now_us, const StateEstimate& state, const Goal& goal,
                                  std::span<const TrackedObstacle> obstacles) {
   VehicleMotion vehicle;
   vehicle.v_W = state.v_WB;
-  vehicle.p_W = state.p_WB + seconds(now - state.t_us) * state.v_WB;
+  vehicle.p_W = state.p_WB + seconds(now_us - state.t_us) * state.v_WB;
   vehicle.heading_W = heading(state.q_WB);
   acting_.clear();
   std::copy_if(obstacles.begin(), obstacles.end(), std::back_inserter(acting_), acts);
-  return ramp_.ramped(decide(now, vehicle, goal), vehicle.v_W);
+  return ramp_.ramped(decide(now_us, vehicle, goal), vehicle.v_W);
 }
 
-VelocityCommand Avoider::decide(TimeUs now, const VehicleMotion& vehicle, const Goal& goal) {
+VelocityCommand Avoider::decide(TimeUs now_us, const VehicleMotion& vehicle, const Goal& goal) {
   const Eigen::Vector3d attractive_W =
       attractive_velocity(attractive_, goal.speed_mps, goal.p_WG - vehicle.p_W);
   if (!predicts_) {
-    return velocity_command(limit_, now, repulsion(now, vehicle), attractive_W);
+    return velocity_command(limit_, now_us, repulsion(now_us, vehicle), attractive_W);
   }
   const Intent intent{attractive_W, goal.p_WG, ramp_.acceleration_mps2()};
-  if (const auto escape_W = escape_.escape(now, vehicle, intent, acting_)) {
-    return velocity_command(limit_, now, *escape_W, Eigen::Vector3d::Zero());
+  if (const auto escape_W = escape_.escape(now_us, vehicle, intent, acting_)) {
+    return velocity_command(limit_, now_us, *escape_W, Eigen::Vector3d::Zero());
   }
-  return velocity_command(limit_, now, Eigen::Vector3d::Zero(), attractive_W);
+  return velocity_command(limit_, now_us, Eigen::Vector3d::Zero(), attractive_W);
 }
 
-Eigen::Vector3d Avoider::repulsion(TimeUs now, const VehicleMotion& vehicle) const {
+Eigen::Vector3d Avoider::repulsion(TimeUs now_us, const VehicleMotion& vehicle) const {
   Eigen::Vector3d repulsive_W = Eigen::Vector3d::Zero();
   for (const TrackedObstacle& tracked : acting_) {
     const Obstacle& obstacle = tracked.obstacle;
     Ellipsoid ellipsoid = tracked.ellipsoid;
-    ellipsoid.centre_W += seconds(now - obstacle.t_us) * obstacle.v_WO;
+    ellipsoid.centre_W += seconds(now_us - obstacle.t_us) * obstacle.v_WO;
     repulsive_W += repulsive_.force(vehicle, ellipsoid, obstacle.v_WO,  // (34)
-                                    seconds(now - obstacle.last_detection_us));
+                                    seconds(now_us - obstacle.last_detection_us));
   }
   return repulsive_W;
 }

@@ -19,16 +19,16 @@ class Avoider {
   Avoider(const RepulsiveConfig& repulsive, const AttractiveConfig& attractive,
           const VelocityLimitConfig& limit, const EscapeConfig& escape);
 
-  // The velocity command at `now`. Vehicle and obstacles are moved on from the instants of their
-  // states to `now`, at constant velocity or, obstacles with an escape's law, in free fall.
+  // The velocity command at `now_us`. Vehicle and obstacles are moved on from the instants of their
+  // states to `now_us`, at constant velocity or, obstacles with an escape's law, in free fall.
   // Obstacles that are not confirmed, or not finite, do not act. Call once a cycle.
-  VelocityCommand command(TimeUs now, const StateEstimate& state, const Goal& goal,
+  VelocityCommand command(TimeUs now_us, const StateEstimate& state, const Goal& goal,
                           std::span<const TrackedObstacle> obstacles);
 
  private:
   // By the field, or by the escape's law.
-  VelocityCommand decide(TimeUs now, const VehicleMotion& vehicle, const Goal& goal);
-  Eigen::Vector3d repulsion(TimeUs now, const VehicleMotion& vehicle) const;
+  VelocityCommand decide(TimeUs now_us, const VehicleMotion& vehicle, const Goal& goal);
+  Eigen::Vector3d repulsion(TimeUs now_us, const VehicleMotion& vehicle) const;
 
   RepulsiveField repulsive_;
   AttractiveConfig attractive_;

@@ -59,8 +59,8 @@ class Course {
 // Where an obstacle in free fall will be, and how well that is known.
 class Fall {
  public:
-  Fall(const TrackedObstacle& tracked, TimeUs now)
-      : tracked_(tracked), age_s_(seconds(now - tracked.obstacle.t_us)) {}
+  Fall(const TrackedObstacle& tracked, TimeUs now_us)
+      : tracked_(tracked), age_s_(seconds(now_us - tracked.obstacle.t_us)) {}
 
   Vector3d position(double t_s) const {
     const double s = age_s_ + t_s;
@@ -139,11 +139,11 @@ bool EscapePlanner::is_thrown(const TrackedObstacle& tracked) const {
   return tracked.obstacle.v_WO.norm() >= config_.min_speed_mps || has_evaded(tracked.obstacle.id);
 }
 
-std::optional<Meeting> EscapePlanner::meeting(TimeUs now, const VehicleMotion& vehicle,
+std::optional<Meeting> EscapePlanner::meeting(TimeUs now_us, const VehicleMotion& vehicle,
                                               const Intent& intent,
                                               const TrackedObstacle& obstacle) const {
   const Course course(config_, vehicle, intent);
-  const Fall fall(obstacle, now);
+  const Fall fall(obstacle, now_us);
   int nearest = 0;
   double nearest_m2 = kInfinity;
   const int steps = static_cast<int>(config_.horizon_s / kStepS);
@@ -175,13 +175,13 @@ std::optional<Meeting> EscapePlanner::meeting(TimeUs now, const VehicleMotion& v
 }
 
 // The least over all obstacles of the distance by which they miss, in its standard deviations.
-double EscapePlanner::clearance_in_sigmas(TimeUs now, const VehicleMotion& vehicle,
+double EscapePlanner::clearance_in_sigmas(TimeUs now_us, const VehicleMotion& vehicle,
                                           const Intent& intent,
                                           std::span<const TrackedObstacle> obstacles) const {
   double least = kInfinity;
   for (const TrackedObstacle& tracked : obstacles) {
     if (!is_thrown(tracked)) continue;
-    const std::optional<Meeting> near = meeting(now, vehicle, intent, tracked);
+    const std::optional<Meeting> near = meeting(now_us, vehicle, intent, tracked);
     if (!near) continue;
     const double miss_m = near->miss_W.norm();
     const Vector3d towards = miss_m > 0 ? (near->miss_W / miss_m).eval() : Vector3d::UnitZ();
@@ -192,12 +192,12 @@ double EscapePlanner::clearance_in_sigmas(TimeUs now, const VehicleMotion& vehic
 }
 
 std::optional<EscapePlanner::Danger> EscapePlanner::greatest_danger(
-    TimeUs now, const VehicleMotion& vehicle, const Intent& intent,
+    TimeUs now_us, const VehicleMotion& vehicle, const Intent& intent,
     std::span<const TrackedObstacle> obstacles) const {
   std::optional<Danger> greatest;
   for (const TrackedObstacle& tracked : obstacles) {
     if (!is_thrown(tracked)) continue;
-    const std::optional<Meeting> near = meeting(now, vehicle, intent, tracked);
+    const std::optional<Meeting> near = meeting(now_us, vehicle, intent, tracked);
     if (!near || near->time_s > config_.horizon_s) continue;
     const double probability = hit_probability(*near);
     if (greatest && probability <= greatest->probability) continue;
@@ -206,11 +206,11 @@ std::optional<EscapePlanner::Danger> EscapePlanner::greatest_danger(
   return greatest;
 }
 
-std::optional<Vector3d> EscapePlanner::escape(TimeUs now, const VehicleMotion& vehicle,
+std::optional<Vector3d> EscapePlanner::escape(TimeUs now_us, const VehicleMotion& vehicle,
                                               const Intent& intent,
                                               std::span<const TrackedObstacle> obstacles) {
   std::erase_if(evaded_ids_, [&](int id) { return !contains(obstacles, id); });
-  const std::optional<Danger> danger = greatest_danger(now, vehicle, intent, obstacles);
+  const std::optional<Danger> danger = greatest_danger(now_us, vehicle, intent, obstacles);
   const double least = direction_W_ ? config_.keep_probability : config_.min_probability;
   if (!danger || danger->probability <= 0 || danger->probability < least) {
     direction_W_.reset();
@@ -219,18 +219,18 @@ std::optional<Vector3d> EscapePlanner::escape(TimeUs now, const VehicleMotion& v
   if (danger->probability >= config_.min_probability && !has_evaded(danger->id)) {
     evaded_ids_.push_back(danger->id);
   }
-  direction_W_ = best_direction(now, vehicle, danger->along_W, obstacles);
+  direction_W_ = best_direction(now_us, vehicle, danger->along_W, obstacles);
   return speed_mps_ * *direction_W_;
 }
 
 // Of the directions across the line of flight of the obstacle that is the greatest danger, and the
 // one that the vehicle takes already: to turn round costs the time to tilt.
-Vector3d EscapePlanner::best_direction(TimeUs now, const VehicleMotion& vehicle,
+Vector3d EscapePlanner::best_direction(TimeUs now_us, const VehicleMotion& vehicle,
                                        const Vector3d& along_W,
                                        std::span<const TrackedObstacle> obstacles) const {
   const auto clearance = [&](const Vector3d& direction_W) {
     const Intent escape{speed_mps_ * direction_W, std::nullopt};
-    return clearance_in_sigmas(now, vehicle, escape, obstacles);
+    return clearance_in_sigmas(now_us, vehicle, escape, obstacles);
   };
   const Vector3d up = upward_across(along_W), left = up.cross(along_W);
   Vector3d best_W = direction_W_.value_or(up);

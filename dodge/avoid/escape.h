@@ -90,15 +90,15 @@ class EscapePlanner {
   EscapePlanner(const EscapeConfig& config, double speed_mps);
 
   // The velocity of an escape [m/s], or nothing while no confirmed obstacle will, within the
-  // horizon, probably hit a vehicle that follows `intent`. `vehicle` is the state at `now`. Call
+  // horizon, probably hit a vehicle that follows `intent`. `vehicle` is the state at `now_us`. Call
   // once a cycle: what has been answered decides which probability counts.
-  std::optional<Eigen::Vector3d> escape(TimeUs now, const VehicleMotion& vehicle,
+  std::optional<Eigen::Vector3d> escape(TimeUs now_us, const VehicleMotion& vehicle,
                                         const Intent& intent,
                                         std::span<const TrackedObstacle> obstacles);
 
-  // How an obstacle, in free fall, meets a vehicle that follows `intent` from `now` on; nothing if
-  // they do not come nearer. Beyond the horizon both fly on straight.
-  std::optional<Meeting> meeting(TimeUs now, const VehicleMotion& vehicle, const Intent& intent,
+  // How an obstacle, in free fall, meets a vehicle that follows `intent` from `now_us` on; nothing
+  // if they do not come nearer. Beyond the horizon both fly on straight.
+  std::optional<Meeting> meeting(TimeUs now_us, const VehicleMotion& vehicle, const Intent& intent,
                                  const TrackedObstacle& obstacle) const;
 
  private:
@@ -110,12 +110,12 @@ class EscapePlanner {
 
   bool has_evaded(int id) const;
   bool is_thrown(const TrackedObstacle& tracked) const;
-  std::optional<Danger> greatest_danger(TimeUs now, const VehicleMotion& vehicle,
+  std::optional<Danger> greatest_danger(TimeUs now_us, const VehicleMotion& vehicle,
                                         const Intent& intent,
                                         std::span<const TrackedObstacle> obstacles) const;
-  double clearance_in_sigmas(TimeUs now, const VehicleMotion& vehicle, const Intent& intent,
+  double clearance_in_sigmas(TimeUs now_us, const VehicleMotion& vehicle, const Intent& intent,
                              std::span<const TrackedObstacle> obstacles) const;
-  Eigen::Vector3d best_direction(TimeUs now, const VehicleMotion& vehicle,
+  Eigen::Vector3d best_direction(TimeUs now_us, const VehicleMotion& vehicle,
                                  const Eigen::Vector3d& along_W,
                                  std::span<const TrackedObstacle> obstacles) const;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct AssociationConfig {
   double radius_m = 0.35;
   double gate_sigmas = 0.0;
   int min_detections = 3;
-  int tentative_timeout_us = 25000;
+  std::int64_t tentative_timeout_us = 25000;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -38,7 +39,7 @@ struct AssociationConfig {
       "Detections before an obstacle is confirmed, that is, may cause an escape. One has no "
       "velocity; two false ones fall together now and then in flight through a textured room. Not "
       "given by the paper.");
-    v("tentative_timeout_us", tentative_timeout_us, 0, 10000000,
+    v("tentative_timeout_us", tentative_timeout_us, std::int64_t{0}, std::int64_t{10000000},
       "An obstacle that is not confirmed is dropped this long after its last detection, so that "
       "unrelated noise does not add up to an obstacle, but never before it was looked for and "
       "missed. Not given by the paper.");

@@ -11,6 +11,10 @@ constexpr std::size_t kInitialEvents = 1 << 15;  // a busy window of 20 ms holds
 EventWindow::EventWindow() : events_(kInitialEvents) { arrived_.reserve(kInitialEvents); }
 
 void EventWindow::take(TimeUs latest_us) {
+  if (last_taken_us_ && *last_taken_us_ > latest_us) {
+    events_.pop_front(events_.size());
+    last_taken_us_.reset();
+  }
   TimeUs earliest_us = empty() ? std::numeric_limits<TimeUs>::min() : newest_us();
   for (const Event& event : arrived_) {
     if (event.t_us < earliest_us || event.t_us > latest_us) {

@@ -14,6 +14,7 @@ namespace dodge {
 struct WindowConfig {
   std::int64_t window_us = 10000;
   std::int64_t event_timeout_us = 10000;
+  std::int64_t camera_lag_us = 2000;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -21,8 +22,12 @@ struct WindowConfig {
       "Length of the sliding event window; the paper uses 10 ms, longer windows see farther and "
       "slower objects at the cost of latency and work.");
     v("event_timeout_us", event_timeout_us, 0, 1000000,
-      "The window ends at the newest event of any camera, but at most this long before now, so "
-      "that old events are not seen again and again when the scene falls silent.");
+      "The window ends at most this long before now, so that old events are not seen again and "
+      "again when the scene falls silent.");
+    v("camera_lag_us", camera_lag_us, 0, 100000,
+      "The window ends where the events of both cameras have arrived, but at most this long before "
+      "the newest event of any: one whose packets come later shows an object where it was, which "
+      "errs in depth, and one that is silent holds up the other no longer than this.");
   }
 };
 
@@ -38,7 +43,8 @@ class EventWindow {
 
   // Takes the events that have arrived into the window, in ascending time: one that is older than
   // one before it, or later than latest_us, is dropped. A wrong time stamp costs its own event or,
-  // if it lies ahead but not beyond latest_us, the events up to it.
+  // if it lies ahead but not beyond latest_us, the events up to it. When events of the window are
+  // later than latest_us, because the clock was set back, it begins anew.
   void take(TimeUs latest_us);
 
   // Forgets all events of the window up to and including t_us.

@@ -44,9 +44,9 @@ Tracker::Tracker(const AssociationConfig& association, const KalmanConfig& kalma
   obstacles_.reserve(kUsualObstacles);
 }
 
-void Tracker::predict(TimeUs now) {
-  remove_stale(now);
-  publish(now);
+void Tracker::predict(TimeUs now_us) {
+  remove_stale(now_us);
+  publish(now_us);
 }
 
 PredictedObstacle Tracker::predicted(const Track& track, TimeUs t_us) {
@@ -57,8 +57,8 @@ PredictedObstacle Tracker::predicted(const Track& track, TimeUs t_us) {
 
 // In one look an obstacle is detected at most once, so that each detection has a track of its own.
 // Those that are not finite are left out before, and take no track from the others.
-void Tracker::update(TimeUs now, std::span<Detection> detections) {
-  remove_stale(now);
+void Tracker::update(TimeUs now_us, std::span<Detection> detections) {
+  remove_stale(now_us);
   for (Track& track : tracks_) track.missed = true;
   predicted_.clear();
   measured_.clear();
@@ -84,7 +84,7 @@ void Tracker::update(TimeUs now, std::span<Detection> detections) {
       measure(track, detection);
     }
   }
-  publish(now);
+  publish(now_us);
 }
 
 void Tracker::measure(Track& track, Detection& detection) const {
@@ -98,20 +98,21 @@ void Tracker::measure(Track& track, Detection& detection) const {
   track.confirmed |= track.detections >= association_.min_detections;
 }
 
-void Tracker::remove_stale(TimeUs now) {
+void Tracker::remove_stale(TimeUs now_us) {
   std::erase_if(tracks_, [&](const Track& track) {
     const TimeUs allowed = track.confirmed || !track.missed
                                ? lifetime_us_
-                               : std::min<TimeUs>(lifetime_us_, association_.tentative_timeout_us);
-    return now - track.last_detection_us > allowed;
+                               : std::min(lifetime_us_, association_.tentative_timeout_us);
+    const TimeUs unseen_us = now_us - track.last_detection_us;
+    return unseen_us > allowed || unseen_us < 0;  // negative: the clock was set back
   });
 }
 
-void Tracker::publish(TimeUs now) {
+void Tracker::publish(TimeUs now_us) {
   obstacles_.clear();
   for (const Track& track : tracks_) {
     Kalman filter = track.filter;
-    filter.predict(now);
+    filter.predict(now_us);
     TrackedObstacle& tracked = obstacles_.emplace_back();
     tracked.obstacle = {track.id,         filter.t_us(),     track.last_detection_us,
                         track.detections, filter.position(), filter.velocity(),

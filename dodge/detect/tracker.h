@@ -34,13 +34,13 @@ class Tracker {
 
   // Takes in the detections of one look (if there are none, it has missed all obstacles), fills in
   // their obstacle_id, removes obstacles that were not seen for too long, and predicts all to
-  // `now`. Detections that are not finite are ignored and keep id -1.
-  void update(TimeUs now, std::span<Detection> detections);
+  // `now_us`. Detections that are not finite are ignored and keep id -1.
+  void update(TimeUs now_us, std::span<Detection> detections);
 
   // The same without a look, between the cameras' data.
-  void predict(TimeUs now);
+  void predict(TimeUs now_us);
 
-  // In the order of their ids, predicted to the last `now`.
+  // In the order of their ids, predicted to the last `now_us`.
   const std::vector<TrackedObstacle>& obstacles() const { return obstacles_; }
 
  private:
@@ -57,8 +57,8 @@ class Tracker {
 
   static PredictedObstacle predicted(const Track& track, TimeUs t_us);
   void measure(Track& track, Detection& detection) const;
-  void remove_stale(TimeUs now);
-  void publish(TimeUs now);
+  void remove_stale(TimeUs now_us);
+  void publish(TimeUs now_us);
 
   AssociationConfig association_;
   KalmanConfig kalman_;

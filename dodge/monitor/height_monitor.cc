@@ -15,7 +15,9 @@ void HeightMonitor::add(TimeUs t_us, double estimated_m, double measured_m) {
   if (std::abs(ground_m - *ground_m_) <= config_.threshold_m) {
     apart_since_us_.reset();
   } else {
-    if (!apart_since_us_ || t_us - last_us_ > config_.max_gap_us) apart_since_us_ = t_us;
+    const TimeUs passed_us = t_us - last_us_;
+    const bool goes_on = passed_us >= 0 && passed_us <= config_.max_gap_us;
+    if (!apart_since_us_ || !goes_on) apart_since_us_ = t_us;
     if (t_us - *apart_since_us_ >= config_.persist_us) drifted_ = true;
   }
   last_us_ = t_us;

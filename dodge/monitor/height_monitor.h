@@ -44,7 +44,7 @@ class HeightMonitor {
   explicit HeightMonitor(const HeightMonitorConfig& config);
 
   // Estimated height in W and height above the ground by the range sensor at one instant. Call in
-  // ascending time.
+  // ascending time; one that goes back is a break.
   void add(TimeUs t_us, double estimated_m, double measured_m);
 
   // The estimate has drifted; once true it stays true.

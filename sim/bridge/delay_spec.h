@@ -11,6 +11,7 @@ namespace dodgesim {
 
 struct DelaySpec {
   int transport_us = 1000;       // USB, from the end of a packet to the computer
+  int lower_camera_us = 0;       // on top of that, for the lower camera's packets
   int imu_us = 500;              // IMU sample to the computer
   int state_estimate_us = 2000;  // age of the state estimate when the computer receives it
   int range_us = 2000;
@@ -21,6 +22,11 @@ struct DelaySpec {
   int command_us = 3000;           // serial link to the flight controller
   int flight_controller_us = 250;  // from a received command to the rotor commands
 
+  // From the end of a packet of camera 0 (the upper one) or 1 to the computer.
+  int transport_us_of(int camera) const {
+    return transport_us + (camera > 0 ? lower_camera_us : 0);
+  }
+
   // From the start of a cycle to its command.
   int pilot_us() const { return compute_us + perception_us; }
 
@@ -30,8 +36,8 @@ struct DelaySpec {
     return (least_us + kTickUs - 1) / kTickUs * kTickUs;
   }
 
-  // End of the newest event packet that a cycle has received, a multiple of packet_us; not above 0
-  // if there is none.
+  // End of the newest event packet that a cycle has received from the upper camera, a multiple of
+  // packet_us; not above 0 if there is none.
   TimeUs newest_packet_end_us(TimeUs cycle_start_us) const {
     const TimeUs sent_us = cycle_start_us - transport_us;
     const TimeUs into_packet_us = (sent_us % packet_us + packet_us) % packet_us;
@@ -42,6 +48,9 @@ struct DelaySpec {
   void visit(Visitor& v) {
     v("transport_us", transport_us, 0, 100000,
       "USB: end of a packet to the computer (1 to 2 ms worst case for USB cameras).");
+    v("lower_camera_us", lower_camera_us, 0, 100000,
+      "The packets of the lower camera come later than the upper one's by this. Pilots that know "
+      "the truth are as fast as the upper one.");
     v("imu_us", imu_us, 0, 100000, "IMU sample to the computer.");
     v("state_estimate_us", state_estimate_us, 0, 100000,
       "Age of a state estimate when the computer receives it.");

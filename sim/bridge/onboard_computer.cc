@@ -9,7 +9,7 @@ static_assert(dodge::kGravityMps2 == kGravityMps2);
 OnboardComputer::OnboardComputer(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot)
     : pilot_(std::move(pilot)),
       period_us_(delays.period_us()),
-      event_delay_us_(delays.transport_us),
+      delays_(delays),
       next_cycle_us_(period_us_),
       imu_(delays.imu_us),
       states_(delays.state_estimate_us),
@@ -21,7 +21,9 @@ void OnboardComputer::send_events(int camera, TimeUs packet_end_us, std::span<co
   out.reserve(packet.size());
   for (const Event& e : packet) out.push_back({e.t_us, e.x, e.y, e.polarity});
   const auto line = static_cast<std::size_t>(camera);
-  while (packets_.size() <= line) packets_.emplace_back(event_delay_us_);
+  while (packets_.size() <= line) {
+    packets_.emplace_back(delays_.transport_us_of(static_cast<int>(packets_.size())));
+  }
   packets_[line].push(packet_end_us, std::move(out));
 }
 

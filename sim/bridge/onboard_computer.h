@@ -44,7 +44,7 @@ class OnboardComputer {
 
   std::unique_ptr<dodge::Pilot> pilot_;
   TimeUs period_us_;
-  TimeUs event_delay_us_;
+  DelaySpec delays_;
   TimeUs next_cycle_us_;
   std::vector<DelayLine<Packet>> packets_;  // by camera
   DelayLine<dodge::ImuSample> imu_;

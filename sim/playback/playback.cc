@@ -92,7 +92,9 @@ void Playback::look(Eye& eye) {
 bool Playback::next() {
   const bool ended = std::all_of(eyes_.begin(), eyes_.end(),
                                  [](const Eye& e) { return e.ended && e.held.empty(); });
-  if (ended && now_us_ >= last_event_us_ + delays_.packet_us + delays_.transport_us) return false;
+  const int last_camera = static_cast<int>(eyes_.size()) - 1;
+  const TimeUs transport_us = delays_.transport_us_of(last_camera);
+  if (ended && now_us_ >= last_event_us_ + delays_.packet_us + transport_us) return false;
   now_us_ += delays_.period_us();
   send_readings();
   for (std::size_t camera = 0; camera < eyes_.size(); ++camera) {

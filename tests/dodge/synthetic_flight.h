@@ -27,11 +27,14 @@ class Flight {
   // The IMU says nothing after that instant.
   void end_imu(TimeUs t_us) { imu_end_us_ = t_us; }
 
+  // The events of the lower camera come this much later.
+  void delay_lower_camera(TimeUs delay_us) { delay_us_[1] = delay_us; }
+
   // Collects the data of the cycle that ends now.
   void advance(TimeUs now_us) {
     for (std::size_t i = 0; i < 2; ++i) {
       events_[i].clear();
-      generators_[i].advance(now_us, events_[i]);
+      generators_[i].advance(now_us - delay_us_[i], events_[i]);
     }
     imu_.clear();
     for (; imu_us_ <= std::min(now_us, imu_end_us_); imu_us_ += 1000) {
@@ -73,6 +76,7 @@ class Flight {
 
   Motion motion_;
   std::vector<EventGenerator> generators_;
+  std::array<TimeUs, 2> delay_us_ = {0, 0};
   std::array<std::vector<Event>, 2> events_;
   std::vector<ImuSample> imu_;
   TimeUs imu_us_ = 0, now_us_ = 0;

@@ -96,5 +96,16 @@ TEST(EventWindow, GoesOnWithOlderEventsWhenItIsEmpty) {
   EXPECT_EQ(window.newest_us(), 900);
 }
 
+TEST(EventWindow, BeginsAnewWhenTheClockIsSetBack) {
+  EventWindow window;
+  window.add(events_every(100, 50000, 60000));
+  window.take(60000);
+  window.add(events_every(100, 0, 1000));
+  window.take(2000);
+  EXPECT_EQ(times(window, 100000).size(), 10U);
+  EXPECT_EQ(window.last_taken_us(), 900);
+  EXPECT_EQ(window.dropped(), 0);
+}
+
 }  // namespace
 }  // namespace dodge

@@ -110,6 +110,13 @@ TEST(Tracker, RemovesAnObstacleAfterItsLifetime) {
   EXPECT_TRUE(tracker.obstacles().empty());
 }
 
+TEST(Tracker, ForgetsWhatIsFromBeforeTheClockWasSetBack) {
+  Tracker tracker({}, {}, kLifetimeS);
+  for (int i = 0; i < 3; ++i) update(tracker, 1000 * i, {seen(1000 * i, Vector3d(2, 0, 0))});
+  tracker.predict(1999);
+  EXPECT_TRUE(tracker.obstacles().empty());
+}
+
 TEST(Tracker, DropsWhatWasNotConfirmedEarlier) {
   Tracker tracker({}, {}, kLifetimeS);
   update(tracker, 0, {seen(0, Vector3d(2, 0, 0))});

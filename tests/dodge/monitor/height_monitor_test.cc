@@ -133,6 +133,18 @@ TEST(HeightMonitor, TwoReadingsFarApartProveNothing) {
   EXPECT_FALSE(monitor.drifted());
 }
 
+TEST(HeightMonitor, AClockThatIsSetBackBreaksTheDiscrepancy) {
+  HeightMonitorConfig config;
+  config.learn_readings = 1;
+  HeightMonitor monitor(config);
+  monitor.add(1000000, 2, 2);
+  monitor.add(1005000, 3, 2);
+  for (TimeUs t = 0; t < config.persist_us; t += kPeriodUs) monitor.add(t, 3, 2);
+  EXPECT_FALSE(monitor.drifted());
+  monitor.add(config.persist_us, 3, 2);
+  EXPECT_TRUE(monitor.drifted());
+}
+
 TEST(HeightMonitor, OnceDriftedItStaysSo) {
   HeightMonitor monitor({});
   ASSERT_TRUE(lands_at(monitor, 5000000, between(1, 3, 0.5), none));

@@ -275,6 +275,21 @@ TEST(OnboardComputer, ThePacketsOfOneCameraDoNotHoldUpThoseOfTheOther) {
   EXPECT_THAT(stamps(log.events[1]), ElementsAre(2875));
 }
 
+TEST(OnboardComputer, ThePacketsOfTheLowerCameraMayComeLater) {
+  DelaySpec delays;
+  delays.lower_camera_us = 700;
+  Log log;
+  OnboardComputer computer(delays, std::make_unique<RecordingPilot>(log));
+  for (int camera = 0; camera < 2; ++camera) {
+    for (const TimeUs t : {2000, 3000}) {
+      computer.send_events(camera, t, std::vector<Event>{{t, 0, 0, 1}});
+    }
+  }
+  computer.run_cycle(4000);
+  EXPECT_THAT(stamps(log.events[0]), ElementsAre(2000, 3000));
+  EXPECT_THAT(stamps(log.events[1]), ElementsAre(2000));
+}
+
 TEST(OnboardComputer, HandsOverWhatTheSensorsSaid) {
   Log log;
   OnboardComputer computer(DelaySpec{}, std::make_unique<RecordingPilot>(log));
