@@ -3,13 +3,20 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include "sim/base/error.h"
 
 namespace dodgesim {
 
-std::string read_file(const std::filesystem::path& path) {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path) {
+  throw IoError(path.string() + " could not be read: " + std::strerror(errno) + ".");
+}
+
+}  // namespace
+
+std::ifstream open_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto kind = std::filesystem::status(path, error).type();
   if (kind == std::filesystem::file_type::not_found) {
@@ -18,17 +25,19 @@ std::string read_file(const std::filesystem::path& path) {
   if (!error && kind != std::filesystem::file_type::regular) {
     throw IoError(path.string() + " is not a regular file.");
   }
-  const auto fail = [&path] {
-    throw IoError(path.string() + " could not be read: " + std::strerror(errno) + ".");
-  };
   std::ifstream file(path, std::ios::binary);
-  if (!file) fail();
+  if (!file) fail(path);
+  return file;
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file = open_file(path);
   std::string text;
   std::array<char, 1 << 16> block;
   while (file.read(block.data(), block.size()) || file.gcount() > 0) {
     text.append(block.data(), static_cast<std::size_t>(file.gcount()));
   }
-  if (file.bad()) fail();
+  if (file.bad()) fail(path);
   return text;
 }
 

@@ -1,20 +1,16 @@
 #include "sim/recordings/event_reader.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
-#include <string_view>
 #include <vector>
 
-#include "sim/base/numbers.h"
 #include "sim/files/npy_reader.h"
 #include "sim/recordings/hdf5_event_reader.h"
 #include "sim/recordings/raw_event.h"
+#include "sim/recordings/text_columns.h"
 
 namespace dodgesim {
 
@@ -22,104 +18,45 @@ namespace {
 
 constexpr std::size_t kPortion = 1 << 14;  // events
 
-// The cells of a line; blanks around them do not count.
-void split(std::string_view line, char separator, std::vector<std::string_view>& cells) {
-  constexpr std::string_view kBlanks = " \t\r";
-  cells.clear();
-  for (;;) {
-    const std::size_t first = line.find_first_not_of(kBlanks);
-    if (first == line.npos) break;
-    line.remove_prefix(first);
-    const std::size_t end = line.find_first_of(separator == ' ' ? kBlanks : ",");
-    std::string_view cell = line.substr(0, end);
-    cell = cell.substr(0, cell.find_last_not_of(kBlanks) + 1);
-    cells.push_back(cell);
-    if (end == line.npos) break;
-    line.remove_prefix(end + 1);
-  }
-}
-
 // Lines of text, .txt and .csv.
 class TextReader : public EventReader {
  public:
-  TextReader(const std::string& path, const ImageSize& image, char separator)
-      : path_(path), image_(image), separator_(separator), file_(path) {
-    if (!std::filesystem::is_regular_file(path) || !file_) {
-      throw IoError(path + " cannot be read: it is no file, or may not be opened.");
-    }
-    if (separator == ',') read_names();
+  using Separator = TextColumns::Separator;
+
+  TextReader(const std::string& path, const ImageSize& image, Separator separator)
+      : image_(image), separator_(separator), file_(path, separator) {
+    if (separator == Separator::kBlanks) return;
+    t_.name = "t_us";
+    file_.read_names({"t_us", "x", "y", "p"});
+    for (Column* column : {&t_, &x_, &y_, &p_}) *column = file_.column(column->name);
   }
 
   std::span<const Event> next() override {
     events_.clear();
-    while (events_.size() < kPortion && read_line()) {
-      events_.push_back(checked_event(parsed(), image_, [this] { return place(); }));
+    while (events_.size() < kPortion && file_.next()) {
+      const RawEvent raw = {time_us(), file_.integer(x_), file_.integer(y_), file_.integer(p_)};
+      events_.push_back(checked_event(raw, image_, [this] { return file_.place(); }));
     }
     return events_;
   }
 
  private:
-  std::string place() const { return path_ + ":" + std::to_string(line_number_); }
-
-  bool read_line() {
-    while (std::getline(file_, line_)) {
-      ++line_number_;
-      split(line_, separator_, cells_);
-      if (!cells_.empty() && cells_.front().front() != '#') return true;
+  std::int64_t time_us() {
+    if (!in_seconds_) {
+      in_seconds_ =
+          separator_ == Separator::kBlanks && file_.text(t_).find('.') != std::string::npos;
     }
-    if (file_.bad()) throw IoError(path_ + " cannot be read to its end.");
-    return false;
+    if (!*in_seconds_) return file_.integer(t_);
+    const double t_s = file_.number(t_);
+    if (std::abs(t_s) < 1e12) return std::llround(t_s * 1e6);
+    file_.refuse(t_, "a number of seconds, as in the lines before");
   }
 
-  void read_names() {
-    const std::array<std::string_view, 4> names = {"t_us", "x", "y", "p"};
-    if (!read_line()) throw ScenarioError(path_ + " is empty: not even its columns have names.");
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const auto found = std::find(cells_.begin(), cells_.end(), names[i]);
-      if (found == cells_.end()) {
-        throw ScenarioError(place() + ": there is no column " + std::string(names[i]) +
-                            "; the first line must name t_us, x, y and p.");
-      }
-      columns_[i] = static_cast<std::size_t>(found - cells_.begin());
-    }
-  }
-
-  RawEvent parsed() {
-    return {time_us(cell(0, "t")), integer(cell(1, "x"), "x"), integer(cell(2, "y"), "y"),
-            integer(cell(3, "p"), "p")};
-  }
-
-  std::string_view cell(std::size_t i, const char* name) const {
-    if (columns_[i] < cells_.size()) return cells_[columns_[i]];
-    throw ScenarioError(place() + ": " + name + " is missing; a line has t, x, y and p.");
-  }
-
-  std::int64_t integer(std::string_view text, const char* name) const {
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc{} && end == text.data() + text.size()) return value;
-    throw ScenarioError(place() + ": " + name + " is \"" + std::string(text.substr(0, 40)) +
-                        "\", but must be a whole number.");
-  }
-
-  std::int64_t time_us(std::string_view text) {
-    if (!in_seconds_) in_seconds_ = separator_ == ' ' && text.find('.') != text.npos;
-    if (!*in_seconds_) return integer(text, "t");
-    const std::optional<double> t_s = as_number(text);
-    if (t_s && std::abs(*t_s) < 1e12) return std::llround(*t_s * 1e6);
-    throw ScenarioError(place() + ": t is \"" + std::string(text.substr(0, 40)) +
-                        "\", but must be a number of seconds, as in the lines before.");
-  }
-
-  std::string path_;
   ImageSize image_;
-  char separator_;
-  std::ifstream file_;
-  std::array<std::size_t, 4> columns_ = {0, 1, 2, 3};  // of t, x, y, p
-  std::optional<bool> in_seconds_;                     // not known before the first event
-  std::string line_;
-  std::int64_t line_number_ = 0;
-  std::vector<std::string_view> cells_;
+  Separator separator_;
+  TextColumns file_;
+  Column t_ = {"t", 0}, x_ = {"x", 1}, y_ = {"y", 2}, p_ = {"p", 3};
+  std::optional<bool> in_seconds_;  // not known before the first event
   std::vector<Event> events_;
 };
 
@@ -173,8 +110,10 @@ class NpyEventReader : public EventReader {
 
 std::unique_ptr<EventReader> open_events(const std::string& path, const ImageSize& image) {
   const std::string end = std::filesystem::path(path).extension().string();
-  if (end == ".txt") return std::make_unique<TextReader>(path, image, ' ');
-  if (end == ".csv") return std::make_unique<TextReader>(path, image, ',');
+  if (end == ".txt")
+    return std::make_unique<TextReader>(path, image, TextColumns::Separator::kBlanks);
+  if (end == ".csv")
+    return std::make_unique<TextReader>(path, image, TextColumns::Separator::kComma);
   if (end == ".npy") return std::make_unique<NpyEventReader>(path, image);
   if (end == ".h5" || end == ".hdf5") return open_hdf5_events(path, image);
   throw ScenarioError(path +

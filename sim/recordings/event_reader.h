@@ -4,10 +4,11 @@
 //       which is added to t.
 // .npy  Records t <i8 [us], x <u2, y <u2, p |i1, as event_writer.h has them.
 // .txt  A line "t x y p" an event: t is in microseconds if the first event's is a whole number, and
-//       otherwise in seconds, as in the rpg data sets. Lines that begin with # are left out.
+//       otherwise in seconds, as in the rpg data sets.
 // .csv  The same with commas, after a line that names the columns: t_us, x, y and p in any order.
 //
-// Columns and fields other than these, such as the causes of events, are passed over.
+// Lines of both may be as text_columns.h has them. Columns and fields other than these, such as the
+// causes of events, are passed over.
 #pragma once
 
 #include <memory>

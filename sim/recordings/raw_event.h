@@ -8,6 +8,8 @@
 
 namespace dodgesim {
 
+constexpr std::int64_t kLastUs = std::int64_t{1} << 60;  // sums of instants do not overflow
+
 struct RawEvent {
   std::int64_t t_us = 0, x = 0, y = 0, p = 0;
 };
@@ -22,7 +24,6 @@ Event checked_event(const RawEvent& raw, const ImageSize& image, const Place& pl
                         ", but must be from " + std::to_string(least) + " to " +
                         std::to_string(most) + ".");
   };
-  constexpr std::int64_t kLastUs = std::int64_t{1} << 60;  // sums of instants do not overflow
   if (raw.t_us < 0 || raw.t_us > kLastUs) refuse("t [us]", raw.t_us, 0, kLastUs);
   if (raw.x < 0 || raw.x >= image.width) refuse("x", raw.x, 0, image.width - 1);
   if (raw.y < 0 || raw.y >= image.height) refuse("y", raw.y, 0, image.height - 1);

@@ -8,52 +8,66 @@
 
 #include "sim/base/error.h"
 #include "sim/base/numbers.h"
-#include "sim/files/csv_table.h"
+#include "sim/recordings/raw_event.h"
+#include "sim/recordings/text_columns.h"
 
 namespace dodgesim {
 
 namespace {
 
-// Calls read(table, row) for every row and sees to it that time goes on.
+constexpr std::array<const char*, 3> kRates = {"wx", "wy", "wz"}, kForces = {"ax", "ay", "az"};
+
+// Calls read() for every line and sees to it that time goes on.
 template <class Reading, class Read>
-std::vector<Reading> read_log(const std::string& path, Read read) {
-  const CsvTable table{std::filesystem::path(path)};
+std::vector<Reading> read_log(TextColumns& file, Read read) {
+  const Column t_us = file.column("t_us");
   std::vector<Reading> log;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    const std::string place = path + ":" + std::to_string(table.line(row));
-    const std::string& t_us = table.at(row, "t_us");
-    const bool whole = number_form(t_us) == NumberForm::kInteger;
-    const std::optional<TimeUs> stamp = whole ? parse_integer<TimeUs>(t_us) : std::nullopt;
-    if (!stamp) throw ScenarioError(place + ": t_us is \"" + t_us + "\", but must be whole.");
-    if (!log.empty() && *stamp <= log.back().t_us) {
-      throw ScenarioError(place + ": t_us is " + t_us + ", but must be later than in the row " +
-                          "before, " + to_text(log.back().t_us) + ".");
+  while (file.next()) {
+    const TimeUs stamp = file.integer(t_us);
+    if (stamp < -kLastUs || stamp > kLastUs) file.refuse(t_us, "nearer to 0");
+    if (!log.empty() && stamp <= log.back().t_us) {
+      throw ScenarioError(file.place() + ": t_us is " + to_text(stamp) +
+                          ", but must be later than in the row before, " +
+                          to_text(log.back().t_us) + ".");
     }
-    log.push_back(read(table, row));
-    log.back().t_us = *stamp;
+    log.push_back(read());
+    log.back().t_us = stamp;
   }
-  if (log.empty()) throw ScenarioError(path + " has no reading.");
+  if (log.empty()) throw ScenarioError(file.path() + " has no reading.");
   return log;
 }
 
-Eigen::Vector3d vector(const CsvTable& table, std::size_t row, std::array<const char*, 3> names) {
-  return {table.number(row, names[0]), table.number(row, names[1]), table.number(row, names[2])};
-}
+// Three columns.
+class VectorColumns {
+ public:
+  VectorColumns(const TextColumns& file, std::array<const char*, 3> names)
+      : file_(file),
+        x_(file.column(names[0])),
+        y_(file.column(names[1])),
+        z_(file.column(names[2])) {}
+
+  Eigen::Vector3d read() const { return {file_.number(x_), file_.number(y_), file_.number(z_)}; }
+
+ private:
+  const TextColumns& file_;
+  Column x_, y_, z_;
+};
 
 // Of columns that may be missing as a group.
-Eigen::Vector3d vector_if_any(const CsvTable& table, std::size_t row,
-                              std::array<const char*, 3> names) {
-  const bool any = table.has(names[0]) || table.has(names[1]) || table.has(names[2]);
-  return any ? vector(table, row, names) : Eigen::Vector3d::Zero();
+std::optional<VectorColumns> if_any(const TextColumns& file, std::array<const char*, 3> names) {
+  if (!file.has(names[0]) && !file.has(names[1]) && !file.has(names[2])) return std::nullopt;
+  return VectorColumns(file, names);
 }
 
-Eigen::Quaterniond rotation(const CsvTable& table, std::size_t row) {
-  Eigen::Quaterniond q(table.number(row, "qw"), table.number(row, "qx"), table.number(row, "qy"),
-                       table.number(row, "qz"));
+Eigen::Vector3d read(const std::optional<VectorColumns>& columns) {
+  return columns ? columns->read() : Eigen::Vector3d::Zero();
+}
+
+Eigen::Quaterniond rotation(const TextColumns& file, double w, const Eigen::Vector3d& xyz) {
+  const Eigen::Quaterniond q(w, xyz.x(), xyz.y(), xyz.z());
   constexpr double kRoundingOfText = 0.01;
   if (std::abs(q.norm() - 1) < kRoundingOfText) return q;
-  throw ScenarioError(table.name() + ":" + std::to_string(table.line(row)) +
-                      ": qw, qx, qy, qz have the length " + to_text(q.norm()) +
+  throw ScenarioError(file.place() + ": qw, qx, qy, qz have the length " + to_text(q.norm()) +
                       ", but must be a unit quaternion.");
 }
 
@@ -77,28 +91,32 @@ std::string line(TimeUs t_us, std::initializer_list<double> values) {
 }  // namespace
 
 std::vector<ImuReading> read_imu_log(const std::string& path) {
-  return read_log<ImuReading>(path, [](const CsvTable& table, std::size_t row) {
-    return ImuReading{0, vector(table, row, {"wx", "wy", "wz"}),
-                      vector_if_any(table, row, {"ax", "ay", "az"})};
-  });
+  TextColumns file(path, TextColumns::Separator::kComma);
+  file.read_names({"t_us", "wx", "wy", "wz"});
+  const VectorColumns w(file, kRates);
+  const auto f = if_any(file, kForces);
+  return read_log<ImuReading>(file, [&] { return ImuReading{0, w.read(), read(f)}; });
 }
 
 std::vector<StateReading> read_state_log(const std::string& path) {
-  bool has_rates = false;
-  auto states = read_log<StateReading>(path, [&](const CsvTable& table, std::size_t row) {
-    has_rates = table.has("wx");
-    return StateReading{0, vector(table, row, {"x", "y", "z"}), rotation(table, row),
-                        vector(table, row, {"vx", "vy", "vz"}),
-                        vector_if_any(table, row, {"wx", "wy", "wz"})};
+  TextColumns file(path, TextColumns::Separator::kComma);
+  file.read_names({"t_us", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz"});
+  const VectorColumns p(file, {"x", "y", "z"}), q(file, {"qx", "qy", "qz"}),
+      v(file, {"vx", "vy", "vz"});
+  const Column qw = file.column("qw");
+  const auto w = if_any(file, kRates);
+  auto states = read_log<StateReading>(file, [&] {
+    return StateReading{0, p.read(), rotation(file, file.number(qw), q.read()), v.read(), read(w)};
   });
-  if (!has_rates) fill_in_rates(states);
+  if (!w) fill_in_rates(states);
   return states;
 }
 
 std::vector<RangeReading> read_range_log(const std::string& path) {
-  return read_log<RangeReading>(path, [](const CsvTable& table, std::size_t row) {
-    return RangeReading{0, table.number(row, "range_m")};
-  });
+  TextColumns file(path, TextColumns::Separator::kComma);
+  file.read_names({"t_us", "range_m"});
+  const Column range_m = file.column("range_m");
+  return read_log<RangeReading>(file, [&] { return RangeReading{0, file.number(range_m)}; });
 }
 
 std::string imu_header() { return "t_us,wx,wy,wz,ax,ay,az\n"; }

@@ -118,7 +118,7 @@ TEST_F(Reading, SaysInWhichLineAnEventIsNone) {
   EXPECT_THAT(refusal("e.csv", "t_us,x,y,p\n1,2,3,2\n"), HasSubstr("p is 2"));
   EXPECT_THAT(refusal("e.csv", "t_us,x,y,p\n-1,2,3,1\n"), HasSubstr("t [us] is -1"));
   EXPECT_THAT(refusal("e.csv", "t_us,x,y,p\n1,2,3\n"), HasSubstr("e.csv:2: p is missing"));
-  EXPECT_THAT(refusal("e.csv", "t_us,x,y,p\n1,2,3,1e0\n"), HasSubstr("p is \"1e0\""));
+  EXPECT_THAT(refusal("e.csv", "t_us,x,y,p\n1,2,3,0.1\n"), HasSubstr("p is \"0.1\""));
   EXPECT_THAT(refusal("e.csv", "t,x,y,p\n1,2,3,1\n"), HasSubstr("there is no column t_us"));
   EXPECT_THAT(refusal("e.csv", ""), HasSubstr("is empty"));
   EXPECT_THAT(refusal("e.txt", "1 2 3 1\n\n1 2 x 1\n"), HasSubstr("e.txt:3: y is \"x\""));

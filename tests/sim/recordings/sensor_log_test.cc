@@ -92,10 +92,11 @@ TEST_F(SensorLog, RefusesWhatCannotBeWithItsLine) {
   EXPECT_THAT(refusal("t_us,wx,wy,wz\n7,0,0,0\n7,0,0,0\n"),
               HasSubstr("log.csv:3: t_us is 7, but must be later"));
   EXPECT_THAT(refusal("t_us,wx,wy,wz\n7.5,0,0,0\n"), HasSubstr("log.csv:2: t_us is \"7.5\""));
-  EXPECT_THAT(complaint<IoError>([&] { read_imu_log(file("t_us,wx,wy,wz\n7,0,fast,0\n")); }),
-              HasSubstr("fast"));
-  EXPECT_THAT(complaint<IoError>([&] { read_imu_log(file("t_us,wx,wy\n7,0,0\n")); }),
-              HasSubstr("wz"));
+  EXPECT_THAT(refusal("t_us,wx,wy,wz\n2000000000000000000,0,0,0\n"), HasSubstr("nearer to 0"));
+  EXPECT_THAT(refusal("t_us,wx,wy,wz\n7,0,fast,0\n"),
+              HasSubstr("log.csv:2: wy is \"fast\", but must be a number."));
+  EXPECT_THAT(refusal("t_us,wx,wy\n7,0,0\n"), HasSubstr("there is no column wz"));
+  EXPECT_THAT(refusal("t_us,wx,wy,wz,ax\n7,0,0,0,0\n"), HasSubstr("no column ay"));
   EXPECT_THAT(complaint<ScenarioError>([&] {
                 read_state_log(file("t_us,x,y,z,qw,qx,qy,qz,vx,vy,vz\n1,0,0,0,1,1,0,0,0,0,0\n"));
               }),

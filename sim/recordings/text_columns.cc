@@ -1,0 +1,140 @@
+#include "sim/recordings/text_columns.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "sim/base/error.h"
+#include "sim/base/joined.h"
+#include "sim/base/numbers.h"
+#include "sim/files/input_file.h"
+
+namespace dodgesim {
+
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r";
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
+// Where a cell that begins with a quote ends: behind the quote that closes it. Two quotes within it
+// stand for one.
+std::size_t end_of_quoted(std::string_view text) {
+  for (std::size_t i = 1; i < text.size(); ++i) {
+    if (text[i] != '"') continue;
+    if (i + 1 == text.size() || text[i + 1] != '"') return i + 1;
+    ++i;
+  }
+  return text.size();
+}
+
+std::string_view without_quotes(std::string_view cell) {
+  const bool quoted = cell.size() > 1 && cell.front() == '"' && cell.back() == '"';
+  return quoted ? cell.substr(1, cell.size() - 2) : cell;
+}
+
+void split(std::string_view line, std::string_view separators,
+           std::vector<std::string_view>& cells) {
+  cells.clear();
+  for (;;) {
+    const std::size_t first = line.find_first_not_of(kBlanks);
+    if (first == line.npos) break;
+    line.remove_prefix(first);
+    const std::size_t from = line.front() == '"' ? end_of_quoted(line) : 0;
+    const std::size_t end = line.find_first_of(separators, from);
+    std::string_view cell = line.substr(0, end);
+    cell = cell.substr(0, cell.find_last_not_of(kBlanks) + 1);
+    cells.push_back(without_quotes(cell));
+    if (end == line.npos) break;
+    line.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+TextColumns::TextColumns(const std::string& path, Separator separator)
+    : path_(path), separator_(separator), file_(open_file(path)) {}
+
+bool TextColumns::read_line() {
+  if (!std::getline(file_, line_)) {
+    if (file_.bad()) throw IoError(path_ + " cannot be read to its end.");
+    return false;
+  }
+  ++line_number_;
+  if (line_number_ == 1 && line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
+  split(line_, separator_ == Separator::kComma ? "," : kBlanks, cells_);
+  return true;
+}
+
+bool TextColumns::next() {
+  while (read_line()) {
+    if (!cells_.empty() && !is_remark()) return true;
+  }
+  return false;
+}
+
+void TextColumns::read_names(const std::vector<std::string>& required) {
+  while (read_line()) {
+    if (cells_.empty()) continue;
+    const bool remark = is_remark();
+    if (remark) {
+      const std::string names = line_.substr(line_.find('#') + 1);
+      split(line_ = names, ",", cells_);
+    }
+    names_.assign(cells_.begin(), cells_.end());
+    if (!remark || has(required.front())) break;
+    names_.clear();
+  }
+  if (names_.empty()) throw ScenarioError(path_ + " is empty: not even its columns have names.");
+  for (const std::string& name : required) {
+    if (has(name)) continue;
+    throw ScenarioError(place() + ": there is no column " + name + "; the first line must name " +
+                        joined(required, {}, " and ") + ".");
+  }
+}
+
+bool TextColumns::has(const std::string& name) const {
+  return std::find(names_.begin(), names_.end(), name) != names_.end();
+}
+
+Column TextColumns::column(const std::string& name) const {
+  if (std::count(names_.begin(), names_.end(), name) > 1) {
+    throw ScenarioError(place() + ": the column " + name + " comes twice.");
+  }
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) throw ScenarioError(path_ + " has no column " + name + ".");
+  return {name, static_cast<std::size_t>(found - names_.begin())};
+}
+
+std::string_view TextColumns::text(const Column& column) const {
+  if (column.index < cells_.size()) return cells_[column.index];
+  throw ScenarioError(place() + ": " + column.name + " is missing; the line has " +
+                      std::to_string(cells_.size()) + (cells_.size() == 1 ? " cell." : " cells."));
+}
+
+std::int64_t TextColumns::integer(const Column& column) const {
+  constexpr double kMost = 9e15;  // the whole numbers up to here are doubles
+  const std::string_view cell = text(column);
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error == std::errc{} && end == cell.data() + cell.size()) return value;
+  const std::optional<double> number = as_number(cell);
+  if (number && *number == std::floor(*number) && std::abs(*number) < kMost) {
+    return static_cast<std::int64_t>(*number);
+  }
+  refuse(column, "a whole number");
+}
+
+double TextColumns::number(const Column& column) const {
+  if (const std::optional<double> value = as_number(text(column))) return *value;
+  refuse(column, "a number");
+}
+
+void TextColumns::refuse(const Column& column, const std::string& what) const {
+  constexpr std::size_t kLongestQuote = 40;
+  throw ScenarioError(place() + ": " + column.name + " is \"" +
+                      std::string(text(column).substr(0, kLongestQuote)) + "\", but must be " +
+                      what + ".");
+}
+
+}  // namespace dodgesim
