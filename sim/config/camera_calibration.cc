@@ -4,10 +4,14 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <utility>
 #include <vector>
 
+#include "sim/base/error.h"
+#include "sim/base/joined.h"
 #include "sim/base/numbers.h"
 #include "sim/camera/camera.h"
+#include "sim/config/camera_chain.h"
 #include "sim/config/closest_name.h"
 #include "sim/config/reader.h"
 #include "sim/config/writer.h"
@@ -78,14 +82,14 @@ void drop_empty(YamlNode& map) {
 void expect_no_misspelling(const YamlNode& root, Problems& problems) {
   const std::vector<std::string> names = {"width",  "height", "intrinsics", "distortion",
                                           "p_BC_m", "R_BC",   "imu_axes",   "p_BR_m"};
-  const std::vector<std::string> kalibr = {
-      "cam0", "camera_model", "resolution", "distortion_model", "distortion_coeffs", "T_cam_imu"};
+  const std::vector<std::string> kalibr = {"camera_model", "resolution", "distortion_model",
+                                           "distortion_coeffs", "T_cam_imu"};
   for (const YamlNode::Key& key : root.keys) {
     if (std::find(names.begin(), names.end(), key.name) != names.end()) continue;
     if (std::find(kalibr.begin(), kalibr.end(), key.name) != kalibr.end()) {
       problems.add(key.at, key.name +
-                               " is a key of Kalibr's; what it says must stand under the "
-                               "keys of dodgesim (`dodgesim detect --help`).");
+                               " is a key of Kalibr's, which must stand below the name of its "
+                               "camera, such as cam0.");
       continue;
     }
     const std::string meant = closest_name(key.name, names);
@@ -175,11 +179,39 @@ void read_lens(const CalibrationKeys& keys, const ReadContext& context, Problems
   camera.k3 = k.size() == 5 ? k[4] : 0;
 }
 
+// "chain.yaml:cam1" as its parts; of another path the second one is empty.
+std::pair<std::string, std::string> path_and_name(const std::string& text) {
+  const std::size_t colon = text.rfind(":cam");
+  if (colon == text.npos || colon + 1 == text.size()) return {text, ""};
+  return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
+CameraCalibration load_of_chain(const YamlNode& root, std::vector<std::string> cameras,
+                                const std::string& chosen, ReadContext& context) {
+  const auto found =
+      chosen.empty() ? cameras.begin() : std::find(cameras.begin(), cameras.end(), chosen);
+  if (found == cameras.end()) {
+    context.problems.fail(
+        {}, "There is no camera " + chosen + ", but " + joined(cameras, {}, " and ") + ".");
+  }
+  const std::string name = *found;
+  CameraCalibration calibration = read_chain(root, name, context);
+  context.problems.raise_if_any();
+  calibration.name = name;
+  cameras.erase(found);
+  if (chosen.empty()) calibration.passed_over = cameras;
+  return calibration;
+}
+
 }  // namespace
 
-CameraCalibration load_camera_calibration(const std::string& path) {
+CameraCalibration load_camera_calibration(const std::string& path_and_camera) {
+  const auto [path, chosen] = path_and_name(path_and_camera);
   ReadContext context(path);
   YamlNode root = parse_yaml(read_scenario_text(path), context.problems);
+  const std::vector<std::string> cameras = cameras_of_chain(root);
+  if (!cameras.empty()) return load_of_chain(root, cameras, chosen, context);
+  if (!chosen.empty()) throw ScenarioError(path + " holds one camera, and no " + chosen + ".");
   drop_empty(root);
   CalibrationKeys keys;
   Reader reader(root, "", context);

@@ -14,11 +14,15 @@
 // default they are the camera's. Of an IMU that is turned otherwise against the camera, take its
 // axes for the body's (forward left up), and give R_BC in them. Other keys, such as those that say
 // where a recording comes from, are passed over, unless they look like one of these misspelled.
+//
+// Calibrations of Kalibr and DSEC are read, too: see camera_chain.h.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "dodge/camera_model.h"
+#include "sim/base/time.h"
 
 namespace dodgesim {
 
@@ -28,10 +32,14 @@ struct CameraCalibration {
   Eigen::Vector3d p_BR = Eigen::Vector3d::Zero();      // [m]
   bool focal_length_assumed = false;
   bool imu_axes_assumed = false;
+  TimeUs imu_later_us = 0;               // what the IMU's clock shows more than the camera's
+  std::string name;                      // of the camera, if the file holds several
+  std::vector<std::string> passed_over;  // the others, if nobody chose this one
 };
 
-// Throws ScenarioError like load_scenario(), IoError when reading fails.
-CameraCalibration load_camera_calibration(const std::string& path);
+// The camera of a file or, if it holds several, the first one; "FILE.yaml:cam1" is the one of that
+// name. Throws ScenarioError like load_scenario(), IoError when reading fails.
+CameraCalibration load_camera_calibration(const std::string& path_and_camera);
 
 // The file's text for a camera whose IMU has the axes of B; reads back the same to the last bit.
 std::string to_yaml(const dodge::CameraModel& camera, const Eigen::Vector3d& p_BR);

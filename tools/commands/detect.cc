@@ -35,11 +35,14 @@ CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {mode
   radtan_k1_k2_p1_p2_k3, coeffs: [...]}; p_BC_m and R_BC (rows), the camera's place on the body,
   which by default looks forward; imu_axes, where x, y, z of the IMU point, by default as
   the camera's (of one that looks forward: right down forward); p_BR_m, the range sensor's place.
-  Other keys are passed over. Two cameras must be rectified: one size, one set of intrinsics, the
-  second straight below the first. Calibrations stand behind the events.
+  Other keys are passed over. Or Kalibr's camchain.yaml or DSEC's cam_to_cam.yaml (pinhole, radtan):
+  the first camera in it or, with FILE.yaml:cam1, cam1. It looks forward, and the body's origin is
+  the IMU of T_cam_imu; timeshift_cam_imu is taken from the IMU's instants.
+  Two cameras must be rectified: one size, one set of intrinsics, the second straight below the
+  first. Calibrations stand behind the events.
 IMU.csv: t_us, wx, wy, wz [rad/s]. STATE.csv: t_us, x, y, z, qw, qx, qy, qz (body to world), vx, vy,
   vz [m, m/s]. RANGE.csv: t_us, range_m. A line with these names first; other columns are passed
-  over. All t_us are of the clock of the events.
+  over, as are empty lines and those that begin with #. All t_us are of the clock of the events.
 Without IMU.csv the camera turns as STATE.csv says or, without that, not at all. Without STATE.csv
 the vehicle turns as its IMU says and stays in its place. With one camera, depth comes from a known
 size (dodger.position.known_size_m).
@@ -97,6 +100,10 @@ std::vector<CameraCalibration> load_calibrations(const DetectArguments& argument
   std::vector<CameraCalibration> calibrations;
   for (const std::string& file : arguments.calibrations) {
     calibrations.push_back(load_camera_calibration(file));
+    const CameraCalibration& read = calibrations.back();
+    if (read.passed_over.empty()) continue;
+    std::printf("%s: %s is taken; FILE:%s would be another.\n", file.c_str(), read.name.c_str(),
+                read.passed_over.front().c_str());
   }
   return calibrations;
 }
@@ -171,7 +178,13 @@ RecordedSensors load_sensors(const DetectArguments& arguments,
   if (!arguments.range.empty()) sensors.ranges = read_range_log(arguments.range);
   if (!arguments.imu.empty()) {
     sensors.imu = read_imu_log(arguments.imu);
+    const TimeUs later_us = calibrations.front().imu_later_us;
+    if (later_us != 0) {
+      std::printf("The IMU's instants are moved by %+.3f ms (timeshift_cam_imu).\n",
+                  -1e-3 * static_cast<double>(later_us));
+    }
     for (ImuReading& reading : sensors.imu) {
+      reading.t_us -= later_us;
       reading.w_B_radps = calibrations.front().R_BG * reading.w_B_radps;
       reading.f_B_mps2 = calibrations.front().R_BG * reading.f_B_mps2;
     }
