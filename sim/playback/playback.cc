@@ -41,8 +41,8 @@ Playback::Playback(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot,
   TimeUs first_us = std::numeric_limits<TimeUs>::max();
   for (auto& reader : sensors.cameras) {
     eyes_.emplace_back(std::move(reader), delays.packet_us);
-    look(eyes_.back());
-    if (!eyes_.back().ended) first_us = std::min(first_us, eyes_.back().waiting.front().t_us);
+    const Event* first = eyes_.back().queue.front();
+    if (first != nullptr) first_us = std::min(first_us, first->t_us);
   }
   if (first_us == std::numeric_limits<TimeUs>::max()) {
     throw ScenarioError("There is no event in the recording.");
@@ -82,16 +82,18 @@ std::int64_t Playback::events(int camera) const {
   return eyes_.at(static_cast<std::size_t>(camera)).count;
 }
 
-// Reads on, if nothing is waiting.
-void Playback::look(Eye& eye) {
-  if (!eye.waiting.empty() || eye.ended) return;
-  eye.waiting = eye.reader->next();
-  eye.ended = eye.waiting.empty();
+std::int64_t Playback::strays(int camera) const {
+  return eyes_.at(static_cast<std::size_t>(camera)).queue.strays();
+}
+
+double Playback::part_played(int camera) const {
+  return eyes_.at(static_cast<std::size_t>(camera)).queue.part_taken();
 }
 
 bool Playback::next() {
-  const bool ended = std::all_of(eyes_.begin(), eyes_.end(),
-                                 [](const Eye& e) { return e.ended && e.held.empty(); });
+  const bool ended = std::all_of(eyes_.begin(), eyes_.end(), [](const Eye& e) {
+    return e.queue.front() == nullptr && e.held.empty();
+  });
   const int last_camera = static_cast<int>(eyes_.size()) - 1;
   const TimeUs transport_us = delays_.transport_us_of(last_camera);
   if (ended && now_us_ >= last_event_us_ + delays_.packet_us + transport_us) return false;
@@ -114,9 +116,8 @@ void Playback::send_readings() {
 
 // Reads the events up to the first that is later.
 void Playback::hold(Eye& eye, TimeUs until_us) {
-  for (look(eye); !eye.ended && eye.waiting.front().t_us <= until_us; look(eye)) {
-    eye.held.push_back(eye.waiting.front());
-    eye.waiting = eye.waiting.subspan(1);
+  for (; eye.queue.front() != nullptr && eye.queue.front()->t_us <= until_us; eye.queue.pop()) {
+    eye.held.push_back(*eye.queue.front());
   }
   const auto earlier = [](const Event& a, const Event& b) { return a.t_us < b.t_us; };
   if (!std::is_sorted(eye.held.begin(), eye.held.end(), earlier)) {
@@ -136,12 +137,10 @@ void Playback::send_events(int camera) {
   while (const auto packet = eye.packetizer.take()) {
     computer_.send_events(camera, packet->end_us, packet->events);
   }
-  if (!eye.held.empty() || eye.ended ||
-      eye.waiting.front().t_us <= last_event_us_ + kLongestGapUs) {
-    return;
-  }
+  const Event* next = eye.queue.front();
+  if (!eye.held.empty() || next == nullptr || next->t_us <= last_event_us_ + kLongestGapUs) return;
   throw ScenarioError("Camera " + std::to_string(camera) + " has an event at " +
-                      std::to_string(eye.waiting.front().t_us) + " us after one at " +
+                      std::to_string(next->t_us) + " us after one at " +
                       std::to_string(last_event_us_) +
                       " us: gaps of more than ten minutes are not played.");
 }

@@ -9,7 +9,7 @@
 #include "dodge/pilot.h"
 #include "sim/bridge/onboard_computer.h"
 #include "sim/events/packetizer.h"
-#include "sim/recordings/event_reader.h"
+#include "sim/playback/event_queue.h"
 #include "sim/sensors/readings.h"
 
 namespace dodgesim {
@@ -24,8 +24,8 @@ struct RecordedSensors {
 class Playback {
  public:
   // Events that stand in their file up to kSortedUs too late are put in order; the pilot gets
-  // others too late, and drops them.
-  static constexpr TimeUs kSortedUs = 10000;
+  // others too late, and drops them. Strays (event_queue.h) are passed over.
+  static constexpr TimeUs kSortedUs = EventQueue::kSortedUs;
 
   // Cycles begin at multiples of delays.period_us() on the recording's clock, the first after the
   // first event. Throws ScenarioError if no camera has any event, or a log has no reading while
@@ -44,22 +44,21 @@ class Playback {
   TimeUs first_event_us() const { return first_event_us_; }
   TimeUs last_event_us() const { return last_event_us_; }  // of those handed over so far
   std::int64_t events(int camera) const;                   // so far
+  std::int64_t strays(int camera) const;                   // so far
+  double part_played(int camera) const;                    // of the camera's file, 0 to 1
 
  private:
   // What comes from one camera.
   struct Eye {
     Eye(std::unique_ptr<EventReader> events, TimeUs packet_us)
-        : reader(std::move(events)), packetizer(packet_us) {}
+        : queue(std::move(events)), packetizer(packet_us) {}
 
-    std::unique_ptr<EventReader> reader;
+    EventQueue queue;
     Packetizer packetizer;
-    std::span<const Event> waiting;  // read and not yet looked at
-    std::vector<Event> held;         // in order of time, not yet due
-    std::int64_t count = 0;          // of those that were due
-    bool ended = false;
+    std::vector<Event> held;  // in order of time, not yet due
+    std::int64_t count = 0;   // of those that were due
   };
 
-  void look(Eye& eye);
   void hold(Eye& eye, TimeUs until_us);
   void send_events(int camera);
   void send_readings();

@@ -40,6 +40,8 @@ class TextReader : public EventReader {
     return events_;
   }
 
+  double part_read() const override { return share(file_.bytes_read(), file_.bytes()); }
+
  private:
   std::int64_t time_us() {
     if (!in_seconds_) {
@@ -96,6 +98,8 @@ class NpyEventReader : public EventReader {
     }
     return events_;
   }
+
+  double part_read() const override { return share(read_, file_.header().shape.front()); }
 
  private:
   ImageSize image_;

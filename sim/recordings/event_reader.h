@@ -1,7 +1,8 @@
 // Reads recordings of events, a portion at a time, whatever their length.
 //
 // .h5   DSEC and RVT: events/x, y, t [us], p (0 or -1 OFF, 1 ON), and t_offset, if there is one,
-//       which is added to t.
+//       which is added to t. Also with these four at the root, or as the fields of records
+//       CD/events (Prophesee) or events.
 // .npy  Records t <i8 [us], x <u2, y <u2, p |i1, as event_writer.h has them.
 // .txt  A line "t x y p" an event: t is in microseconds if the first event's is a whole number, and
 //       otherwise in seconds, as in the rpg data sets.
@@ -33,6 +34,9 @@ class EventReader {
   // The next events, in the order of the file, which need not be that of time; none at the end.
   // Valid until the next call.
   virtual std::span<const Event> next() = 0;
+
+  // How much of the file has been read, 0 to 1.
+  virtual double part_read() const = 0;
 };
 
 // The format follows from the name's end.

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "sim/recordings/hdf5_library.h"
@@ -44,78 +45,113 @@ class Hdf5Reader : public EventReader {
  public:
   Hdf5Reader(const std::string& path, const ImageSize& image)
       : path_(path), image_(image), file_(path) {
-    expect_size("events/width", image.width);
-    expect_size("events/height", image.height);
-    if (const std::optional<std::int64_t> offset_us = scalar("t_offset")) offset_us_ = *offset_us;
-    const std::array<const char*, 4> names = {"events/t", "events/x", "events/y", "events/p"};
-    for (std::size_t i = 0; i < names.size(); ++i) open_column(names[i], columns_[i]);
+    for (const char* name : {"CD/events", "events"}) {
+      if (records_.empty() && is(name, H5I_DATASET)) records_ = name;
+    }
+    if (records_.empty() && !is("events", H5I_GROUP) && is("t", H5I_DATASET)) group_ = "";
+    expect_size("width", image.width);
+    expect_size("height", image.height);
+    offset_us_ = scalar("t_offset").value_or(0);
+    const std::array<const char*, 4> fields = {"t", "x", "y", "p"};
+    for (std::size_t i = 0; i < fields.size(); ++i) open_column(fields[i], columns_[i]);
   }
+
+  double part_read() const override { return share(read_, size_); }
 
   std::span<const Event> next() override {
     const hsize_t count = std::min(kChunkEvents, size_ - read_);
-    for (Column& column : columns_) read(column, count);
+    for (Hdf5Column& column : columns_) read(column, count);
     events_.clear();
     for (std::size_t i = 0; i < count; ++i, ++read_) {
-      events_.push_back(checked_event({columns_[0].values[i] + offset_us_, columns_[1].values[i],
-                                       columns_[2].values[i], columns_[3].values[i]},
-                                      image_,
-                                      [&] { return path_ + ", event " + std::to_string(read_); }));
+      const std::int64_t t_us = std::clamp(columns_[0].values[i], -2 * kLastUs, 2 * kLastUs);
+      events_.push_back(checked_event(
+          {t_us + offset_us_, columns_[1].values[i], columns_[2].values[i], columns_[3].values[i]},
+          image_, [&] { return path_ + ", event " + std::to_string(read_); }));
     }
     return events_;
   }
 
  private:
-  struct Column {
-    const char* name = "";
+  struct Hdf5Column {
+    std::string name;
     hid_t dataset = -1;
+    hid_t type = -1;  // of the values in memory or, of records, of the one field that is read
     std::vector<std::int64_t> values;  // of the portion
   };
 
-  std::optional<std::int64_t> scalar(const char* name) const {
-    if (H5Lexists(file_.id(), "events", H5P_DEFAULT) <= 0) return std::nullopt;
-    if (H5Lexists(file_.id(), name, H5P_DEFAULT) <= 0) return std::nullopt;
-    const hid_t dataset = H5Dopen2(file_.id(), name, H5P_DEFAULT);
-    if (dataset < 0) return std::nullopt;
+  // Whether there is such an object, of that kind. Of "a/b", a must be looked for first.
+  bool is(const std::string& name, H5I_type_t kind) const {
+    const std::size_t slash = name.find('/');
+    if (slash != name.npos && !is(name.substr(0, slash), H5I_GROUP)) return false;
+    if (H5Lexists(file_.id(), name.c_str(), H5P_DEFAULT) <= 0) return false;
+    const hid_t object = H5Oopen(file_.id(), name.c_str(), H5P_DEFAULT);
+    if (object < 0) return false;
+    const bool of_kind = H5Iget_type(object) == kind;
+    H5Oclose(object);
+    return of_kind;
+  }
+
+  // A whole number, of whatever type.
+  std::optional<std::int64_t> scalar(const std::string& name) const {
+    if (!is(name, H5I_DATASET)) return std::nullopt;
+    const hid_t dataset = H5Dopen2(file_.id(), name.c_str(), H5P_DEFAULT);
     const hid_t space = H5Dget_space(dataset);
     std::int64_t value = 0;
+    long double exact = 0;
     const bool read =
         H5Sget_simple_extent_npoints(space) == 1 &&
+        H5Dread(dataset, H5T_NATIVE_LDOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &exact) >= 0 &&
         H5Dread(dataset, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0;
     H5Sclose(space);
     H5Dclose(dataset);
-    if (!read) throw ScenarioError(path_ + ": " + name + " must be one whole number.");
-    return value;
+    const bool whole = read && static_cast<long double>(value) == exact;
+    if (whole && value >= -kLastUs && value <= kLastUs) return value;
+    throw ScenarioError(path_ + ": " + name + " must be one whole number.");
   }
 
-  void expect_size(const char* name, int expected) const {
-    const std::optional<std::int64_t> value = scalar(name);
+  void expect_size(const std::string& side, int expected) const {
+    const std::optional<std::int64_t> value = scalar(group_ + side);
     if (!value || *value == expected) return;
-    throw ScenarioError(path_ + ": " + name + " is " + std::to_string(*value) +
+    throw ScenarioError(path_ + ": " + group_ + side + " is " + std::to_string(*value) +
                         ", but the calibration says " + std::to_string(expected) + ".");
   }
 
-  void open_column(const char* name, Column& column) {
-    column.name = name;
+  void open_column(const char* field, Hdf5Column& column) {
+    const std::string dataset = records_.empty() ? group_ + field : records_;
+    column.name = records_.empty() ? dataset : records_ + ", " + field;
     const hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
     H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, kChunkCacheBytes, 1);
-    column.dataset = H5Dopen2(file_.id(), name, access);
+    column.dataset = H5Dopen2(file_.id(), dataset.c_str(), access);
     H5Pclose(access);
     if (column.dataset < 0) {
-      throw ScenarioError(path_ + " has no " + name + "; it must have events/t, x, y and p.");
+      throw ScenarioError(path_ + " has no " + dataset +
+                          "; it must have events/t, x, y and p, or these at its root, or records " +
+                          "of them as CD/events.");
     }
-    expect_whole_numbers(column);
+    set_type(field, column);
     const hid_t space = H5Dget_space(column.dataset);
     const int dimensions = H5Sget_simple_extent_ndims(space);
     const auto size = static_cast<hsize_t>(H5Sget_simple_extent_npoints(space));
     H5Sclose(space);
     if (&column == &columns_.front()) size_ = size;
     if (dimensions == 1 && size == size_) return;
-    throw ScenarioError(path_ + ": " + name + " must be a list as long as events/t.");
+    throw ScenarioError(path_ + ": " + column.name + " must be a list as long as " +
+                        columns_.front().name + ".");
   }
 
-  // The library would cut off what stands behind the point.
-  void expect_whole_numbers(const Column& column) const {
-    const hid_t type = H5Dget_type(column.dataset);
+  // Refuses other than whole numbers: the library would cut off what stands behind the point.
+  void set_type(const char* field, Hdf5Column& column) const {
+    hid_t type = H5Dget_type(column.dataset);
+    column.type = H5T_NATIVE_INT64;
+    if (!records_.empty()) {
+      const bool compound = H5Tget_class(type) == H5T_COMPOUND;
+      const int member = compound ? H5Tget_member_index(type, field) : -1;
+      if (member < 0) throw ScenarioError(path_ + ": " + records_ + " has no field " + field + ".");
+      const hid_t of_member = H5Tget_member_type(type, static_cast<unsigned>(member));
+      H5Tclose(std::exchange(type, of_member));
+      column.type = H5Tcreate(H5T_COMPOUND, sizeof(std::int64_t));
+      H5Tinsert(column.type, field, 0, H5T_NATIVE_INT64);
+    }
     const H5T_class_t kind = H5Tget_class(type);
     H5Tclose(type);
     if (kind == H5T_INTEGER || kind == H5T_ENUM) return;  // booleans are an enumeration
@@ -123,14 +159,14 @@ class Hdf5Reader : public EventReader {
                         " has no whole numbers; t must be in microseconds, x and y in pixels.");
   }
 
-  void read(Column& column, hsize_t count) const {
+  void read(Hdf5Column& column, hsize_t count) const {
     column.values.resize(count);
     if (count == 0) return;
     const hid_t memory = H5Screate_simple(1, &count, nullptr);
     const hid_t disk = H5Dget_space(column.dataset);
     H5Sselect_hyperslab(disk, H5S_SELECT_SET, &read_, nullptr, &count, nullptr);
     const herr_t status =
-        H5Dread(column.dataset, H5T_NATIVE_INT64, memory, disk, H5P_DEFAULT, column.values.data());
+        H5Dread(column.dataset, column.type, memory, disk, H5P_DEFAULT, column.values.data());
     H5Sclose(disk);
     H5Sclose(memory);
     if (status >= 0) return;
@@ -142,9 +178,11 @@ class Hdf5Reader : public EventReader {
   std::string path_;
   ImageSize image_;
   Hdf5File file_;
+  std::string group_ = "events/";  // of the four lists; empty: the root
+  std::string records_;            // the list of records; empty: there are four lists
   std::int64_t offset_us_ = 0;
-  std::array<Column, 4> columns_;  // t, x, y, p
-  hsize_t size_ = 0, read_ = 0;    // events
+  std::array<Hdf5Column, 4> columns_;  // t, x, y, p
+  hsize_t size_ = 0, read_ = 0;        // events
   std::vector<Event> events_;
 };
 

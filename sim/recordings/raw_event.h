@@ -1,6 +1,8 @@
 // What stands in a file for an event, before it is known to be one.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 
 #include "sim/base/error.h"
@@ -13,6 +15,12 @@ constexpr std::int64_t kLastUs = std::int64_t{1} << 60;  // sums of instants do 
 struct RawEvent {
   std::int64_t t_us = 0, x = 0, y = 0, p = 0;
 };
+
+// For EventReader::part_read().
+template <class Count>
+double share(Count read, Count all) {
+  return all == 0 ? 1 : std::min(1.0, static_cast<double>(read) / static_cast<double>(all));
+}
 
 // The event, if its pixel lies in the image and p is -1, 0 or 1. Otherwise throws ScenarioError;
 // `place` tells where the event stands: "e.csv:12", "e.npy, event 11".

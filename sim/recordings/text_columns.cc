@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "sim/base/error.h"
@@ -53,7 +54,10 @@ void split(std::string_view line, std::string_view separators,
 }  // namespace
 
 TextColumns::TextColumns(const std::string& path, Separator separator)
-    : path_(path), separator_(separator), file_(open_file(path)) {}
+    : path_(path),
+      separator_(separator),
+      file_(open_file(path)),
+      bytes_(std::filesystem::file_size(path)) {}
 
 bool TextColumns::read_line() {
   if (!std::getline(file_, line_)) {
@@ -61,6 +65,7 @@ bool TextColumns::read_line() {
     return false;
   }
   ++line_number_;
+  bytes_read_ += line_.size() + 1;
   if (line_number_ == 1 && line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
   split(line_, separator_ == Separator::kComma ? "," : kBlanks, cells_);
   return true;

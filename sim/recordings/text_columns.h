@@ -42,6 +42,8 @@ class TextColumns {
   // "log.csv:12", the line.
   std::string place() const { return path_ + ":" + std::to_string(line_number_); }
   const std::string& path() const { return path_; }
+  std::uint64_t bytes() const { return bytes_; }
+  std::uint64_t bytes_read() const { return bytes_read_; }
   [[noreturn]] void refuse(const Column& column, const std::string& what) const;
 
  private:
@@ -51,6 +53,7 @@ class TextColumns {
   std::string path_;
   Separator separator_;
   std::ifstream file_;
+  std::uint64_t bytes_ = 0, bytes_read_ = 0;
   std::string line_;
   std::int64_t line_number_ = 0;
   std::vector<std::string_view> cells_;  // in line_

@@ -25,6 +25,9 @@ class ListedEvents : public EventReader {
     read_ += count;
     return std::span(events_).subspan(read_ - count, count);
   }
+  double part_read() const override {
+    return static_cast<double>(read_) / static_cast<double>(events_.size());
+  }
 
  private:
   std::vector<Event> events_;
@@ -187,6 +190,30 @@ TEST(Playback, HandsOverAnEventThatStandsFarTooLateInTheFile) {
   });
   ASSERT_NE(late, arrivals.end());
   EXPECT_GE(late->second + Playback::kSortedUs, events[899].t_us);
+}
+
+// A little ahead and an hour, at the beginning, in the middle, and before the last event.
+TEST(Playback, IsNotHeldUpByAStray) {
+  const std::vector<Event> events = random_events(kEpochUs, 3000, 9);
+  const auto expected = play({}, sensors_of({events})).events.at(0);
+  for (const TimeUs ahead_us : {TimeUs{30'000}, TimeUs{3'600'000'000}}) {
+    for (const std::size_t place : {0, 1500, 2999}) {
+      std::vector<Event> with_stray = events;
+      with_stray.insert(with_stray.begin() + static_cast<std::ptrdiff_t>(place),
+                        {events[place].t_us + ahead_us, 1, 1, 1});
+      Witness::Arrivals seen;
+      Playback playback({}, std::make_unique<Witness>(seen), sensors_of({with_stray}));
+      double part = 0;
+      while (playback.next()) {
+        EXPECT_GE(playback.part_played(0), part);
+        part = playback.part_played(0);
+      }
+      EXPECT_EQ(part, 1);
+      EXPECT_EQ(playback.strays(0), 1) << ahead_us << " " << place;
+      EXPECT_EQ(playback.events(0), 3000);
+      EXPECT_EQ(seen.events.at(0), expected) << ahead_us << " " << place;
+    }
+  }
 }
 
 TEST(Playback, WithoutStatesTurnsAsTheRatesSayAndStaysInItsPlace) {

@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <vector>
 
 #include "sim/base/error.h"
 #include "tests/sim/files/temporary_directory.h"
@@ -163,20 +165,102 @@ TEST_F(Reading, RefusesHdf5OfAnotherImageOrLayout) {
               HasSubstr("has no events/t"));
 }
 
+// A file of HDF5 under construction.
+class Hdf5Writer {
+ public:
+  explicit Hdf5Writer(const std::filesystem::path& path)
+      : file_(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)) {}
+  Hdf5Writer(const Hdf5Writer&) = delete;
+  Hdf5Writer& operator=(const Hdf5Writer&) = delete;
+  ~Hdf5Writer() { H5Fclose(file_); }
+
+  // `name` may be "group/name" of a new group.
+  template <class Value>
+  void list(const std::string& name, hid_t type, const std::vector<Value>& values) {
+    const hsize_t size = values.size();
+    const hid_t space = H5Screate_simple(1, &size, nullptr);
+    const hid_t links = H5Pcreate(H5P_LINK_CREATE);
+    H5Pset_create_intermediate_group(links, 1);
+    const hid_t set = H5Dcreate2(file_, name.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT);
+    H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    H5Dclose(set);
+    H5Pclose(links);
+    H5Sclose(space);
+  }
+
+  // t, x, y and p below a prefix.
+  void lists(const std::string& prefix, const std::vector<std::int64_t>& t) {
+    list(prefix + "t", H5T_NATIVE_INT64, t);
+    list<std::uint16_t>(prefix + "x", H5T_NATIVE_UINT16, {1, 2});
+    list<std::uint16_t>(prefix + "y", H5T_NATIVE_UINT16, {3, 4});
+    list<std::uint8_t>(prefix + "p", H5T_NATIVE_UINT8, {1, 0});
+  }
+
+ private:
+  hid_t file_;
+};
+
+// As Prophesee has them.
+struct Record {
+  std::uint16_t x, y;
+  std::int16_t p;
+  std::int64_t t;
+};
+
+void put_records(const std::filesystem::path& path, const std::string& name,
+                 const std::vector<Record>& records, hid_t type_of_t = H5T_NATIVE_INT64) {
+  const hid_t type = H5Tcreate(H5T_COMPOUND, sizeof(Record));
+  H5Tinsert(type, "x", HOFFSET(Record, x), H5T_NATIVE_UINT16);
+  H5Tinsert(type, "y", HOFFSET(Record, y), H5T_NATIVE_UINT16);
+  H5Tinsert(type, "p", HOFFSET(Record, p), H5T_NATIVE_INT16);
+  H5Tinsert(type, "t", HOFFSET(Record, t), type_of_t);
+  Hdf5Writer(path).list(name, type, records);
+  H5Tclose(type);
+}
+
+TEST_F(Reading, TakesHdf5OfSeveralLayouts) {
+  const std::string path = root_ / "e.h5";
+  const auto expected = ElementsAre(Event{7, 1, 3, 1}, Event{8, 2, 4, -1});
+  for (const char* prefix : {"events/", ""}) {
+    Hdf5Writer(path).lists(prefix, {7, 8});
+    EXPECT_THAT(read(path), expected) << prefix;
+  }
+  for (const char* name : {"CD/events", "events"}) {
+    put_records(path, name, {{1, 3, 1, 7}, {2, 4, 0, 8}});
+    EXPECT_THAT(read(path), expected) << name;
+  }
+}
+
+TEST_F(Reading, TakesHdf5sOffsetIfItIsWhole) {
+  const std::string path = root_ / "e.h5";
+  const auto with_offset = [&path](hid_t type, const auto& offset) {
+    Hdf5Writer file(path);
+    file.lists("events/", {7, 8});
+    file.list("t_offset", type, std::vector{offset});
+  };
+  with_offset(H5T_NATIVE_DOUBLE, 1e9);
+  EXPECT_THAT(read(path),
+              ElementsAre(Event{1'000'000'007, 1, 3, 1}, Event{1'000'000'008, 2, 4, -1}));
+  const auto refused = [&path] { return complaint<ScenarioError>([&] { read(path); }); };
+  with_offset(H5T_NATIVE_DOUBLE, 0.25);
+  EXPECT_THAT(refused(), HasSubstr("t_offset must be one whole number"));
+  with_offset(H5T_NATIVE_INT64, std::numeric_limits<std::int64_t>::max());
+  EXPECT_THAT(refused(), HasSubstr("t_offset must be one whole number"));
+  with_offset(H5T_NATIVE_INT64, std::numeric_limits<std::int64_t>::min());
+  EXPECT_THAT(refused(), HasSubstr("t_offset must be one whole number"));
+}
+
 TEST_F(Reading, RefusesHdf5WhoseNumbersAreNotWhole) {
-  const Events events = random_recording(100, 5);
-  testing::write(root_ / "e.h5", recording_of(events), events);
-  const hid_t file = H5Fopen((root_ / "e.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-  H5Ldelete(file, "events/t", H5P_DEFAULT);
-  const hsize_t size = events.size();
-  const hid_t space = H5Screate_simple(1, &size, nullptr);
-  const hid_t seconds =
-      H5Dcreate2(file, "events/t", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  H5Dclose(seconds);
-  H5Sclose(space);
-  H5Fclose(file);
-  EXPECT_THAT(complaint<ScenarioError>([&] { read(root_ / "e.h5"); }),
-              HasSubstr("events/t has no whole numbers"));
+  const std::string path = root_ / "e.h5";
+  const auto refused = [&path] { return complaint<ScenarioError>([&] { read(path); }); };
+  Hdf5Writer(path).list<double>("events/t", H5T_NATIVE_DOUBLE, {0.5, 0.6});
+  EXPECT_THAT(refused(), HasSubstr("events/t has no whole numbers"));
+  put_records(path, "CD/events", {{1, 3, 1, 7}}, H5T_NATIVE_DOUBLE);
+  EXPECT_THAT(refused(), HasSubstr("CD/events, t has no whole numbers"));
+  Hdf5Writer(path).list<double>("events", H5T_NATIVE_DOUBLE, {0.5, 0.6});
+  EXPECT_THAT(refused(), HasSubstr("events has no field t"));
+  Hdf5Writer(path).lists("events/", {std::numeric_limits<std::int64_t>::max(), 8});
+  EXPECT_THAT(refused(), HasSubstr("event 0: t [us] is"));
 }
 
 TEST_F(Reading, SaysThatAFileIsCutOrAbsent) {
