@@ -17,4 +17,18 @@ std::filesystem::path make_directory(const std::filesystem::path& directory) {
                 ".");
 }
 
+NewDirectory::NewDirectory(const std::filesystem::path& directory) {
+  std::error_code ignored;
+  for (std::filesystem::path path = directory;
+       !path.empty() && !std::filesystem::exists(path, ignored); path = path.parent_path()) {
+    made_.push_back(path);
+  }
+  make_directory(directory);
+}
+
+NewDirectory::~NewDirectory() {
+  std::error_code not_empty;
+  for (const std::filesystem::path& path : made_) std::filesystem::remove(path, not_empty);
+}
+
 }  // namespace dodgesim

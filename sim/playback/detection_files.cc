@@ -4,7 +4,6 @@
 
 #include "dodge/dodger.h"
 #include "sim/files/csv.h"
-#include "sim/files/directory.h"
 
 namespace dodgesim {
 
@@ -98,7 +97,8 @@ struct ObstacleRow {
 }  // namespace
 
 DetectionFiles::DetectionFiles(const std::filesystem::path& directory)
-    : cycles_(make_directory(directory) / "cycles.csv"),
+    : directory_(directory),
+      cycles_(directory / "cycles.csv"),
       clusters_(directory / "clusters.csv"),
       detections_(directory / "detections.csv"),
       obstacles_(directory / "obstacles.csv") {

@@ -10,13 +10,14 @@
 
 #include "dodge/pilot.h"
 #include "sim/base/time.h"
+#include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 
 namespace dodgesim {
 
 class DetectionFiles {
  public:
-  // Makes the folder. All functions throw IoError; without finish() no file appears.
+  // Makes the folder. All functions throw IoError; without finish() no file appears, nor a folder.
   explicit DetectionFiles(const std::filesystem::path& directory);
 
   // After a cycle that began at now_us. Returns the number of clusters.
@@ -26,6 +27,7 @@ class DetectionFiles {
  private:
   int add_clusters(TimeUs now_us, const dodge::Pilot& pilot);
 
+  NewDirectory directory_;
   OutputFile cycles_, clusters_, detections_, obstacles_;
 };
 

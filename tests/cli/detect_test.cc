@@ -152,13 +152,38 @@ TEST_F(DetectTest, SaysWhatIsWrongAndWritesNothing) {
   const Outcome outside = detect(events);
   EXPECT_EQ(outside.exit_code, 2);
   EXPECT_THAT(outside.output, HasSubstr("e.csv:3: x is 700, but must be from 0 to 63."));
-  EXPECT_FALSE(fs::exists(path("found/cycles.csv")));
+  EXPECT_FALSE(fs::exists(path("found")));
+  fs::create_directory(path("found"));
+  EXPECT_EQ(detect(events).exit_code, 2);
+  EXPECT_TRUE(fs::is_empty(path("found")));
   EXPECT_EQ(detect(path("none.csv") + " --calibration " + path("c.yaml")).exit_code, 4);
   EXPECT_EQ(detect(events + " --imu " + path("none.csv")).exit_code, 4);
   EXPECT_THAT(detect(events + " " + path("c.yaml")).output,
               HasSubstr("Given are 1 file of events, but 2 calibrations"));
   EXPECT_THAT(detect(events + " --set pilot=oracle").output, HasSubstr("sees nothing"));
   EXPECT_THAT(detect(events + " --set dodger.windo=3").output, HasSubstr("dodger.window"));
+}
+
+// An IMU whose x points to the camera's -y: what Kalibr says of it is followed.
+TEST_F(DetectTest, TakesWhatOthersRecord) {
+  std::string events = "\xef\xbb\xbft_us, x, y, p\r\n# one stamp is damaged\r\n";
+  for (int i = 0; i < 100; ++i) {
+    events += std::to_string(i == 50 ? 90'000'000 : 200 * i) + ", 5, 5, 1\r\n";
+  }
+  write("e.csv", events + "\r\n");
+  write("i.csv", "# by hand\nt_us,wx,wy,wz\n0, 0, 0, 0\n\n30000,0,0,0");
+  write("c.yaml",
+        "cam0:\n  camera_model: pinhole\n  intrinsics: [60, 60, 32, 24]\n  resolution: [64, 48]\n"
+        "  distortion_model: radtan\n  distortion_coeffs: [0.01, 0, 0, 0]\n"
+        "  T_cam_imu: [[0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]\n"
+        "  timeshift_cam_imu: 0.002\ncam1: {resolution: [1, 1]}\n");
+  const Outcome outcome = detect(path("e.csv") + " --calibration " + path("c.yaml") + " --imu " +
+                                 path("i.csv") + " --set repeats=3");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("99 events\n1 more passed over"), HasSubstr("0.020 s, "),
+                    HasSubstr("c.yaml: cam0 is taken; FILE:cam1 would be another."),
+                    HasSubstr("moved by -2.000 ms"), HasSubstr("repeats=3 has no effect")));
 }
 
 // Real event cameras; skips where the recordings are absent.

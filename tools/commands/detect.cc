@@ -8,6 +8,7 @@
 
 #include "dodge/dodger.h"
 #include "sim/base/error.h"
+#include "sim/base/joined.h"
 #include "sim/campaign/result_files.h"
 #include "sim/config/camera_calibration.h"
 #include "sim/config/pilot.h"
@@ -18,6 +19,7 @@
 #include "sim/playback/playback.h"
 #include "sim/recordings/sensor_log.h"
 #include "tools/commands/command.h"
+#include "tools/commands/detect_report.h"
 #include "tools/commands/stop_signal.h"
 
 namespace dodgesim {
@@ -28,9 +30,10 @@ constexpr const char* kDetectFooter =
     R"(The pilot gets what was recorded as late as in flight (`dodgesim explain delays`), in cycles.
 What it commands moves nobody, and its goal is to stay where it is.
 
-EVENTS: .h5 (DSEC, RVT), .npy or .txt as `emulate` and `replay --record` write them; .txt of the
-rpg data sets, with t in seconds; .csv whose first line names the columns t_us, x, y and p. They
-must be in order of time, but for 10 ms.
+EVENTS: .h5 (DSEC, RVT; or t, x, y, p at the root, or records CD/events), .npy or .txt as `emulate`
+  and `replay --record` write them; .txt of the rpg data sets, with t in seconds; .csv whose first
+  line names the columns t_us, x, y and p. They must be in order of time, but for 10 ms. The pilot
+  drops those that come later; up to 16 in a row with stamps far ahead of the next are passed over.
 CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {model:
   radtan_k1_k2_p1_p2_k3, coeffs: [...]}; p_BC_m and R_BC (rows), the camera's place on the body,
   which by default looks forward; imu_axes, where x, y, z of the IMU point, by default as
@@ -70,6 +73,17 @@ struct DetectArguments {
   double slow = 10;   // of the video
 };
 
+// A file may hold other keys: it is that of a flight. On the command line they are a mistake.
+void name_idle_keys(const std::vector<Setting>& settings) {
+  const std::vector<std::string> groups = {"pilot", "plugin_parameters", "dodger", "delays"};
+  for (const Setting& setting : settings) {
+    const std::string group = setting.key.substr(0, setting.key.find('.'));
+    if (std::find(groups.begin(), groups.end(), group) != groups.end()) continue;
+    std::fprintf(stderr, "%s has no effect on a recording, but %s have.\n", setting.shown.c_str(),
+                 joined(groups, {}, " and ").c_str());
+  }
+}
+
 // The keys of a scenario that matter here: pilot, dodger, delays.
 Scenario load(const DetectArguments& arguments) {
   const std::vector<Setting> settings = parse_settings("--set", arguments.set);
@@ -78,6 +92,7 @@ Scenario load(const DetectArguments& arguments) {
           ? parse_scenario("pilot: " + std::string(kPaperPilot), "the defaults", "", settings)
           : load_scenario(arguments.scenario, "", settings),
       arguments.plugin);
+  name_idle_keys(settings);
   if (!perceives(scenario.pilot)) {
     throw ScenarioError("The pilot " + scenario.pilot +
                         " sees nothing in a recording; --set pilot=falanga2020, dodgesim or "
@@ -125,33 +140,6 @@ dodge::Config pilot_config(const Scenario& scenario,
   }
   return config;
 }
-
-// Says how much of the recording's time a log covers.
-class Coverage {
- public:
-  template <class Reading>
-  Coverage(const char* name, const std::vector<Reading>& log) : name_(name), count_(log.size()) {
-    if (log.empty()) return;
-    first_us_ = log.front().t_us;
-    last_us_ = log.back().t_us;
-    for (std::size_t i = 1; i < log.size(); ++i) {
-      longest_gap_us_ = std::max(longest_gap_us_, log[i].t_us - log[i - 1].t_us);
-    }
-  }
-
-  void report(TimeUs begin_us, TimeUs end_us) const {
-    if (count_ == 0) return;
-    const TimeUs covered_us = std::min(end_us, last_us_) - std::max(begin_us, first_us_);
-    std::printf("%s: %zu readings, covers %.3f of %.3f s, longest gap %.1f ms\n", name_, count_,
-                seconds(std::max<TimeUs>(covered_us, 0)), seconds(end_us - begin_us),
-                1e-3 * static_cast<double>(longest_gap_us_));
-  }
-
- private:
-  const char* name_;
-  std::size_t count_;
-  TimeUs first_us_ = 0, last_us_ = 0, longest_gap_us_ = 0;
-};
 
 // No gyroscope of a flight camera measures more than this.
 void warn_of_degrees(const std::vector<ImuReading>& imu) {
@@ -226,48 +214,6 @@ class StageVideo {
   std::unique_ptr<Mp4File> file_;
 };
 
-// What the cycles found, in sum.
-struct Sums {
-  long long cycles = 0, with_clusters = 0, with_detections = 0, detections = 0, evading = 0;
-  double stages_us = 0;  // wall clock
-
-  void add(int clusters, const Playback& playback) {
-    const auto found = static_cast<long long>(playback.pilot().detections().size());
-    ++cycles;
-    with_clusters += clusters > 0 ? 1 : 0;
-    with_detections += found > 0 ? 1 : 0;
-    detections += found;
-    evading += playback.command().evading ? 1 : 0;
-    if (const auto* dodger = dynamic_cast<const dodge::Dodger*>(&playback.pilot())) {
-      const dodge::StageTimes& times = dodger->stage_times();
-      stages_us += times.ego_motion_us + times.threshold_us + times.morphology_us +
-                   times.clustering_us + times.rest_us;
-    }
-  }
-};
-
-void report(const Playback& playback, const Sums& sums, int cameras, double period_us) {
-  const auto* dodger = dynamic_cast<const dodge::Dodger*>(&playback.pilot());
-  for (int camera = 0; camera < cameras; ++camera) {
-    if (cameras > 1) std::printf("%s camera: ", kCameraNames[static_cast<std::size_t>(camera)]);
-    std::printf("%lld events", static_cast<long long>(playback.events(camera)));
-    const std::int64_t dropped = dodger != nullptr ? dodger->dropped_events(camera) : 0;
-    if (dropped > 0) {
-      std::printf(", %lld of which were dropped: they stand more than 10 ms too late in their file",
-                  static_cast<long long>(dropped));
-    }
-    std::printf("\n");
-  }
-  std::printf(
-      "%.3f s, %lld cycles: something moves in %lld, is measured in %lld (%lld "
-      "detections), is evaded in %lld\n",
-      seconds(playback.last_event_us() - playback.first_event_us()), sums.cycles,
-      sums.with_clusters, sums.with_detections, sums.detections, sums.evading);
-  if (dodger == nullptr) return;
-  std::printf("The pilot's stages take %.3f ms a cycle here; a cycle comes every %g ms\n",
-              1e-3 * sums.stages_us / static_cast<double>(sums.cycles), 1e-3 * period_us);
-}
-
 // A pilot that may be filmed, if that is asked for.
 std::optional<StageVideo> make_video(const DetectArguments& arguments, const Scenario& scenario,
                                      dodge::Dodger* dodger) {
@@ -293,14 +239,16 @@ void detect(const DetectArguments& arguments) {
   std::optional<StageVideo> video = make_video(arguments, scenario, dodger);
   DetectionFiles files(arguments.out);
   Sums sums;
+  PlaybackProgress progress(arguments.events);
   while (playback.next()) {
+    progress.show(playback);
     if (asked_to_stop()) throw std::runtime_error("Stopped; nothing is written.");
     sums.add(files.add(playback.now_us(), playback.pilot(), playback.command()), playback);
     if (video) video->add(*dodger, playback.now_us());
   }
   files.finish();
-  report(playback, sums, static_cast<int>(arguments.events.size()),
-         static_cast<double>(scenario.delays.period_us()));
+  progress.finish();
+  sums.report(playback, static_cast<int>(arguments.events.size()), scenario.delays.period_us());
   for (const Coverage& log : logs) {
     log.report(playback.first_event_us(), playback.last_event_us());
   }

@@ -1,0 +1,90 @@
+#include "tools/commands/detect_report.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <numeric>
+
+#include "dodge/dodger.h"
+
+namespace dodgesim {
+
+namespace {
+
+std::vector<std::int64_t> sizes_kb(const std::vector<std::string>& files) {
+  std::vector<std::int64_t> sizes;
+  for (const std::string& file : files) {
+    sizes.push_back(static_cast<std::int64_t>(std::filesystem::file_size(file) / 1000));
+  }
+  return sizes;
+}
+
+void report_events(const Playback& playback, int cameras) {
+  const auto* dodger = dynamic_cast<const dodge::Dodger*>(&playback.pilot());
+  for (int camera = 0; camera < cameras; ++camera) {
+    if (cameras > 1) std::printf("%s camera: ", kCameraNames[static_cast<std::size_t>(camera)]);
+    std::printf("%lld events", static_cast<long long>(playback.events(camera)));
+    const std::int64_t dropped = dodger != nullptr ? dodger->dropped_events(camera) : 0;
+    if (dropped > 0) {
+      std::printf(", %lld of which were dropped: they stand more than 10 ms too late in their file",
+                  static_cast<long long>(dropped));
+    }
+    std::printf("\n");
+    const auto strays = static_cast<long long>(playback.strays(camera));
+    if (strays == 0) continue;
+    std::printf("%lld more passed over: stamped more than 10 ms ahead of those behind\n", strays);
+  }
+}
+
+}  // namespace
+
+PlaybackProgress::PlaybackProgress(const std::vector<std::string>& files)
+    : sizes_kb_(sizes_kb(files)),
+      progress_(std::accumulate(sizes_kb_.begin(), sizes_kb_.end(), std::int64_t{0}),
+                ::isatty(STDERR_FILENO) == 1, "kB of events") {}
+
+void PlaybackProgress::show(const Playback& playback) {
+  double played_kb = 0;
+  for (std::size_t i = 0; i < sizes_kb_.size(); ++i) {
+    played_kb += static_cast<double>(sizes_kb_[i]) * playback.part_played(static_cast<int>(i));
+  }
+  if (played_kb >= 1) progress_.show(static_cast<std::int64_t>(played_kb));
+}
+
+void Coverage::report(TimeUs begin_us, TimeUs end_us) const {
+  if (count_ == 0) return;
+  const TimeUs covered_us = std::min(end_us, last_us_) - std::max(begin_us, first_us_);
+  std::printf("%s: %zu readings, covers %.3f of %.3f s, longest gap %.1f ms\n", name_, count_,
+              seconds(std::max<TimeUs>(covered_us, 0)), seconds(end_us - begin_us),
+              1e-3 * static_cast<double>(longest_gap_us_));
+}
+
+void Sums::add(int clusters, const Playback& playback) {
+  const auto found = static_cast<long long>(playback.pilot().detections().size());
+  ++cycles_;
+  with_clusters_ += clusters > 0 ? 1 : 0;
+  with_detections_ += found > 0 ? 1 : 0;
+  detections_ += found;
+  evading_ += playback.command().evading ? 1 : 0;
+  if (const auto* dodger = dynamic_cast<const dodge::Dodger*>(&playback.pilot())) {
+    const dodge::StageTimes& times = dodger->stage_times();
+    stages_us_ += times.ego_motion_us + times.threshold_us + times.morphology_us +
+                  times.clustering_us + times.rest_us;
+  }
+}
+
+void Sums::report(const Playback& playback, int cameras, TimeUs period_us) const {
+  report_events(playback, cameras);
+  std::printf(
+      "%.3f s, %lld cycles: something moves in %lld, is measured in %lld (%lld "
+      "detections), is evaded in %lld\n",
+      seconds(playback.last_event_us() - playback.first_event_us()), cycles_, with_clusters_,
+      with_detections_, detections_, evading_);
+  if (dynamic_cast<const dodge::Dodger*>(&playback.pilot()) == nullptr) return;
+  std::printf("The pilot's stages take %.3f ms a cycle here; a cycle comes every %g ms\n",
+              1e-3 * stages_us_ / static_cast<double>(cycles_),
+              1e-3 * static_cast<double>(period_us));
+}
+
+}  // namespace dodgesim

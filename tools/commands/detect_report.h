@@ -1,0 +1,60 @@
+// What `dodgesim detect` says while it plays a recording and at its end.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/campaign/progress.h"
+#include "sim/playback/playback.h"
+
+namespace dodgesim {
+
+// How far a recording has been played, by the size of its files, for a terminal.
+class PlaybackProgress {
+ public:
+  explicit PlaybackProgress(const std::vector<std::string>& files);  // by camera
+
+  void show(const Playback& playback);
+  void finish() { progress_.finish(); }
+
+ private:
+  std::vector<std::int64_t> sizes_kb_;  // by camera
+  Progress progress_;
+};
+
+// Says how much of the recording's time a log covers.
+class Coverage {
+ public:
+  template <class Reading>
+  Coverage(const char* name, const std::vector<Reading>& log) : name_(name), count_(log.size()) {
+    if (log.empty()) return;
+    first_us_ = log.front().t_us;
+    last_us_ = log.back().t_us;
+    for (std::size_t i = 1; i < log.size(); ++i) {
+      longest_gap_us_ = std::max(longest_gap_us_, log[i].t_us - log[i - 1].t_us);
+    }
+  }
+
+  void report(TimeUs begin_us, TimeUs end_us) const;
+
+ private:
+  const char* name_;
+  std::size_t count_;
+  TimeUs first_us_ = 0, last_us_ = 0, longest_gap_us_ = 0;
+};
+
+// What the cycles found, in sum.
+class Sums {
+ public:
+  void add(int clusters, const Playback& playback);
+  // After the last cycle.
+  void report(const Playback& playback, int cameras, TimeUs period_us) const;
+
+ private:
+  long long cycles_ = 0, with_clusters_ = 0, with_detections_ = 0, detections_ = 0, evading_ = 0;
+  double stages_us_ = 0;  // wall clock
+};
+
+}  // namespace dodgesim
