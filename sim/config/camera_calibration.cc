@@ -1,6 +1,7 @@
 #include "sim/config/camera_calibration.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -182,7 +183,7 @@ void read_lens(const CalibrationKeys& keys, const ReadContext& context, Problems
 // "chain.yaml:cam1" as its parts; of another path the second one is empty.
 std::pair<std::string, std::string> path_and_name(const std::string& text) {
   const std::size_t colon = text.rfind(":cam");
-  if (colon == text.npos || colon + 1 == text.size()) return {text, ""};
+  if (colon == text.npos || std::filesystem::exists(text)) return {text, ""};
   return {text.substr(0, colon), text.substr(colon + 1)};
 }
 

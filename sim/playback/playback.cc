@@ -11,6 +11,7 @@ namespace dodgesim {
 
 namespace {
 
+constexpr std::size_t kMostHeld = 10'000'000;  // in 14 ms; no camera is as fast
 constexpr TimeUs kLongestGapUs = 600'000'000;  // a longer one is a clock that jumps
 
 // Hands over the readings up to now_us, of which the first `sent` have been.
@@ -118,6 +119,11 @@ void Playback::send_readings() {
 void Playback::hold(Eye& eye, TimeUs until_us) {
   for (; eye.queue.front() != nullptr && eye.queue.front()->t_us <= until_us; eye.queue.pop()) {
     eye.held.push_back(*eye.queue.front());
+    if (eye.held.size() <= kMostHeld) continue;
+    throw ScenarioError("There are more than " + std::to_string(kMostHeld) + " events from " +
+                        std::to_string(eye.held.front().t_us) + " to " +
+                        std::to_string(eye.held.back().t_us) +
+                        " us, more than a camera can see: is t in microseconds?");
   }
   const auto earlier = [](const Event& a, const Event& b) { return a.t_us < b.t_us; };
   if (!std::is_sorted(eye.held.begin(), eye.held.end(), earlier)) {

@@ -21,11 +21,9 @@ constexpr std::size_t kPortion = 1 << 14;  // events
 // Lines of text, .txt and .csv.
 class TextReader : public EventReader {
  public:
-  using Separator = TextColumns::Separator;
-
-  TextReader(const std::string& path, const ImageSize& image, Separator separator)
-      : image_(image), separator_(separator), file_(path, separator) {
-    if (separator == Separator::kBlanks) return;
+  TextReader(const std::string& path, const ImageSize& image, bool names_columns)
+      : image_(image), names_columns_(names_columns), file_(path) {
+    if (!names_columns) return;
     t_.name = "t_us";
     file_.read_names({"t_us", "x", "y", "p"});
     for (Column* column : {&t_, &x_, &y_, &p_}) *column = file_.column(column->name);
@@ -44,10 +42,8 @@ class TextReader : public EventReader {
 
  private:
   std::int64_t time_us() {
-    if (!in_seconds_) {
-      in_seconds_ =
-          separator_ == Separator::kBlanks && file_.text(t_).find('.') != std::string::npos;
-    }
+    if (!in_seconds_)
+      in_seconds_ = !names_columns_ && file_.text(t_).find('.') != std::string::npos;
     if (!*in_seconds_) return file_.integer(t_);
     const double t_s = file_.number(t_);
     if (std::abs(t_s) < 1e12) return std::llround(t_s * 1e6);
@@ -55,7 +51,7 @@ class TextReader : public EventReader {
   }
 
   ImageSize image_;
-  Separator separator_;
+  bool names_columns_;
   TextColumns file_;
   Column t_ = {"t", 0}, x_ = {"x", 1}, y_ = {"y", 2}, p_ = {"p", 3};
   std::optional<bool> in_seconds_;  // not known before the first event
@@ -114,10 +110,8 @@ class NpyEventReader : public EventReader {
 
 std::unique_ptr<EventReader> open_events(const std::string& path, const ImageSize& image) {
   const std::string end = std::filesystem::path(path).extension().string();
-  if (end == ".txt")
-    return std::make_unique<TextReader>(path, image, TextColumns::Separator::kBlanks);
-  if (end == ".csv")
-    return std::make_unique<TextReader>(path, image, TextColumns::Separator::kComma);
+  if (end == ".txt") return std::make_unique<TextReader>(path, image, false);
+  if (end == ".csv") return std::make_unique<TextReader>(path, image, true);
   if (end == ".npy") return std::make_unique<NpyEventReader>(path, image);
   if (end == ".h5" || end == ".hdf5") return open_hdf5_events(path, image);
   throw ScenarioError(path +

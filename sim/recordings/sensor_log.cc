@@ -91,7 +91,7 @@ std::string line(TimeUs t_us, std::initializer_list<double> values) {
 }  // namespace
 
 std::vector<ImuReading> read_imu_log(const std::string& path) {
-  TextColumns file(path, TextColumns::Separator::kComma);
+  TextColumns file(path);
   file.read_names({"t_us", "wx", "wy", "wz"});
   const VectorColumns w(file, kRates);
   const auto f = if_any(file, kForces);
@@ -99,7 +99,7 @@ std::vector<ImuReading> read_imu_log(const std::string& path) {
 }
 
 std::vector<StateReading> read_state_log(const std::string& path) {
-  TextColumns file(path, TextColumns::Separator::kComma);
+  TextColumns file(path);
   file.read_names({"t_us", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz"});
   const VectorColumns p(file, {"x", "y", "z"}), q(file, {"qx", "qy", "qz"}),
       v(file, {"vx", "vy", "vz"});
@@ -113,7 +113,7 @@ std::vector<StateReading> read_state_log(const std::string& path) {
 }
 
 std::vector<RangeReading> read_range_log(const std::string& path) {
-  TextColumns file(path, TextColumns::Separator::kComma);
+  TextColumns file(path);
   file.read_names({"t_us", "range_m"});
   const Column range_m = file.column("range_m");
   return read_log<RangeReading>(file, [&] { return RangeReading{0, file.number(range_m)}; });

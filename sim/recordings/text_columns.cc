@@ -15,7 +15,6 @@ namespace dodgesim {
 
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 // Where a cell that begins with a quote ends: behind the quote that closes it. Two quotes within it
@@ -34,30 +33,28 @@ std::string_view without_quotes(std::string_view cell) {
   return quoted ? cell.substr(1, cell.size() - 2) : cell;
 }
 
-void split(std::string_view line, std::string_view separators,
-           std::vector<std::string_view>& cells) {
-  cells.clear();
+}  // namespace
+
+TextColumns::TextColumns(const std::string& path)
+    : path_(path), file_(open_file(path)), bytes_(std::filesystem::file_size(path)) {}
+
+void TextColumns::split(std::string_view line) {
+  const std::string_view blanks = separator_ == '\t' ? " \r" : " \t\r";
+  const std::string_view separators = separator_ == ' ' ? blanks : std::string_view(&separator_, 1);
+  cells_.clear();
   for (;;) {
-    const std::size_t first = line.find_first_not_of(kBlanks);
+    const std::size_t first = line.find_first_not_of(blanks);
     if (first == line.npos) break;
     line.remove_prefix(first);
     const std::size_t from = line.front() == '"' ? end_of_quoted(line) : 0;
     const std::size_t end = line.find_first_of(separators, from);
     std::string_view cell = line.substr(0, end);
-    cell = cell.substr(0, cell.find_last_not_of(kBlanks) + 1);
-    cells.push_back(without_quotes(cell));
+    cell = cell.substr(0, cell.find_last_not_of(blanks) + 1);
+    cells_.push_back(without_quotes(cell));
     if (end == line.npos) break;
     line.remove_prefix(end + 1);
   }
 }
-
-}  // namespace
-
-TextColumns::TextColumns(const std::string& path, Separator separator)
-    : path_(path),
-      separator_(separator),
-      file_(open_file(path)),
-      bytes_(std::filesystem::file_size(path)) {}
 
 bool TextColumns::read_line() {
   if (!std::getline(file_, line_)) {
@@ -67,7 +64,7 @@ bool TextColumns::read_line() {
   ++line_number_;
   bytes_read_ += line_.size() + 1;
   if (line_number_ == 1 && line_.starts_with(kByteOrderMark)) line_.erase(0, kByteOrderMark.size());
-  split(line_, separator_ == Separator::kComma ? "," : kBlanks, cells_);
+  split(line_);
   return true;
 }
 
@@ -82,10 +79,10 @@ void TextColumns::read_names(const std::vector<std::string>& required) {
   while (read_line()) {
     if (cells_.empty()) continue;
     const bool remark = is_remark();
-    if (remark) {
-      const std::string names = line_.substr(line_.find('#') + 1);
-      split(line_ = names, ",", cells_);
-    }
+    if (remark) line_.erase(0, line_.find('#') + 1);
+    const std::size_t first = line_.find_first_of(",;\t");
+    separator_ = first == line_.npos ? ',' : line_[first];
+    split(line_);
     names_.assign(cells_.begin(), cells_.end());
     if (!remark || has(required.front())) break;
     names_.clear();

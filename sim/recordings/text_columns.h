@@ -1,7 +1,8 @@
 // Columns of numbers in a file of text, line by line, as many programs write them.
 //
-// The cells of a line are separated by commas or, in other files, by blanks; blanks and double
-// quotes around a cell do not count, nor do empty lines, lines that begin with #, a byte order mark
+// The cells of a line are separated by blanks or, where a first line names the columns, by commas
+// or what stands between the names in their place, semicolons or tabs. Blanks and double quotes
+// around a cell do not count, nor do empty lines, lines that begin with #, a byte order mark
 // (UTF-8) and whether lines end in \n or \r\n. The line that names the columns may itself begin
 // with #. Cells of columns that nobody asks for may hold anything, or be missing.
 #pragma once
@@ -23,9 +24,7 @@ struct Column {
 // as above, and IoError when reading fails.
 class TextColumns {
  public:
-  enum class Separator { kComma, kBlanks };
-
-  TextColumns(const std::string& path, Separator separator);
+  explicit TextColumns(const std::string& path);
 
   // Reads the first line, which must name all of these columns. They are found with column().
   void read_names(const std::vector<std::string>& required);
@@ -48,16 +47,17 @@ class TextColumns {
 
  private:
   bool read_line();
+  void split(std::string_view line);
   bool is_remark() const { return !cells_.empty() && cells_.front().starts_with('#'); }
 
   std::string path_;
-  Separator separator_;
   std::ifstream file_;
   std::uint64_t bytes_ = 0, bytes_read_ = 0;
   std::string line_;
   std::int64_t line_number_ = 0;
   std::vector<std::string_view> cells_;  // in line_
   std::vector<std::string> names_;
+  char separator_ = ' ';
 };
 
 }  // namespace dodgesim

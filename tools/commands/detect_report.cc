@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "dodge/dodger.h"
+#include "sim/files/text_table.h"
 
 namespace dodgesim {
 
@@ -24,7 +25,7 @@ void report_events(const Playback& playback, int cameras) {
   const auto* dodger = dynamic_cast<const dodge::Dodger*>(&playback.pilot());
   for (int camera = 0; camera < cameras; ++camera) {
     if (cameras > 1) std::printf("%s camera: ", kCameraNames[static_cast<std::size_t>(camera)]);
-    std::printf("%lld events", static_cast<long long>(playback.events(camera)));
+    std::printf("%s", count_text(playback.events(camera), "event").c_str());
     const std::int64_t dropped = dodger != nullptr ? dodger->dropped_events(camera) : 0;
     if (dropped > 0) {
       std::printf(", %lld of which were dropped: they stand more than 10 ms too late in their file",

@@ -94,6 +94,12 @@ TEST_F(CameraChain, HasCamerasToChooseFrom) {
               HasSubstr("holds one camera"));
 }
 
+TEST_F(CameraChain, MayHaveSuchANameItself) {
+  const std::string path = put(root_ / "a:cam1.yaml", kChain);
+  EXPECT_EQ(load_camera_calibration(path).name, "cam0");
+  EXPECT_EQ(load_camera_calibration(path + ":cam1").name, "cam1");
+}
+
 TEST_F(CameraChain, OfDsecIsRead) {
   const std::string text =
       "intrinsics:\n  cam0:\n    camera_matrix: [553.4, 553.3, 346.6, 216.5]\n"

@@ -77,6 +77,16 @@ class Witness : public dodge::Pilot {
   Arrivals new_;
 };
 
+// Hands out the same event without end.
+class OneInstant : public EventReader {
+ public:
+  std::span<const Event> next() override { return events_; }
+  double part_read() const override { return 0; }
+
+ private:
+  std::vector<Event> events_ = std::vector<Event>(10000, Event{77, 1, 1, 1});
+};
+
 std::vector<Event> random_events(TimeUs first_us, std::size_t count, std::uint64_t seed) {
   RandomStream random(seed, 0, "events");
   std::vector<Event> events;
@@ -251,6 +261,10 @@ TEST(Playback, RefusesRecordingsThatCannotBePlayed) {
   std::vector<Event> jump = random_events(0, 100, 7);
   jump.push_back({3'600'000'000, 1, 1, 1});
   EXPECT_THAT(refusal(sensors_of({jump})), HasSubstr("ten minutes"));
+  RecordedSensors instant;
+  instant.cameras.push_back(std::make_unique<OneInstant>());
+  EXPECT_THAT(refusal(std::move(instant)),
+              HasSubstr("more than 10000000 events from 77 to 77 us, more than a camera can see"));
 }
 
 }  // namespace

@@ -60,11 +60,24 @@ TEST_P(Dialects, AreOneToTheReaders) {
   EXPECT_EQ(imu[1].w_B_radps, Eigen::Vector3d(4, 5, 6));
 }
 
+TEST(TextColumns, MayBeSeparatedBySemicolonsOrTabs) {
+  const TemporaryDirectory root;
+  for (const std::string separator : {";", "\t", " ;\t"}) {
+    const std::string s = separator;
+    TextColumns file(put(root / "f.csv", "a" + s + "b" + s + "c\n1" + s + s + "3\n"));
+    file.read_names({"a", "c"});
+    ASSERT_TRUE(file.next());
+    EXPECT_EQ(file.integer(file.column("a")), 1);
+    EXPECT_EQ(file.text(file.column("b")), "");
+    EXPECT_EQ(file.integer(file.column("c")), 3);
+  }
+}
+
 TEST(TextColumns, SaysWhatIsMissing) {
   const TemporaryDirectory root;
   const auto refusal = [&root](const std::string& text) {
     return complaint<ScenarioError>([&] {
-      TextColumns file(put(root / "f.csv", text), TextColumns::Separator::kComma);
+      TextColumns file(put(root / "f.csv", text));
       file.read_names({"a", "b"});
       const Column a = file.column("a");
       while (file.next()) file.integer(a);
