@@ -53,7 +53,10 @@ class Hdf5Reader : public EventReader {
     expect_size("height", image.height);
     offset_us_ = scalar("t_offset").value_or(0);
     const std::array<const char*, 4> fields = {"t", "x", "y", "p"};
-    for (std::size_t i = 0; i < fields.size(); ++i) open_column(fields[i], columns_[i]);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      columns_[i].index = i;
+      open_column(fields[i], columns_[i]);
+    }
   }
 
   double part_read() const override { return share(read_, size_); }
@@ -74,6 +77,7 @@ class Hdf5Reader : public EventReader {
  private:
   struct Hdf5Column {
     std::string name;
+    hsize_t index = 0;  // in columns_, and in a table
     hid_t dataset = -1;
     hid_t type = -1;  // of the values in memory or, of records, of the one field that is read
     std::vector<std::int64_t> values;  // of the portion
@@ -128,13 +132,14 @@ class Hdf5Reader : public EventReader {
                           "; it must have events/t, x, y and p, or these at its root, or records " +
                           "of them as CD/events.");
     }
-    set_type(field, column);
+    std::array<hsize_t, H5S_MAX_RANK> sides{};
     const hid_t space = H5Dget_space(column.dataset);
-    const int dimensions = H5Sget_simple_extent_ndims(space);
-    const auto size = static_cast<hsize_t>(H5Sget_simple_extent_npoints(space));
+    const int dimensions = H5Sget_simple_extent_dims(space, sides.data(), nullptr);
     H5Sclose(space);
-    if (&column == &columns_.front()) size_ = size;
-    if (dimensions == 1 && size == size_) return;
+    is_table_ = !records_.empty() && dimensions == 2 && sides[1] == columns_.size();
+    set_type(field, column);
+    if (column.index == 0) size_ = sides[0];
+    if ((dimensions == 1 || is_table_) && sides[0] == size_) return;
     throw ScenarioError(path_ + ": " + column.name + " must be a list as long as " +
                         columns_.front().name + ".");
   }
@@ -143,7 +148,7 @@ class Hdf5Reader : public EventReader {
   void set_type(const char* field, Hdf5Column& column) const {
     hid_t type = H5Dget_type(column.dataset);
     column.type = H5T_NATIVE_INT64;
-    if (!records_.empty()) {
+    if (!records_.empty() && !is_table_) {
       const bool compound = H5Tget_class(type) == H5T_COMPOUND;
       const int member = compound ? H5Tget_member_index(type, field) : -1;
       if (member < 0) throw ScenarioError(path_ + ": " + records_ + " has no field " + field + ".");
@@ -164,7 +169,8 @@ class Hdf5Reader : public EventReader {
     if (count == 0) return;
     const hid_t memory = H5Screate_simple(1, &count, nullptr);
     const hid_t disk = H5Dget_space(column.dataset);
-    H5Sselect_hyperslab(disk, H5S_SELECT_SET, &read_, nullptr, &count, nullptr);
+    const std::array<hsize_t, 2> from = {read_, column.index}, size = {count, 1};  // of a table
+    H5Sselect_hyperslab(disk, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr);
     const herr_t status =
         H5Dread(column.dataset, column.type, memory, disk, H5P_DEFAULT, column.values.data());
     H5Sclose(disk);
@@ -179,7 +185,8 @@ class Hdf5Reader : public EventReader {
   ImageSize image_;
   Hdf5File file_;
   std::string group_ = "events/";  // of the four lists; empty: the root
-  std::string records_;            // the list of records; empty: there are four lists
+  std::string records_;            // the list of records, or table; empty: there are four lists
+  bool is_table_ = false;
   std::int64_t offset_us_ = 0;
   std::array<Hdf5Column, 4> columns_;  // t, x, y, p
   hsize_t size_ = 0, read_ = 0;        // events

@@ -37,6 +37,14 @@ std::vector<Reading> read_log(TextColumns& file, Read read) {
   return log;
 }
 
+// No vehicle is as far or as fast, in whatever units; sums of such numbers stay finite.
+double number(const TextColumns& file, const Column& column) {
+  constexpr double kMost = 1e9;
+  const double value = file.number(column);
+  if (std::abs(value) > kMost) file.refuse(column, "nearer to 0");
+  return value;
+}
+
 // Three columns.
 class VectorColumns {
  public:
@@ -46,7 +54,7 @@ class VectorColumns {
         y_(file.column(names[1])),
         z_(file.column(names[2])) {}
 
-  Eigen::Vector3d read() const { return {file_.number(x_), file_.number(y_), file_.number(z_)}; }
+  Eigen::Vector3d read() const { return {number(file_, x_), number(file_, y_), number(file_, z_)}; }
 
  private:
   const TextColumns& file_;
@@ -106,7 +114,7 @@ std::vector<StateReading> read_state_log(const std::string& path) {
   const Column qw = file.column("qw");
   const auto w = if_any(file, kRates);
   auto states = read_log<StateReading>(file, [&] {
-    return StateReading{0, p.read(), rotation(file, file.number(qw), q.read()), v.read(), read(w)};
+    return StateReading{0, p.read(), rotation(file, number(file, qw), q.read()), v.read(), read(w)};
   });
   if (!w) fill_in_rates(states);
   return states;
@@ -116,7 +124,7 @@ std::vector<RangeReading> read_range_log(const std::string& path) {
   TextColumns file(path);
   file.read_names({"t_us", "range_m"});
   const Column range_m = file.column("range_m");
-  return read_log<RangeReading>(file, [&] { return RangeReading{0, file.number(range_m)}; });
+  return read_log<RangeReading>(file, [&] { return RangeReading{0, number(file, range_m)}; });
 }
 
 std::string imu_header() { return "t_us,wx,wy,wz,ax,ay,az\n"; }

@@ -174,11 +174,12 @@ class Hdf5Writer {
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
   ~Hdf5Writer() { H5Fclose(file_); }
 
-  // `name` may be "group/name" of a new group.
+  // `name` may be "group/name" of a new group. With more than one column, a table.
   template <class Value>
-  void list(const std::string& name, hid_t type, const std::vector<Value>& values) {
-    const hsize_t size = values.size();
-    const hid_t space = H5Screate_simple(1, &size, nullptr);
+  void list(const std::string& name, hid_t type, const std::vector<Value>& values,
+            hsize_t columns = 1) {
+    const hsize_t size[] = {values.size() / columns, columns};
+    const hid_t space = H5Screate_simple(columns == 1 ? 1 : 2, size, nullptr);
     const hid_t links = H5Pcreate(H5P_LINK_CREATE);
     H5Pset_create_intermediate_group(links, 1);
     const hid_t set = H5Dcreate2(file_, name.c_str(), type, space, links, H5P_DEFAULT, H5P_DEFAULT);
@@ -229,6 +230,8 @@ TEST_F(Reading, TakesHdf5OfSeveralLayouts) {
     put_records(path, name, {{1, 3, 1, 7}, {2, 4, 0, 8}});
     EXPECT_THAT(read(path), expected) << name;
   }
+  Hdf5Writer(path).list<std::uint32_t>("events", H5T_NATIVE_UINT32, {7, 1, 3, 1, 8, 2, 4, 0}, 4);
+  EXPECT_THAT(read(path), expected);
 }
 
 TEST_F(Reading, TakesHdf5sOffsetIfItIsWhole) {
@@ -259,6 +262,10 @@ TEST_F(Reading, RefusesHdf5WhoseNumbersAreNotWhole) {
   EXPECT_THAT(refused(), HasSubstr("CD/events, t has no whole numbers"));
   Hdf5Writer(path).list<double>("events", H5T_NATIVE_DOUBLE, {0.5, 0.6});
   EXPECT_THAT(refused(), HasSubstr("events has no field t"));
+  Hdf5Writer(path).list<float>("events", H5T_NATIVE_FLOAT, {7, 1, 3, 1, 8, 2, 4, 0}, 4);
+  EXPECT_THAT(refused(), HasSubstr("events, t has no whole numbers"));
+  Hdf5Writer(path).list<int>("events/t", H5T_NATIVE_INT, {7, 1, 3, 1, 8, 2, 4, 0}, 4);
+  EXPECT_THAT(refused(), HasSubstr("events/t must be a list"));
   Hdf5Writer(path).lists("events/", {std::numeric_limits<std::int64_t>::max(), 8});
   EXPECT_THAT(refused(), HasSubstr("event 0: t [us] is"));
 }

@@ -95,6 +95,7 @@ TEST_F(SensorLog, RefusesWhatCannotBeWithItsLine) {
   EXPECT_THAT(refusal("t_us,wx,wy,wz\n2000000000000000000,0,0,0\n"), HasSubstr("nearer to 0"));
   EXPECT_THAT(refusal("t_us,wx,wy,wz\n7,0,fast,0\n"),
               HasSubstr("log.csv:2: wy is \"fast\", but must be a number."));
+  EXPECT_THAT(refusal("t_us,wx,wy,wz\n7,0,0,1e300\n"), HasSubstr("wz is \"1e300\", but must be"));
   EXPECT_THAT(refusal("t_us,wx,wy\n7,0,0\n"), HasSubstr("there is no column wz"));
   EXPECT_THAT(refusal("t_us,wx,wy,wz,ax\n7,0,0,0,0\n"), HasSubstr("no column ay"));
   EXPECT_THAT(complaint<ScenarioError>([&] {
