@@ -70,6 +70,33 @@ struct CalibrationKeys {
   }
 };
 
+// What the calibrator of ROS writes (camera_info), in place of the keys above.
+struct CameraInfoKeys {
+  struct Matrix {
+    int rows = 0, cols = 0;
+    std::vector<double> data;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+      v("rows", rows, 1, 12, "");
+      v("cols", cols, 1, 12, "");
+      v("data", data, -kFar, kFar, "");
+    }
+  };
+  int image_width = 0, image_height = 0;
+  Matrix camera_matrix, distortion_coefficients;
+  std::string distortion_model = "plumb_bob";
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("image_width", image_width, 16, 4096, "");
+    v("image_height", image_height, 16, 4096, "");
+    v("camera_matrix", camera_matrix, "");
+    v("distortion_model", distortion_model, {"plumb_bob"}, "");
+    v("distortion_coefficients", distortion_coefficients, "");
+  }
+};
+
 // Keys without a value count as not given.
 void drop_empty(YamlNode& map) {
   for (std::size_t i = map.keys.size(); i-- > 0;) {
@@ -102,6 +129,26 @@ void expect_no_misspelling(const YamlNode& root, Problems& problems) {
 void expect_given(const char* key, const std::map<std::string, Position>& where,
                   Problems& problems) {
   if (where.count(key) == 0) problems.add({}, std::string(key) + " is missing.");
+}
+
+// The size and the lens of a camera_info, as keys of ours.
+void read_camera_info(const YamlNode& root, ReadContext& context, CalibrationKeys& keys) {
+  CameraInfoKeys info;
+  Reader reader(root, "", context);
+  info.visit(reader);
+  expect_given("image_height", context.where, context.problems);
+  keys.width = info.image_width;
+  keys.height = info.image_height;
+  const std::vector<double>& K = info.camera_matrix.data;
+  if (K.size() != 9 || K[0] < 1 || K[4] < 1) {
+    context.problems.add(context.position_of("camera_matrix"),
+                         "camera_matrix.data must be the nine numbers fx, 0, cx, 0, fy, cy, 0, 0 "
+                         "and 1.");
+    return;
+  }
+  keys.intrinsics = IntrinsicsKeys{K[0], K[4], K[2], K[5]};
+  if (info.distortion_coefficients.data.empty()) return;
+  keys.distortion = DistortionKeys{kDistortion, info.distortion_coefficients.data};
 }
 
 // The rotation that "right down forward" stands for; nothing if these are no three axes of a
@@ -154,9 +201,6 @@ void read_lens(const CalibrationKeys& keys, const ReadContext& context, Problems
   camera.width = keys.width;
   camera.height = keys.height;
   if (keys.intrinsics) {
-    for (const char* key : {"fx", "fy", "cx", "cy"}) {
-      expect_given((std::string("intrinsics.") + key).c_str(), context.where, problems);
-    }
     camera.fx = keys.intrinsics->fx;
     camera.fy = keys.intrinsics->fy;
     camera.cx = keys.intrinsics->cx;
@@ -217,8 +261,18 @@ CameraCalibration load_camera_calibration(const std::string& path_and_camera) {
   CalibrationKeys keys;
   Reader reader(root, "", context);
   keys.visit(reader);
-  expect_no_misspelling(root, context.problems);
-  for (const char* key : {"width", "height"}) expect_given(key, context.where, context.problems);
+  const bool is_camera_info = std::any_of(root.keys.begin(), root.keys.end(), [](const auto& key) {
+    return key.name == "image_width";
+  });
+  if (is_camera_info) {
+    read_camera_info(root, context, keys);
+  } else {
+    expect_no_misspelling(root, context.problems);
+    for (const char* key : {"width", "height"}) expect_given(key, context.where, context.problems);
+    for (const char* key : {"intrinsics.fx", "intrinsics.fy", "intrinsics.cx", "intrinsics.cy"}) {
+      if (keys.intrinsics) expect_given(key, context.where, context.problems);
+    }
+  }
   context.problems.raise_if_any();
   CameraCalibration calibration;
   read_lens(keys, context, context.problems, calibration.camera);

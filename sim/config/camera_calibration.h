@@ -15,7 +15,9 @@
 // axes for the body's (forward left up), and give R_BC in them. Other keys, such as those that say
 // where a recording comes from, are passed over, unless they look like one of these misspelled.
 //
-// Calibrations of Kalibr and DSEC are read, too: see camera_chain.h.
+// Calibrations of Kalibr and DSEC are read, too: see camera_chain.h. So are those of ROS
+// (camera_info: image_width, image_height, camera_matrix, distortion_model plumb_bob,
+// distortion_coefficients), to which the keys from p_BC_m on may be added.
 #pragma once
 
 #include <string>

@@ -30,17 +30,18 @@ constexpr const char* kDetectFooter =
     R"(The pilot gets what was recorded as late as in flight (`dodgesim explain delays`), in cycles.
 What it commands moves nobody, and its goal is to stay where it is.
 
-EVENTS: .h5 (DSEC, RVT; or t, x, y, p at the root, or records CD/events), .npy or .txt as `emulate`
-  and `replay --record` write them; .txt of the rpg data sets, with t in seconds; .csv whose first
+EVENTS: .h5 (DSEC, RVT; or t, x, y, p at the root, as records CD/events or as a table events), .npy
+  or .txt as `emulate` and `replay --record` write them; .txt of the rpg data sets, with t in seconds; .csv whose first
   line names the columns t_us, x, y and p. They must be in order of time, but for 10 ms. The pilot
   drops those that come later; up to 16 in a row with stamps far ahead of the next are passed over.
 CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {model:
   radtan_k1_k2_p1_p2_k3, coeffs: [...]}; p_BC_m and R_BC (rows), the camera's place on the body,
   which by default looks forward; imu_axes, where x, y, z of the IMU point, by default as
   the camera's (of one that looks forward: right down forward); p_BR_m, the range sensor's place.
-  Other keys are passed over. Or Kalibr's camchain.yaml or DSEC's cam_to_cam.yaml (pinhole, radtan):
-  the first camera in it or, with FILE.yaml:cam1, cam1. It looks forward, and the body's origin is
-  the IMU of T_cam_imu; timeshift_cam_imu is taken from the IMU's instants.
+  Other keys are passed over. Size and lens may have the keys of ROS's calibrator (plumb_bob).
+  Or Kalibr's camchain.yaml or DSEC's cam_to_cam.yaml (pinhole, radtan): the first camera in it
+  or, with FILE.yaml:cam1, cam1. It looks forward, and the body's origin is the IMU of T_cam_imu;
+  timeshift_cam_imu is taken from the IMU's instants.
   Two cameras must be rectified: one size, one set of intrinsics, the second straight below the
   first. Calibrations stand behind the events.
 IMU.csv: t_us, wx, wy, wz [rad/s]. STATE.csv: t_us, x, y, z, qw, qx, qy, qz (body to world), vx, vy,

@@ -101,6 +101,36 @@ TEST_F(Calibration, PassesOverWhatIsForPeopleButNotMisspelledKeys) {
               HasSubstr("camera.yaml:3:1: intrinsic is not a known key; did you mean intrinsics?"));
 }
 
+TEST_F(Calibration, OfRosIsRead) {
+  const std::string text =
+      "image_width: 346\nimage_height: 260\ncamera_name: davis\ncamera_matrix:\n  rows: 3\n"
+      "  cols: 3\n  data: [250.1, 0., 160.2, 0, 251, 120.7, 0, 0, 1]\n"
+      "distortion_model: plumb_bob\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n"
+      "  data: [-0.37, 0.15, 0.01, 0.02, -0.03]\nrectification_matrix: {rows: 3}\n"
+      "imu_axes: forward left up\n";
+  const CameraCalibration read = load(text);
+  EXPECT_EQ(read.camera.width, 346);
+  EXPECT_EQ(read.camera.height, 260);
+  EXPECT_EQ(read.camera.fx, 250.1);
+  EXPECT_EQ(read.camera.fy, 251);
+  EXPECT_EQ(read.camera.cx, 160.2);
+  EXPECT_EQ(read.camera.cy, 120.7);
+  EXPECT_EQ(read.camera.k2, 0.15);
+  EXPECT_EQ(read.camera.p2, 0.02);
+  EXPECT_EQ(read.camera.k3, -0.03);
+  EXPECT_FALSE(read.focal_length_assumed);
+  EXPECT_EQ(read.R_BG, Eigen::Matrix3d::Identity());
+  const auto refused = [&](const std::string& before, const std::string& after) {
+    std::string wrong = text;
+    return refusal(wrong.replace(wrong.find(before), before.size(), after));
+  };
+  EXPECT_THAT(refused("plumb_bob", "equidistant"),
+              HasSubstr("distortion_model is \"equidistant\", but must be plumb_bob"));
+  EXPECT_THAT(refused("image_height", "height"), HasSubstr("image_height is missing"));
+  EXPECT_THAT(refused("250.1, ", ""), HasSubstr("camera_matrix.data must be the nine numbers"));
+  EXPECT_THAT(refused(", -0.03]", ", 0, 0, 0, 0]"), HasSubstr("four or five"));
+}
+
 TEST_F(Calibration, SaysWhatIsMissingOrWrong) {
   EXPECT_THAT(refusal("width: 320\n"), HasSubstr("height is missing"));
   EXPECT_THAT(refusal("width: 0\nheight: 240\n"), HasSubstr("width is 0"));
