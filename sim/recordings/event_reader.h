@@ -1,8 +1,8 @@
 // Reads recordings of events, a portion at a time, whatever their length.
 //
 // .h5   DSEC and RVT: events/x, y, t [us], p (0 or -1 OFF, 1 ON), and t_offset, if there is one,
-//       which is added to t. Also with these four at the root, or as the fields of records
-//       CD/events (Prophesee) or events.
+//       which is added to t. Also with these four at the root, as the fields of records CD/events
+//       (Prophesee) or events, or as the columns t, x, y, p of a table events (v2e).
 // .npy  Records t <i8 [us], x <u2, y <u2, p |i1, as event_writer.h has them.
 // .txt  A line "t x y p" an event: t is in microseconds if the first event's is a whole number, and
 //       otherwise in seconds, as in the rpg data sets.
