@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -105,6 +106,25 @@ void expect_same_settings(const std::vector<ThrowOutcome>& first,
                         second_name + " has " + text_of(b.settings) +
                         "; campaigns can be compared if their grids and sweeps are the same.");
   }
+}
+
+void expect_same_cells(const std::vector<ThrowOutcome>& first,
+                       const std::vector<ThrowOutcome>& second, const std::string& first_name,
+                       const std::string& second_name) {
+  const auto expect_cells_of = [](const std::vector<ThrowOutcome>& some, const std::string& name,
+                                  const std::vector<ThrowOutcome>& others,
+                                  const std::string& other_name) {
+    std::set<int> cells;
+    for (const ThrowOutcome& t : others) cells.insert(t.cell);
+    for (const ThrowOutcome& t : some) {
+      if (cells.contains(t.cell)) continue;
+      throw ScenarioError(name + " has throws of " + text_of(t.settings) + ", " + other_name +
+                          " has none; campaigns of different throws can be compared if they have "
+                          "throws in the same cells of the grid.");
+    }
+  };
+  expect_cells_of(first, first_name, second, second_name);
+  expect_cells_of(second, second_name, first, first_name);
 }
 
 Comparison compare(const std::vector<ThrowOutcome>& first,

@@ -37,6 +37,12 @@ void expect_same_settings(const std::vector<ThrowOutcome>& first,
                           const std::vector<ThrowOutcome>& second, const std::string& first_name,
                           const std::string& second_name);
 
+// Likewise, if one has throws in a cell of the grid where the other has none: rates of different
+// throws would differ by their cells. Pairs need no such thing, as they are counted in both.
+void expect_same_cells(const std::vector<ThrowOutcome>& first,
+                       const std::vector<ThrowOutcome>& second, const std::string& first_name,
+                       const std::string& second_name);
+
 // Throws with the same number within the same sweep value are pairs if all of these share their
 // random numbers (same_random_numbers()): a pair's outcomes may depend on each other, but not on
 // those of other pairs.

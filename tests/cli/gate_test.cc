@@ -239,6 +239,18 @@ TEST_F(GateCommandTest, ComparePairsThrowsOfOneSeedAndSaysWhatDiffers) {
               HasSubstr("of throws with the same random numbers (size_m differs): 0 lost"));
 }
 
+TEST_F(GateCommandTest, CompareRefusesDifferentThrowsOfDifferentCells) {
+  const std::string run = "run " + path("s.yaml") + " --set grid.size_m=[0.1,0.2] --out ";
+  ASSERT_EQ(dodgesim(run + path("whole")).exit_code, 0);
+  ASSERT_EQ(dodgesim(run + path("part") + " --shard 0/2").exit_code, 0);
+  ASSERT_EQ(dodgesim(run + path("other") + " --shard 0/2 --seed 4").exit_code, 0);
+  EXPECT_EQ(dodgesim("compare " + path("whole") + " " + path("part")).exit_code, 0) << "pairs";
+  const Outcome outcome = dodgesim("compare " + path("whole") + " " + path("other"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.output, HasSubstr(path("whole") + " has throws of throw.size_m 0.2, " +
+                                        path("other") + " has none; "));
+}
+
 TEST_F(GateCommandTest, CompareSaysWhichCampaignEndedByItsResults) {
   const std::string run = "run " + path("s.yaml") + " --set repeats=40 --out ";
   ASSERT_EQ(dodgesim(run + path("all")).exit_code, 0);

@@ -152,6 +152,10 @@ int compare_campaigns(const CompareArguments& arguments) {
   for (const auto& [sweep, outcomes] : first) {
     if (first.size() > 1) std::cout << (sweep > 0 ? "\n" : "") << heading(sweep, outcomes) << ":\n";
     const Comparison comparison = compare(outcomes, second.at(sweep));
+    if (!comparison.paired) {
+      expect_same_cells(outcomes, second.at(sweep), arguments.first.string(),
+                        arguments.second.string());
+    }
     std::cout << comparison_text(comparison, arguments.first.string(), arguments.second.string());
     print_changes("Lost", comparison.lost);
     print_changes("Gained", comparison.gained);

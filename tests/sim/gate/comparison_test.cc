@@ -51,6 +51,23 @@ TEST(Comparison, IsOfTheSameGridAndSweep) {
   expect_same_settings(first, second, "a", "b");
 }
 
+TEST(Comparison, OfDifferentThrowsIsOfTheSameCells) {
+  auto first = outcomes(tables_of("dhdh")), second = outcomes(tables_of("dhd"));
+  for (ThrowOutcome& t : first) t.cell = t.number % 2;
+  for (ThrowOutcome& t : second) t.cell = t.number % 3;
+  second[2].settings = {{"throw.speed_mps", "10"}};
+  expect_same_cells(first, first, "a", "b");
+  for (const bool swapped : {false, true}) {
+    try {
+      expect_same_cells(swapped ? second : first, swapped ? first : second, swapped ? "b" : "a",
+                        swapped ? "a" : "b");
+      FAIL() << "compared rates of different cells";
+    } catch (const ScenarioError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("b has throws of throw.speed_mps 10, a has none;"));
+    }
+  }
+}
+
 TEST(Comparison, LeavesOutWhatWouldHaveHitInOneCampaignOnly) {
   const Comparison c = compared("ddm", "dmd");
   EXPECT_EQ(c.counts.total(), 1);
