@@ -73,9 +73,9 @@ GateCheck rate_can_fall(const Comparison& comparison, const GateRules& rules, bo
   const auto lost = losses_that_fail(comparison.counts, rules);
   const std::string counted = std::to_string(comparison.counts.total()) + " throws";
   if (lost) {
-    return {
-        name, Result::kPassed,
-        "with " + counted + " the success rate fails from " + std::to_string(*lost) + " lost on"};
+    return {name, Result::kPassed,
+            "with " + counted + " the success rate fails from " + std::to_string(*lost) +
+                " lost on if none is gained"};
   }
   const bool bytes_can =
       rules.must_equal != "nothing" && same_machine && comparison.counts.total() > 0;
@@ -88,10 +88,12 @@ GateCheck rate_holds(const Comparison& comparison, const GateRules& rules) {
   const DropVerdict drop = judge_drop(comparison.counts, rules.margin, rules.confidence);
   std::string text;
   if (drop.fell) {
-    text = formatted("it fell by %.3f, surely more than the margin of %g (p = %.2g)", drop.drop,
-                     rules.margin, drop.p_fell);
+    text = formatted(
+        "it fell by %.3f, with a confidence of %g by more than the margin of %g (p = %.2g)",
+        drop.drop, rules.confidence, rules.margin, drop.p_fell);
   } else if (drop.kept) {
-    text = formatted("surely not lower by the margin of %g (p = %.2g)", rules.margin, drop.p_kept);
+    text = formatted("with a confidence of %g not lower by the margin of %g (p = %.2g)",
+                     rules.confidence, rules.margin, drop.p_kept);
   } else {
     text =
         formatted("no proof that it fell by more than %g, nor that it did not: %lld throws are few",

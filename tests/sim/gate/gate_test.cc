@@ -43,7 +43,9 @@ TEST(Gate, FailsWhenTheRateFellByMoreThanTheMargin) {
   const GateVerdict verdict = judged(good, bad);
   EXPECT_FALSE(verdict.passed());
   EXPECT_EQ(check(verdict, "success rate").result, GateCheck::Result::kFailed);
-  EXPECT_THAT(check(verdict, "success rate").reason, HasSubstr("fell by 0.250"));
+  EXPECT_THAT(
+      check(verdict, "success rate").reason,
+      HasSubstr("fell by 0.250, with a confidence of 0.95 by more than the margin of 0.05 "));
   EXPECT_TRUE(judged(good, bad, {0.3, 0.95, "nothing"}).passed()) << "within a margin of 0.3";
   EXPECT_TRUE(judged(bad, good).passed()) << "to become better is no failure";
 }
@@ -81,6 +83,15 @@ TEST(Gate, SaysHowManyLossesItTakes) {
   };
   EXPECT_TRUE(with_lost(needed - 1));
   EXPECT_FALSE(with_lost(needed));
+  EXPECT_THAT(reason, HasSubstr(" lost on if none is gained"));
+}
+
+TEST(Gate, NeedsMoreLossesWhereThrowsAreGained) {
+  std::string before(60, 'd'), after = before;
+  std::fill_n(after.begin(), 9, 'h');
+  EXPECT_FALSE(judged(before, after, {0.05, 0.95, "nothing"}).passed());
+  before.back() = 'h';
+  EXPECT_TRUE(judged(before, after, {0.05, 0.95, "nothing"}).passed());
 }
 
 TEST(Gate, FailsForOtherThrows) {
