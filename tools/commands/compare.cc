@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/base/joined.h"
 #include "sim/campaign/merge.h"
 #include "sim/campaign/result_files.h"
@@ -129,6 +130,16 @@ std::string heading(int sweep, const std::vector<ThrowOutcome>& outcomes) {
          (common.empty() ? "" : " (" + label(common) + ")");
 }
 
+// Each p is right by itself; the smallest of many is small by chance (Bonferroni's bound).
+void print_number_of_tests(std::size_t tests) {
+  constexpr double kLevel = 0.05;
+  if (tests < 2) return;
+  std::cout << formatted(
+      "\nThese are %zu tests: where nothing differs, the smallest p is below %.2g (%g / %zu) in at "
+      "most\n5 %% of such comparisons, but below %g more often.\n",
+      tests, kLevel / static_cast<double>(tests), kLevel, tests, kLevel);
+}
+
 int compare_campaigns(const CompareArguments& arguments) {
   const auto first = parts_of(arguments.first);
   const auto second = parts_of(arguments.second);
@@ -160,6 +171,7 @@ int compare_campaigns(const CompareArguments& arguments) {
     print_changes("Lost", comparison.lost);
     print_changes("Gained", comparison.gained);
   }
+  print_number_of_tests(first.size());
   return kOk;
 }
 
@@ -183,7 +195,9 @@ void add_compare_command(CLI::App& program, int& exit_code) {
       "of\n"
       "throw differs: the random numbers are the same. Campaigns of other seeds and of the same\n"
       "grid and sweep are independent samples (Boschloo's exact test).\n"
-      "Intervals are of 95 %.\n\n"
+      "Intervals are of 95 %, and approximate: where few outcomes differ, 0 may lie beside one "
+      "though\n"
+      "p is above 0.05; then p decides.\n\n"
       "Example:\n"
       "  dodgesim run s.yaml --out paper\n"
       "  dodgesim run s.yaml --out told --set pilot=oracle\n"
