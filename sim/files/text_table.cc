@@ -1,5 +1,7 @@
 #include "sim/files/text_table.h"
 
+#include <cmath>
+
 #include "sim/base/formatted.h"
 #include "sim/files/csv.h"
 #include "sim/files/markup.h"
@@ -43,6 +45,7 @@ std::string TextTable::to_csv() const {
 std::string fixed_text(double value, int digits) { return formatted("%.*f", digits, value); }
 
 std::string with_interval(double value, const Interval& interval, int digits) {
+  if (!std::isfinite(interval.lo) && !std::isfinite(interval.hi)) return fixed_text(value, digits);
   return fixed_text(value, digits) + " (" + fixed_text(interval.lo, digits) + " to " +
          fixed_text(interval.hi, digits) + ")";
 }

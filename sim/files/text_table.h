@@ -20,7 +20,7 @@ struct TextTable {
 // Digits behind the point: fixed_text(0.0731, 3) is "0.073".
 std::string fixed_text(double value, int digits);
 
-// "0.073 (0.065 to 0.081)".
+// "0.073 (0.065 to 0.081)"; "0.073" where the interval says nothing, without any finite end.
 std::string with_interval(double value, const Interval& interval, int digits);
 
 // "1 throw", "2 throws".

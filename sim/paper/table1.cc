@@ -180,7 +180,7 @@ void add_to_csv(const Setup& setup, TextTable& csv) {
           ours->median_interval.lo, ours->median_interval.hi, paper.median, ours->sd, paper.sd,
           ours->mean_deviation, paper.deviation, ours->largest_deviation,
           setup.sample.depth_bias_m(bin)}) {
-      row.push_back(fixed_text(value, 4));
+      row.push_back(std::isfinite(value) ? fixed_text(value, 4) : "");
     }
     csv.rows.push_back(std::move(row));
   }

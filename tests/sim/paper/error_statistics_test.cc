@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "sim/base/random.h"
+#include "sim/files/text_table.h"
 #include "sim/paper/bootstrap.h"
 #include "sim/statistics/quantiles.h"
 
@@ -34,8 +35,9 @@ TEST(ErrorStatistics, OfNothingOrOneThing) {
   EXPECT_FALSE(error_statistics({}, "test"));
   const auto one = error_statistics({{0, 0.25}}, "test");
   EXPECT_EQ(one->sd, 0);
-  EXPECT_EQ(one->mean_interval.lo, 0.25);
-  EXPECT_EQ(one->mean_interval.hi, 0.25);
+  EXPECT_TRUE(std::isinf(one->mean_interval.lo));
+  EXPECT_TRUE(std::isinf(one->mean_interval.hi)) << "one throw knows nothing of the others";
+  EXPECT_EQ(with_interval(one->mean, one->mean_interval, 2), "0.25");
 }
 
 // 1000 throws whose errors are normal: the interval of the mean is that of the textbook, and does
@@ -71,6 +73,12 @@ TEST(ClusterBootstrap, RepeatsItself) {
   };
   EXPECT_EQ(interval("a").lo, interval("a").lo);
   EXPECT_NE(interval("a").lo, interval("b").lo);
+  const auto of = [](std::size_t clusters) {
+    return cluster_bootstrap(clusters, "a",
+                             [](auto which) { return static_cast<double>(which[0]); });
+  };
+  EXPECT_TRUE(std::isinf(of(kLeastClusters - 1).half_width())) << "too few";
+  EXPECT_TRUE(std::isfinite(of(kLeastClusters).half_width()));
   EXPECT_THROW(cluster_bootstrap(0, "a", [](auto) { return 0.0; }), std::invalid_argument);
 }
 
