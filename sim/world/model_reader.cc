@@ -45,6 +45,14 @@ int ModelReader::find(mjtObj type, const std::string& name) const {
   return id;
 }
 
+int ModelReader::find_on_vehicle(mjtObj type, const std::string& name) const {
+  const int id = find(type, name);
+  const int body = type == mjOBJ_CAMERA ? model_.cam_bodyid[id] : model_.site_bodyid[id];
+  if (body == find(mjOBJ_BODY, "vehicle")) return id;
+  throw ScenarioError(file_ + ": the " + mju_type2Str(type) + " '" + name +
+                      "' must be in the body 'vehicle'.");
+}
+
 std::span<const double> ModelReader::numeric(const std::string& name, int count) const {
   const int id = find(mjOBJ_NUMERIC, name);
   if (model_.numeric_size[id] != count) {
@@ -162,7 +170,7 @@ void ModelReader::read_rotors(VehicleParameters& vehicle) const {
   }
   for (std::size_t rotor = 0; rotor < 4; ++rotor) {
     const std::string name = "rotor_" + std::to_string(rotor);
-    const int site = find(mjOBJ_SITE, name);
+    const int site = find_on_vehicle(mjOBJ_SITE, name);
     const int actuator = find(mjOBJ_ACTUATOR, name);
     if (actuator != static_cast<int>(rotor)) {
       throw ScenarioError(file_ + ": rotor_0 to rotor_3 must be in this order.");
@@ -201,14 +209,18 @@ VehicleParameters ModelReader::vehicle(double mass_scale) const {
                         " to fly (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
   }
   for (const char* name : kCameraNames) {
-    const int camera = find(mjOBJ_CAMERA, name);
+    const int camera = find_on_vehicle(mjOBJ_CAMERA, name);
     Eigen::Isometry3d X = pose(model_.cam_pos + 3 * camera, model_.cam_quat + 4 * camera);
     // MuJoCo's camera looks along -z with y up; C has z forward and y down.
     X.linear() = X.linear() * Eigen::Vector3d(1, -1, -1).asDiagonal();
     vehicle.X_BC.push_back(X);
   }
-  const int range = find(mjOBJ_SITE, "range");
+  const int range = find_on_vehicle(mjOBJ_SITE, "range");
   vehicle.X_BR = pose(model_.site_pos + 3 * range, model_.site_quat + 4 * range);
+  if (vehicle.X_BR.linear()(2, 2) > -1 + 1e-9) {  // the pilot takes it for granted
+    throw ScenarioError(file_ + ": the range sensor must look down: z of its site, 'range', is " +
+                        "its line of sight and must be -z of the body.");
+  }
   return vehicle;
 }
 

@@ -56,6 +56,7 @@ class ModelReader {
   ObjectPhysics object(const std::string& prefix, double size_m) const;
 
  private:
+  int find_on_vehicle(mjtObj type, const std::string& name) const;  // a camera or a site
   std::span<const double> numeric(const std::string& name, int count) const;
   void check_rotor(int site, int actuator) const;
   void check_reach(int body, double size_m) const;

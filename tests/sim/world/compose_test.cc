@@ -327,6 +327,24 @@ TEST_F(OwnModels, AVehicleThatTheMixerWouldTakeForAnotherIsRefused) {
   EXPECT_THAT(with("diaginertia=\"0.0033 0.0040 0.0062\"",
                    "fullinertia=\"0.0033 0.0040 0.0062 0.0003 0 0\""),
               HasSubstr("principal axes"));
+  EXPECT_THAT(with("xyaxes=\"1 0 0 0 -1 0\"", "euler=\"170 0 0\""), HasSubstr("must look down"));
+}
+
+TEST_F(OwnModels, WhatStaysBehindWhenTheVehicleFliesIsNoPartOfIt) {
+  spec_.objects.clear();
+  const auto file = directory_ / "vehicles" / "qav_rxl.xml";
+  std::stringstream good;
+  good << std::ifstream(file).rdbuf();
+  for (const std::string part :
+       {"<site name=\"range\"", "<site name=\"rotor_2\"", "<camera name=\"bottom\""}) {
+    std::string text = good.str();
+    const std::size_t begin = text.find(part), end = text.find("/>", begin) + 2;
+    const std::string tag = text.substr(begin, end - begin);
+    text.erase(begin, end - begin);
+    text.insert(text.find("</worldbody>"), tag);
+    std::ofstream(file) << text;
+    EXPECT_THAT(world_message(), HasSubstr("must be in the body 'vehicle'")) << part;
+  }
 }
 
 // The reference size is 0.1 m.
