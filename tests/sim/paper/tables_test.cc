@@ -68,15 +68,16 @@ TEST(Table1, PutsErrorsIntoBinsOfTheTrueDistance) {
 
   const PaperTables tables =
       table1_experiment().analyse({mono, empty, empty, stereo, stereo, rigs});
-  // setup, bin, throws, detections, mean with interval, paper, median with interval, paper, ...
+  // setup, bin, throws, detections, mean with interval, paper, median with interval, paper, ...;
+  // one throw tells no interval.
   EXPECT_EQ(line_with(tables.csv, "\"monocular, all detections\",0.2,0.5"),
-            "\"monocular, all detections\",0.2,0.5,1,3,0.0300,0.0300,0.0300,0.0800,0.0200,0.0200,"
-            "0.0200,0.0500,0.0265,0.1800,0.0200,0.0900,0.0300,0.0300");
+            "\"monocular, all detections\",0.2,0.5,1,3,0.0300,,,0.0800,0.0200,,,0.0500,0.0265,"
+            "0.1800,0.0200,0.0900,0.0300,0.0300");
   EXPECT_EQ(line_with(tables.csv, "\"monocular, all detections\",0.5"), "");
   EXPECT_THAT(line_with(tables.csv, "\"monocular, all detections\",1.0,1.5"),
               HasSubstr(",1,2,0.1500,"));
   EXPECT_THAT(line_with(tables.csv, "\"stereo by centres, all detections\",1.0,1.5"),
-              HasSubstr(",1,2,0.1500,0.1500,0.1500,0.1300,"));
+              HasSubstr(",1,2,0.1500,,,0.1300,"));
   EXPECT_THAT(line_with(tables.csv, "\"stereo by centres, rigs calibrated to a pixel or two"),
               HasSubstr(",0.2,0.5,1,3,0.0300,"));
   EXPECT_THAT(tables.markdown,
@@ -85,10 +86,14 @@ TEST(Table1, PutsErrorsIntoBinsOfTheTrueDistance) {
 
 TEST(Table1, SaysHowMuchOfTheirLeadTwoCamerasLose) {
   const auto seen = [](double near_error_m, double far_error_m) {
-    ThrowResult near = hanging_ball(0, 0, 0.4, 0.05), far = hanging_ball(1, 0, 1.2, 0.05);
-    detect(near, 0.4, near_error_m);
-    detect(far, 1.2, far_error_m);
-    return campaign("mono", {near, far});
+    std::vector<ThrowResult> throws;
+    for (int i = 0; i < 10; ++i) {
+      throws.push_back(hanging_ball(2 * i, 0, 0.4, 0.05));
+      detect(throws.back(), 0.4, near_error_m);
+      throws.push_back(hanging_ball(2 * i + 1, 0, 1.2, 0.05));
+      detect(throws.back(), 1.2, far_error_m);
+    }
+    return campaign("mono", throws);
   };
   const LoadedCampaign mono = seen(0.03, 0.05), stereo = seen(0.01, 0.06);
   const PaperTables tables = table1_experiment().analyse({mono, mono, mono, stereo, mono, mono});
