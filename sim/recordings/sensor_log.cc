@@ -72,7 +72,7 @@ Eigen::Vector3d read(const std::optional<VectorColumns>& columns) {
 }
 
 Eigen::Quaterniond rotation(const TextColumns& file, double w, const Eigen::Vector3d& xyz) {
-  const Eigen::Quaterniond q(w, xyz.x(), xyz.y(), xyz.z());
+  Eigen::Quaterniond q(w, xyz.x(), xyz.y(), xyz.z());
   constexpr double kRoundingOfText = 0.01;
   if (std::abs(q.norm() - 1) < kRoundingOfText) return q;
   throw ScenarioError(file.place() + ": qw, qx, qy, qz have the length " + to_text(q.norm()) +
