@@ -88,7 +88,7 @@ void name_idle_keys(const std::vector<Setting>& settings) {
 // The keys of a scenario that matter here: pilot, dodger, delays.
 Scenario load(const DetectArguments& arguments) {
   const std::vector<Setting> settings = parse_settings("--set", arguments.set);
-  const Scenario scenario = with_plugin(
+  Scenario scenario = with_plugin(
       arguments.scenario.empty()
           ? parse_scenario("pilot: " + std::string(kPaperPilot), "the defaults", "", settings)
           : load_scenario(arguments.scenario, "", settings),

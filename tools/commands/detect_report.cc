@@ -8,6 +8,7 @@
 
 #include "dodge/dodger.h"
 #include "sim/files/text_table.h"
+#include "sim/world/vehicle_parameters.h"
 
 namespace dodgesim {
 
@@ -15,6 +16,7 @@ namespace {
 
 std::vector<std::int64_t> sizes_kb(const std::vector<std::string>& files) {
   std::vector<std::int64_t> sizes;
+  sizes.reserve(files.size());
   for (const std::string& file : files) {
     sizes.push_back(static_cast<std::int64_t>(std::filesystem::file_size(file) / 1000));
   }

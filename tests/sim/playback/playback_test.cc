@@ -13,7 +13,6 @@ namespace dodgesim {
 namespace {
 
 using testing::complaint;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 // Hands out events in portions of odd sizes.

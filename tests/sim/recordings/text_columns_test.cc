@@ -62,8 +62,7 @@ TEST_P(Dialects, AreOneToTheReaders) {
 
 TEST(TextColumns, MayBeSeparatedBySemicolonsOrTabs) {
   const TemporaryDirectory root;
-  for (const std::string separator : {";", "\t", " ;\t"}) {
-    const std::string s = separator;
+  for (const std::string s : {";", "\t", " ;\t"}) {
     TextColumns file(put(root / "f.csv", "a" + s + "b" + s + "c\n1" + s + s + "3\n"));
     file.read_names({"a", "c"});
     ASSERT_TRUE(file.next());
