@@ -8,6 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/bench/bench_case.h"
 #include "sim/bench/stage_curves.h"
+#include "sim/camera/looking_forward.h"
 #include "sim/flight/plan.h"
 #include "sim/loop.h"
 
@@ -95,7 +96,7 @@ dodge::Config one_camera(TimeUs window_us) {
   config.position.depth = "mono";
   config.window.window_us = window_us;
   config.cameras.resize(1);
-  config.cameras[0].X_BC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  config.cameras[0].X_BC.linear() = looking_forward();
   return config;
 }
 

@@ -8,9 +8,8 @@ static_assert(dodge::kGravityMps2 == kGravityMps2);
 
 OnboardComputer::OnboardComputer(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot)
     : pilot_(std::move(pilot)),
-      period_us_(delays.period_us()),
       delays_(delays),
-      next_cycle_us_(period_us_),
+      next_cycle_us_(delays.period_us()),
       imu_(delays.imu_us),
       states_(delays.state_estimate_us),
       ranges_(delays.range_us),
@@ -41,7 +40,7 @@ void OnboardComputer::send_range(const RangeReading& reading) {
 
 bool OnboardComputer::run_cycle(TimeUs now_us) {
   if (now_us < next_cycle_us_) return false;
-  next_cycle_us_ = now_us + period_us_;
+  next_cycle_us_ = now_us + delays_.period_us();
   imu_.deliver(now_us, [&](const dodge::ImuSample& sample) { pilot_->add_imu(sample); });
   states_.deliver(now_us, [&](const dodge::StateEstimate& state) { pilot_->add_state(state); });
   ranges_.deliver(now_us, [&](const dodge::RangeReading& reading) { pilot_->add_range(reading); });

@@ -43,7 +43,6 @@ class OnboardComputer {
   using Packet = std::vector<dodge::Event>;
 
   std::unique_ptr<dodge::Pilot> pilot_;
-  TimeUs period_us_;
   DelaySpec delays_;
   TimeUs next_cycle_us_;
   std::vector<DelayLine<Packet>> packets_;  // by camera

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sim/base/numbers.h"
+#include "sim/camera/looking_forward.h"
 
 namespace dodgesim {
 
@@ -143,8 +144,7 @@ CameraCalibration read_chain(const YamlNode& root, const std::string& name, Read
   CameraCalibration calibration;
   read_lens(keys, path + ".", context, calibration.camera);
   calibration.imu_later_us = std::llround(1e6 * keys.timeshift_cam_imu);
-  Eigen::Matrix3d R_BC;
-  R_BC << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // it looks forward
+  const Eigen::Matrix3d R_BC = looking_forward();
   calibration.camera.X_BC.linear() = R_BC;
   const YamlNode* T_cam_imu = value_of(node, "T_cam_imu");
   calibration.imu_axes_assumed = T_cam_imu == nullptr;

@@ -7,6 +7,7 @@
 #include "sim/base/numbers.h"
 #include "sim/base/time.h"
 #include "sim/base/utf8.h"
+#include "sim/camera/looking_forward.h"
 #include "sim/config/check_presets.h"
 #include "sim/config/expand.h"
 #include "sim/config/pilot.h"
@@ -18,13 +19,6 @@ namespace {
 
 constexpr std::int64_t kMostCombinations = 10000;
 constexpr std::int64_t kMostThrows = 10000000;
-
-// R_BC of a camera whose z looks along x of B.
-Eigen::Matrix3d looking_forward() {
-  Eigen::Matrix3d R_BC;
-  R_BC << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  return R_BC;
-}
 
 // Adds the complaint if a text has a control character, of ASCII or of Latin-1 (U+0080 to U+009F),
 // that is not allowed.

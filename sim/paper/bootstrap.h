@@ -9,8 +9,8 @@
 
 namespace dodgesim {
 
-// At 10 clusters 86 to 89 % of the intervals of a mean hold (normal and exponential values), at 5
-// 77 to 84 %.
+// At 10 clusters 86 to 89 % of the intervals of a mean hold, at 5 77 to 84 % (normal and
+// exponential values, simulated by hand).
 inline constexpr std::size_t kLeastClusters = 10;
 
 // The 95 % interval of a statistic of `clusters` clusters: percentiles over 1000 samples of as many

@@ -133,7 +133,7 @@ void Playback::hold(Eye& eye, TimeUs until_us) {
 
 void Playback::send_events(int camera) {
   Eye& eye = eyes_[static_cast<std::size_t>(camera)];
-  hold(eye, now_us_ + kSortedUs);
+  hold(eye, now_us_ + EventQueue::kSortedUs);
   const auto due = std::find_if(eye.held.begin(), eye.held.end(),
                                 [this](const Event& event) { return event.t_us > now_us_; });
   if (due != eye.held.begin()) last_event_us_ = std::max(last_event_us_, std::prev(due)->t_us);

@@ -23,10 +23,9 @@ struct RecordedSensors {
 
 class Playback {
  public:
-  // Events that stand in their file up to kSortedUs too late are put in order; the pilot gets
-  // others too late, and drops them. Strays (event_queue.h) are passed over.
-  static constexpr TimeUs kSortedUs = EventQueue::kSortedUs;
-
+  // Events that stand in their file up to EventQueue::kSortedUs too late are put in order; the
+  // pilot gets others too late, and drops them. Strays (event_queue.h) are passed over.
+  //
   // Cycles begin at multiples of delays.period_us() on the recording's clock, the first after the
   // first event. Throws ScenarioError if no camera has any event, or a log has no reading while
   // there are events; all functions throw as EventReader does.

@@ -90,12 +90,12 @@ TEST(DodgerFaults, AnImuThatFallsSilentInATurnIsReplacedByTheStateEstimate) {
 }
 
 // Mean depth error [m] of a ball that falls past the cameras at 6 m/s.
-double depth_error_m(TimeUs lower_camera_late_us) {
+double depth_error_m(TimeUs lower_camera_late_us, const Config& config) {
   const synthetic::Disk ball = {[](double t_s) { return Eigen::Vector3d(1.3, 0, 0.5 - 6 * t_s); },
                                 0.1, 1};
   Flight flight(still, {ball}, {}, 5);
   flight.delay_lower_camera(lower_camera_late_us);
-  Dodger dodger(two_cameras());
+  Dodger dodger(config);
   double sum_m = 0;
   int seen = 0;
   for (TimeUs t = kCycleUs; t <= 180000; t += kCycleUs) {
@@ -110,10 +110,13 @@ double depth_error_m(TimeUs lower_camera_late_us) {
 }
 
 TEST(DodgerFaults, ACameraWhosePacketsComeLaterDoesNotErrInDepth) {
-  const double in_time_m = depth_error_m(0);
+  Config config = two_cameras();
+  const double in_time_m = depth_error_m(0, config);
   for (const TimeUs late_us : {500, 1000, 2000}) {
-    EXPECT_NEAR(depth_error_m(late_us), in_time_m, 0.01) << late_us;
+    EXPECT_NEAR(depth_error_m(late_us, config), in_time_m, 0.01) << late_us;
   }
+  config.window.camera_lag_us = 0;  // does not wait for it
+  EXPECT_NEAR(depth_error_m(1000, config), in_time_m - 0.04, 0.01);
 }
 
 TEST(DodgerFaults, ASilentCameraHoldsUpTheOtherForAMomentOnly) {

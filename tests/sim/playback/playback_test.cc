@@ -198,7 +198,7 @@ TEST(Playback, HandsOverAnEventThatStandsFarTooLateInTheFile) {
     return arrival.first == events[10].t_us;
   });
   ASSERT_NE(late, arrivals.end());
-  EXPECT_GE(late->second + Playback::kSortedUs, events[899].t_us);
+  EXPECT_GE(late->second + EventQueue::kSortedUs, events[899].t_us);
 }
 
 // A little ahead and an hour, at the beginning, in the middle, and before the last event.
