@@ -2,12 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <string>
 
 #include "tests/cli/command_test.h"
 
 namespace {
 
+using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using dodgesim::testing::shell;
 using ::testing::ContainsRegex;
@@ -22,14 +24,21 @@ class SearchTest : public dodgesim::testing::CommandTest {
   }
 };
 
-TEST_F(SearchTest, ComparesEachValueWithThePresentOneOnTheSameThrows) {
-  const Outcome outcome = search("oracle " + path("out") + " --throws 12");
+TEST_F(SearchTest, PrintsWhatCompareSaysOfEachValue) {
+  const Outcome outcome = search("oracle " + path("out") + " --throws 1");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  const std::string key = "\\| `dodger.velocity_limit.max_speed_mps` \\| ";
-  EXPECT_THAT(outcome.output, ContainsRegex(key + "5 \\| [0-9]+ / 12 \\| \\| \\| present \\|"));
-  // A slower vehicle is worse: its count, not that of the present value.
-  EXPECT_THAT(outcome.output,
-              ContainsRegex(key + "3 \\| [0-9]+ / 12 \\| [1-9] / [0-9]+ \\| [0-9.]+ "));
+  const std::string key = "`dodger.velocity_limit.max_speed_mps` \\| ";
+  EXPECT_THAT(outcome.output, ContainsRegex(key + "5 \\| [0-9]+ / 6 \\| \\| \\| present \\|"));
+
+  const std::regex row(key + "3 \\| (\\d+) / (\\d+) \\| (\\d+) / (\\d+) \\| ([0-9.]+) \\|");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(outcome.output, found, row)) << outcome.output;
+  const std::string flights = path("out/oracle/");
+  const std::string said =
+      dodgesim("compare " + flights + "present " + flights + "max_speed_mps_3").output;
+  EXPECT_THAT(said, HasSubstr("/max_speed_mps_3: " + found.str(1) + " of " + found.str(2)));
+  EXPECT_THAT(said, HasSubstr(found.str(3) + " lost, " + found.str(4) + " gained"));
+  EXPECT_THAT(said, HasSubstr("p = " + found.str(5) + ","));
 }
 
 TEST_F(SearchTest, SaysWhatItCanLookFor) {
