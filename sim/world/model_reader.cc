@@ -16,22 +16,28 @@ namespace dodgesim {
 namespace {
 
 // How far an object reaches from its centre of mass, as multiples of its size: half of it in the
-// middle of a ball, the whole at the end of a club.
-constexpr double kLeastReach = 0.4, kMostReach = 1.2;
+// middle of a ball, the whole at the end of a club. From end to end it is at most as long as a cube
+// from corner to corner.
+constexpr double kLeastReach = 0.4, kMostReach = 1.2, kMostLength = 1.8;
 
-// Nearly: how far the parts reach along the edges and diagonals of a cube.
-double farthest_m(const std::vector<Convex>& parts) {
-  double farthest_m = 0;
+struct Extent {
+  double reach_m = 0, length_m = 0;
+};
+
+// Nearly: of the parts along the edges and diagonals of a cube.
+Extent extent_of(const std::vector<Convex>& parts) {
+  Extent extent;
   for (const int x : {-1, 0, 1}) {
     for (const int y : {-1, 0, 1}) {
       for (const int z : {-1, 0, 1}) {
-        const Eigen::Vector3d along(x, y, z);
-        if (along.isZero()) continue;
-        farthest_m = std::max(farthest_m, reach_m(parts, along.normalized()));
+        const Eigen::Vector3d along = Eigen::Vector3d(x, y, z).normalized();
+        const double ahead_m = reach_m(parts, along), behind_m = reach_m(parts, -along);
+        extent.reach_m = std::max(extent.reach_m, ahead_m);
+        extent.length_m = std::max(extent.length_m, ahead_m + behind_m);
       }
     }
   }
-  return farthest_m;
+  return extent;
 }
 
 }  // namespace
@@ -231,14 +237,22 @@ void ModelReader::check_reach(int body, double size_m) const {
     if (!collides(model_, g)) continue;
     parts.push_back(Convex::from_geom(model_, g, file_));
   }
-  const double reach_m = farthest_m(parts);
-  if (parts.empty() || (reach_m > kLeastReach * size_m && reach_m < kMostReach * size_m)) return;
+  if (parts.empty()) return;
+  const auto [reach_m, length_m] = extent_of(parts);
+  if (reach_m <= kLeastReach * size_m || reach_m >= kMostReach * size_m) {
+    throw ScenarioError(
+        file_ +
+        formatted(": with a size of %.3g m its geoms that collide reach %.3g m from its centre "
+                  "of mass, but must reach %.3g to %.3g m: reference_size_m is the longest "
+                  "extension of the model.",
+                  size_m, reach_m, kLeastReach * size_m, kMostReach * size_m));
+  }
+  if (length_m < kMostLength * size_m) return;
   throw ScenarioError(
-      file_ +
-      formatted(": with a size of %.3g m its geoms that collide reach %.3g m from its centre "
-                "of mass, but must reach %.3g to %.3g m: reference_size_m is the longest "
-                "extension of the model.",
-                size_m, reach_m, kLeastReach * size_m, kMostReach * size_m));
+      file_ + formatted(": with a size of %.3g m its geoms that collide are %.3g m long from end "
+                        "to end: reference_size_m is the longest extension of the model, a ball's "
+                        "diameter.",
+                        size_m, length_m));
 }
 
 ObjectPhysics ModelReader::object(const std::string& prefix, double size_m) const {

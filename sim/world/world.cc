@@ -29,8 +29,7 @@ World::World(const WorldSpec& spec) : model_(compose_model(spec)) {
   const ModelReader vehicle(*model_, spec.models_dir + "/vehicles/" + spec.vehicle + ".xml");
   vehicle_body_ = vehicle.find(mjOBJ_BODY, "vehicle");
   vehicle.override_vehicle(*model_, *data_, spec.vehicle_overrides);
-  vehicle_free_ = vehicle.free_body(vehicle_body_);  // else its geoms would seem the room's
-  ModelReader(*model_, spec.models_dir + "/rooms/" + spec.room + ".xml").check_room();
+  vehicle_free_ = vehicle.free_body(vehicle_body_);
   vehicle_ = vehicle.vehicle(spec.vehicle_overrides.mass_scale);
   for (int i = 0; i < static_cast<int>(spec.objects.size()); ++i) {
     const ObjectSpec& of = spec.objects[static_cast<std::size_t>(i)];
@@ -39,6 +38,8 @@ World::World(const WorldSpec& spec) : model_(compose_model(spec)) {
     objects_free_.push_back(object.free_body(object_bodies_.back()));
     objects_.push_back(object.object(object_prefix(i), of.size_m));
   }
+  // At last, as the geoms of a body that is not free would seem the room's.
+  ModelReader(*model_, spec.models_dir + "/rooms/" + spec.room + ".xml").check_room();
   snapshot_.objects.resize(objects_.size());
   snapshot_.launched.resize(objects_.size());
   object_a_W_.resize(objects_.size());

@@ -123,18 +123,18 @@ TEST_F(OwnModels, GeometryMassAndInertiaScaleWithTheSize) {
 
 TEST_F(OwnModels, AssetsOutsideTheFolderAreRefused) {
   for (const char* file : {"../../secret.png", "/etc/passwd", "textures/../../x.png"}) {
-    write_object(object("<geom size='0.1'/>",
+    write_object(object("<geom size='0.05'/>",
                         "<asset><texture type='2d' file='" + std::string(file) + "'/></asset>"));
     EXPECT_THAT(message_of(spec_), AllOf(HasSubstr("own.xml"), HasSubstr("leaves the models")));
   }
-  write_object(object("<geom size='0.1'/>", "<include file='ball.xml'/>"));
+  write_object(object("<geom size='0.05'/>", "<include file='ball.xml'/>"));
   EXPECT_THAT(message_of(spec_), HasSubstr("must not use <include>"));
 }
 
 TEST_F(OwnModels, ObjectsMustNotChangeTheWorldAroundThem) {
   for (const char* element : {"<option gravity='0 0 0'/>", "<compiler angle='radian'/>",
                               "<size njmax='1'/>", "<default/>"}) {
-    write_object(object("<geom size='0.1'/>", element));
+    write_object(object("<geom size='0.05'/>", element));
     EXPECT_THAT(message_of(spec_), HasSubstr("must not use"));
   }
 }
@@ -142,7 +142,7 @@ TEST_F(OwnModels, ObjectsMustNotChangeTheWorldAroundThem) {
 TEST_F(OwnModels, AnObjectIsOneBodyWithNothingBesideIt) {
   for (const char* beside :
        {"<geom size='0.5'/>", "<body name='other'><geom size='0.1'/></body>"}) {
-    std::string text = object("<geom size='0.1'/>");
+    std::string text = object("<geom size='0.05'/>");
     text.insert(text.find("</worldbody>"), beside);
     write_object(text);
     EXPECT_THAT(message_of(spec_),
@@ -154,14 +154,14 @@ TEST_F(OwnModels, RoomsMustStandStill) {
   std::ofstream(directory_ / "rooms" / "own.xml")
       << "<mujoco><worldbody>\n<body><freejoint/><geom size='1'/></body></worldbody></mujoco>";
   spec_.room = "own";
-  write_object(object("<geom size='0.1'/>"));
+  write_object(object("<geom size='0.05'/>"));
   EXPECT_THAT(message_of(spec_),
               AllOf(HasSubstr("rooms/own.xml:2: "), HasSubstr("must not use <freejoint>")));
 }
 
 // Throws, controller and IMU know of gravity, too.
 TEST_F(OwnModels, RoomsAndVehiclesMustNotChangeGravityAndAir) {
-  write_object(object("<geom size='0.1'/>"));
+  write_object(object("<geom size='0.05'/>"));
   for (const std::string& file :
        {"rooms/" + spec_.room + ".xml", "vehicles/" + spec_.vehicle + ".xml"}) {
     const std::filesystem::path path = directory_ / file;
@@ -180,7 +180,7 @@ TEST_F(OwnModels, RoomsAndVehiclesMustNotChangeGravityAndAir) {
 
 TEST_F(OwnModels, DefaultsOfARoomAreOfItsOwnClasses) {
   spec_.room = "own";
-  write_object(object("<geom size='0.1'/>"));
+  write_object(object("<geom size='0.05'/>"));
   const auto room = [&](const std::string& defaults, const std::string& attribute) {
     std::ofstream(directory_ / "rooms" / "own.xml")
         << "<mujoco><default>\n"
@@ -196,7 +196,7 @@ TEST_F(OwnModels, DefaultsOfARoomAreOfItsOwnClasses) {
 
 TEST_F(OwnModels, NothingOfARoomIsSeenByTheCamerasAloneOrByTheRangeSensorAlone) {
   spec_.room = "own";
-  write_object(object("<geom size='0.1'/>"));
+  write_object(object("<geom size='0.05'/>"));
   const auto geom_in_group = [&](int group) {
     std::ofstream(directory_ / "rooms" / "own.xml")
         << "<mujoco><worldbody><geom name='wall' size='1' group='" << group
@@ -262,7 +262,7 @@ TEST_F(OwnModels, ErrorsOfMujocoNameFileAndLine) {
 }
 
 TEST_F(OwnModels, AMissingTextureIsNamed) {
-  write_object(object("<geom size='0.1'/>",
+  write_object(object("<geom size='0.05'/>",
                       "<asset><texture name='t' type='2d' file='textures/none.png'/></asset>"));
   EXPECT_THAT(message_of(spec_), AllOf(HasSubstr("own.xml"), HasSubstr("none.png")));
 }
@@ -354,16 +354,21 @@ TEST_F(OwnModels, AnObjectIsAsLargeAsItsReferenceSizeSays) {
     return world_message();
   };
   EXPECT_EQ(with("<geom size='0.05'/>"), "no error");
+  EXPECT_EQ(with("<geom type='box' size='0.05 0.05 0.05'/>"), "no error");
   EXPECT_EQ(with("<geom type='capsule' size='0.01' fromto='0 0 -0.03 0 0 0.06'/>"), "no error");
+  EXPECT_EQ(with("<geom type='capsule' size='0.01' fromto='0 0 0 0 0 0.09'/>"), "no error");
   EXPECT_THAT(with("<geom size='0.15'/>"),
               HasSubstr("own.xml: with a size of 0.2 m its geoms that collide reach 0.3 m from its "
                         "centre of mass, but must reach 0.08 to 0.24 m"));
+  EXPECT_THAT(with("<geom size='0.1'/>"),
+              HasSubstr("own.xml: with a size of 0.2 m its geoms that collide are 0.4 m long from "
+                        "end to end"));
   EXPECT_THAT(with("<geom size='0.035'/>"), HasSubstr("reach 0.07 m"));
   EXPECT_THAT(with("<geom size='0.05' pos='1 0 0'/>"), HasSubstr("reach 2.1 m"));
 }
 
 TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
-  const std::string good = object("<geom size='0.1'/>");
+  const std::string good = object("<geom size='0.05'/>");
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
@@ -372,6 +377,7 @@ TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
   };
   EXPECT_THAT(with("name='body'", "name='other'"), HasSubstr("no body named 'body'"));
   EXPECT_THAT(with("<freejoint/>", "<joint type='hinge'/>"), HasSubstr("free joint"));
+  EXPECT_THAT(with("<freejoint/>", ""), HasSubstr("own.xml: the body must have a free joint"));
   for (const char* of_joint : {"damping", "armature", "frictionloss"}) {
     EXPECT_THAT(with("<freejoint/>", std::string("<joint type='free' ") + of_joint + "='0.1'/>"),
                 HasSubstr("must have no damping, armature"));

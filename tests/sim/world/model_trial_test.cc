@@ -57,7 +57,7 @@ class ModelTrial : public ::testing::Test {
     return "";
   }
 
-  static constexpr const char* kBall = "<geom size='0.1' group='1' contype='4' conaffinity='7'/>";
+  static constexpr const char* kBall = "<geom size='0.05' group='1' contype='4' conaffinity='7'/>";
   testing::TemporaryDirectory own_;
   fs::path directory_;
   WorldSpec spec_;
@@ -107,7 +107,7 @@ TEST_F(ModelTrial, BrokenMeshesCostASentence) {
 }
 
 TEST_F(ModelTrial, NumbersThatAreNoneCostASentence) {
-  write_object("<geom size='0.1' pos='nan 0 0' group='1' contype='4' conaffinity='7'/>");
+  write_object("<geom size='0.05' pos='nan 0 0' group='1' contype='4' conaffinity='7'/>");
   EXPECT_THAT(complaint(), AllOf(HasSubstr("own.xml"), ::testing::EndsWith(".")));
   write_object(kBall, "", "1 1 nan");
   EXPECT_THAT(complaint(), AllOf(HasSubstr("own.xml"), ::testing::EndsWith(".")));
@@ -124,7 +124,7 @@ std::string png_head(unsigned char size_high_byte) {
 
 TEST_F(ModelTrial, HugeAndBrokenTexturesCostASentence) {
   const auto with_texture = [&](const std::string& attributes) {
-    write_object("<geom size='0.1' material='m' group='1' contype='4' conaffinity='7'/>",
+    write_object("<geom size='0.05' material='m' group='1' contype='4' conaffinity='7'/>",
                  "<texture name='t' " + attributes + "/><material name='m' texture='t'/>");
     return complaint();
   };
