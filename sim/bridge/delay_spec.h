@@ -47,7 +47,9 @@ struct DelaySpec {
   template <class Visitor>
   void visit(Visitor& v) {
     v("transport_us", transport_us, 0, 100000,
-      "USB: end of a packet to the computer (1 to 2 ms worst case for USB cameras).");
+      "USB: end of a packet to the computer (1 to 2 ms worst case for USB cameras). Of events that "
+      "come later than dodger.window.event_timeout_us our pilots see the fewer the later, as their "
+      "window does not wait: raise that, too, or use perception_us.");
     v("lower_camera_us", lower_camera_us, 0, 100000,
       "The packets of the lower camera come later than the upper one's by this. Pilots that know "
       "the truth are as fast as the upper one.");

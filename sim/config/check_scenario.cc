@@ -146,6 +146,22 @@ void check_height_monitor(const Scenario& scenario, ReadContext& context) {
                            "dodger.height_monitor.enabled: false.");
 }
 
+// Our own pilots look at the events of a window that ends at most the timeout before now.
+void check_transport(const Scenario& scenario, ReadContext& context) {
+  const dodge::WindowConfig& window = scenario.dodger.window;
+  const std::int64_t oldest_us = window.window_us + window.event_timeout_us;
+  if (!perceives(scenario.pilot) || scenario.pilot == kPluginPilot) return;
+  if (scenario.delays.transport_us < oldest_us) return;
+  context.problems.add(
+      context.position_of("delays.transport_us"),
+      "delays.transport_us is " + std::to_string(scenario.delays.transport_us) +
+          ", but must be less than dodger.window.window_us and event_timeout_us together, which "
+          "are " +
+          std::to_string(oldest_us) +
+          ": the pilot would never see an event; raise the timeout, or delay what it sees by "
+          "delays.perception_us instead.");
+}
+
 void check_rate(const std::string& key, int rate_hz, ReadContext& context) {
   if (SampleClock::fits(rate_hz)) return;
   context.problems.add(context.position_of(key),
@@ -227,6 +243,7 @@ void check_keys_together(const Scenario& scenario, ReadContext& context) {
   check_dodger(scenario, context);
   check_vehicle(scenario, context);
   check_height_monitor(scenario, context);
+  check_transport(scenario, context);
   check_rates(scenario, context);
   check_range_sensor(scenario, context);
   check_thrust(scenario, context);

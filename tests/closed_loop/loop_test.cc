@@ -99,7 +99,7 @@ TEST(Loop, TheOracleDodgesMediumThrows) {
 
 TEST(Loop, LatencyDecidesWhetherADodgeSucceeds) {
   const std::string text = std::string(kHover) +
-                           "throw: {distance_m: 2.5, speed_mps: 6, size_m: 0.3,\n"
+                           "pilot: oracle\nthrow: {distance_m: 2.5, speed_mps: 6, size_m: 0.3,\n"
                            "  bearing_deg: !uniform [-20, 20], launch_s: 0.2}\nafter_s: 0.2\n";
   const Scenario quick = scenario(text + "delays: {transport_us: 1000, command_us: 3000}\n");
   const Scenario slow = scenario(text + "delays: {transport_us: 100000, command_us: 100000}\n");

@@ -54,6 +54,15 @@ TEST(Scenario, WithoutTheKeyThrowNobodyThrows) {
   EXPECT_TRUE(parse("throw: {}\n").throw_spec.has_value());
 }
 
+TEST(Scenario, EventsMayComeLaterThanTheWindowIfTheTimeoutOrThePilotWaits) {
+  const std::string late = "delays: {transport_us: 90000}\n";
+  EXPECT_THROW(parse(late), ScenarioError);
+  EXPECT_THROW(parse("pilot: dodgesim\n" + late), ScenarioError);
+  EXPECT_NO_THROW(parse("dodger: {window: {event_timeout_us: 90000}}\n" + late));
+  EXPECT_NO_THROW(parse("pilot: plugin\n" + late));
+  EXPECT_NO_THROW(parse("pilot: oracle\n" + late));
+}
+
 TEST(Scenario, DistributionsAreRead) {
   const Scenario scenario = parse(
       "throw:\n"
