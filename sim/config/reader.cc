@@ -373,6 +373,10 @@ void Reader::model(const char* key, NameChoice& value, const char* folder, const
       const std::string name = full(key) + "[" + std::to_string(i) + "]";
       if (!read_model(node->items[i], name, folder, names[i])) return;
     }
+  } else if (node->kind != Kind::kScalar || !node->tag.empty()) {
+    return problem(*node, full(key),
+                   std::string("must be the name of a file in models/") + folder +
+                       " without .xml, or !choice [a, b, ...] of such names");
   } else if (!read_model(*node, full(key), folder, names[0])) {
     return;
   }

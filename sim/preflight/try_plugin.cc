@@ -60,7 +60,8 @@ void try_making(const Scenario& scenario) {
                         " s to make a pilot.");
   }
   if (answer.said.empty()) {
-    throw ScenarioError(subject + " crashes while it makes a pilot or deletes it again.");
+    throw ScenarioError(subject +
+                        " crashes while it is loaded, makes a pilot or deletes it again.");
   }
   if (answer.said.size() > 1) throw ScenarioError(answer.said.substr(1));
 }

@@ -108,7 +108,7 @@ TEST_F(PluginTest, IsRefusedBeforeTheFirstThrow) {
       {"", "s.yaml:1:8: pilot is plugin, but no library is given: add --plugin FILE.so."},
       {"--set pilot=none --plugin " + library("obedient"), "--set pilot=plugin makes it fly"},
       {"--set 'plugin_parameters=die at once' --plugin " + library("obedient"),
-       "crashes while it makes"},
+       "crashes while it is loaded, makes a pilot or deletes it"},
       {"--set plugin_parameters=refuse --plugin " + library("obedient"),
        "libobedient.so makes no pilot: I take no such parameters."},
       {"--set 'plugin_parameters=take all memory at once' --plugin " + library("obedient"),

@@ -208,6 +208,9 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:1:17: throw.object is \"anvil\", but there is no model file "},
     {"MissingRoom", "room: attic\n",
      "bad.yaml:1:7: room is \"attic\", but there is no model file "},
+    {"DrawnModelOfAWrongTag", "throw: {object: !uniform [ball, box]}\n",
+     "bad.yaml:1:17: throw.object is !uniform a list of 2, but must be the name of a file in "
+     "models/objects without .xml, or !choice [a, b, ...] of such names."},
     {"MissingChoice", "throw: {object: !choice [ball, anvil]}\n",
      "bad.yaml:1:32: throw.object[1] is \"anvil\", but there is no model file "},
     {"PathAsModel", "room: ../../etc/passwd\n",
@@ -335,6 +338,9 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:1:28: sensors.range.rate_hz is 10, too slow for dodger.height_monitor.max_gap_us, "
      "which is 50000: the pilot would never land; raise it, or set "
      "dodger.height_monitor.enabled: false."},
+    {"EventsLaterThanTheWindow", "delays: {transport_us: 20000}\n",
+     "bad.yaml:1:24: delays.transport_us is 20000, but must be less than dodger.window.window_us "
+     "and event_timeout_us together, which are 20000: the pilot would never see an event"},
     {"ImuRateOffTheTicks", "sensors: {imu: {rate_hz: 300}}\n",
      "bad.yaml:1:26: sensors.imu.rate_hz is 300, but must divide 4000."},
     {"RangeSensorRateOffTheTicks", "sensors: {range: {rate_hz: 240}}\n",
