@@ -35,14 +35,20 @@ void check(const Throw& toss) {
   }
 }
 
-void check_launch_speed(const Throw& toss, double speed_mps) {
+// climb_m: from the launch to the aim point.
+void check_launch_speed(const Throw& toss, double climb_m, double speed_mps) {
   if (speed_mps <= kMostLaunchSpeedMps) return;
+  const char* reason = "the air slows it down; reduce throw.distance_m";
+  if (toss.speed_mps < 3) reason = "so slow a throw is a lob; raise throw.speed_mps";
+  if (std::abs(climb_m) > toss.distance_m) {
+    reason =
+        "the way up or down is longer than that; bring throw.launch_height_m nearer to the "
+        "vehicle's height, or lower throw.speed_mps";
+  }
   throw ScenarioError(formatted(
       "A throw over %.3g m at %.3g m/s would have to leave the hand at %.0f m/s, but %.0f is the "
       "most: %s.",
-      toss.distance_m, toss.speed_mps, speed_mps, kMostLaunchSpeedMps,
-      toss.speed_mps < 3 ? "so slow a throw is a lob; raise throw.speed_mps"
-                         : "the air slows it down; reduce throw.distance_m"));
+      toss.distance_m, toss.speed_mps, speed_mps, kMostLaunchSpeedMps, reason));
 }
 
 }  // namespace
@@ -98,7 +104,7 @@ BodyState solve_throw(const Throw& toss, const ObjectPhysics& object,
     const Eigen::Vector3d error = miss(launch.v_W);
     if (!error.allFinite()) break;
     if (error.norm() < kAimToleranceM) {
-      check_launch_speed(toss, launch.v_W.norm());
+      check_launch_speed(toss, aim_W.z() - launch.p_W.z(), launch.v_W.norm());
       return launch;
     }
     const double h = 1e-4 * launch.v_W.norm();
