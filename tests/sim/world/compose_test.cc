@@ -368,7 +368,7 @@ TEST_F(OwnModels, AnObjectIsAsLargeAsItsReferenceSizeSays) {
 }
 
 TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
-  const std::string good = object("<geom size='0.05'/>");
+  const std::string good = object("<geom size='0.05' group='1'/>");
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
