@@ -205,22 +205,30 @@ PaperTables by_speed(const std::vector<LoadedCampaign>& campaigns) {
 struct Shape {
   const char* object;
   const char* size_m;
-  const char* seed;
+  int seed;
 };
-// Each with throws of its own, so that all of them can be counted together.
-constexpr Shape kShapes[] = {{"ball", "0.1", "4021"},      {"box", "0.3", "4022"},
-                             {"marker", "0.14", "4023"},   {"frisbee", "0.27", "4024"},
-                             {"quadrotor", "0.3", "4025"}, {"bowling_pin", "0.38", "4026"}};
+constexpr Shape kShapes[] = {{"ball", "0.1", 4021},      {"box", "0.3", 4022},
+                             {"marker", "0.14", 4023},   {"frisbee", "0.27", 4024},
+                             {"quadrotor", "0.3", 4025}, {"bowling_pin", "0.38", 4026}};
+
+// How they fly: tumbling as the scenario says, or as they are held, when the thin ones are hard to
+// see. Each has throws of its own, so that all of them can be counted together.
+constexpr bool kTumbling[] = {true, false};
+constexpr int kSeedsNotTumbling = 20;  // after the others
 
 std::vector<PaperFlight> flights_of_shapes() {
   std::vector<PaperFlight> flights;
-  for (const Shape& shape : kShapes) {
-    for (PaperFlight flight : flights_of_both({"outdoor_shapes"})) {
-      flight.name += std::string("_") + shape.object;
-      flight.settings.push_back(paper_setting("throw.object", shape.object));
-      flight.settings.push_back(paper_setting("throw.size_m", shape.size_m));
-      flight.settings.push_back(paper_setting("seed", shape.seed));
-      flights.push_back(flight);
+  for (const bool tumbling : kTumbling) {
+    for (const Shape& shape : kShapes) {
+      const int seed = tumbling ? shape.seed : shape.seed + kSeedsNotTumbling;
+      for (PaperFlight flight : flights_of_both({"outdoor_shapes"})) {
+        flight.name += std::string("_") + shape.object + (tumbling ? "" : "_not_tumbling");
+        flight.settings.push_back(paper_setting("throw.object", shape.object));
+        flight.settings.push_back(paper_setting("throw.size_m", shape.size_m));
+        flight.settings.push_back(paper_setting("seed", std::to_string(seed)));
+        if (!tumbling) flight.settings.push_back(paper_setting("throw.spin_radps", "0"));
+        flights.push_back(flight);
+      }
     }
   }
   return flights;
@@ -228,9 +236,12 @@ std::vector<PaperFlight> flights_of_shapes() {
 
 PaperTables by_shape(const std::vector<LoadedCampaign>& campaigns) {
   std::vector<Set> sets;
-  for (const Shape& shape : kShapes) {
-    const std::string name = std::string(shape.object) + ", " + shape.size_m + " m";
-    sets.push_back(set_of(name, campaigns, sets.size()));
+  for (const bool tumbling : kTumbling) {
+    for (const Shape& shape : kShapes) {
+      const std::string name =
+          std::string(shape.object) + ", " + shape.size_m + (tumbling ? " m" : " m, not tumbling");
+      sets.push_back(set_of(name, campaigns, sets.size()));
+    }
   }
   return avoidance_tables(sets, {{"", any_throw}}, "all shapes");
 }
