@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "sim/files/input_file.h"
 
 namespace dodgesim {
 namespace {
@@ -29,9 +29,7 @@ std::vector<fs::path> documents() {
 }
 
 std::string text_of(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream(fs::path(DODGESIM_SOURCE_DIR) / file).rdbuf();
-  return text.str();
+  return read_file(fs::path(DODGESIM_SOURCE_DIR) / file);
 }
 
 // The README with single spaces for its line breaks.
@@ -94,9 +92,7 @@ TEST(Documents, LinkToFilesThatAreThere) {
   int links = 0;
   const std::regex link(R"(\]\(([^)#\s]+)[^)]*\))");
   for (const fs::path& document : documents()) {
-    std::ostringstream text;
-    text << std::ifstream(document).rdbuf();
-    const std::string all = text.str();
+    const std::string all = read_file(document);
     for (std::sregex_iterator it(all.begin(), all.end(), link), end; it != end; ++it) {
       const std::string target = (*it)[1];
       if (target.find("://") != std::string::npos) continue;

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "tests/complaint.h"
 #include "tests/dodge/synthetic_events.h"
 
 namespace dodge {
@@ -23,12 +24,7 @@ Config valid() {
 
 // The sentence of the exception; empty if there is none.
 std::string complaint(const Config& config) {
-  try {
-    validate(config);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return dodgesim::testing::complaint<std::invalid_argument>([&] { validate(config); });
 }
 
 TEST(Config, DefaultsAreValid) { EXPECT_EQ(complaint(valid()), ""); }

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 
@@ -11,6 +9,7 @@
 #include "sim/flight/setup.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/closed_loop/pictures/decoded.h"
+#include "tests/sim/files/temporary_directory.h"
 
 namespace dodgesim {
 namespace {
@@ -19,20 +18,11 @@ namespace fs = std::filesystem;
 
 using testing::kBlack, testing::kGrey, testing::kWhite;
 
-// A folder of this test's own, removed afterwards.
 class FilmTest : public ::testing::Test {
  protected:
-  FilmTest() {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("dodgesim_" + std::string(test->name()) + "_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
-  }
-  ~FilmTest() override { fs::remove_all(folder_); }
-
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  fs::path folder_;
+  const testing::TemporaryDirectory folder_;
 };
 
 TEST(EventPicture, ShowsOnWhiteAndOffBlackAtTheirPixels) {

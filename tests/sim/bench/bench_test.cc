@@ -9,6 +9,7 @@
 #include "sim/base/error.h"
 #include "sim/bench/timed_emulation.h"
 #include "sim/files/json.h"
+#include "tests/complaint.h"
 
 namespace dodgesim {
 namespace {
@@ -54,12 +55,7 @@ TEST(Bench, SelectsNamesAndTheirFirstParts) {
 
 TEST(Bench, RefusesUnknownNamesWithTheClosestOne) {
   const auto refusal = [](const std::string& name) -> std::string {
-    try {
-      select(three_cases(), {"a", name});
-    } catch (const ScenarioError& error) {
-      return error.what();
-    }
-    return "";
+    return testing::complaint<ScenarioError>([&] { select(three_cases(), {"a", name}); });
   };
   EXPECT_EQ(refusal("a.thre"), "There is no benchmark case \"a.thre\"; did you mean a.three?");
   EXPECT_EQ(refusal("three"), "There is no benchmark case \"three\"; did you mean a.three?");

@@ -2,17 +2,15 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <thread>
 
 #include "sim/campaign/campaign.h"
 #include "sim/outcome/blank_result.h"
+#include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/tables/fake_throws.h"
 
 namespace dodgesim {
@@ -20,16 +18,10 @@ namespace dodgesim {
 class CampaignTest : public ::testing::Test {
  protected:
   CampaignTest() {
-    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    root_ = std::filesystem::temp_directory_path() /
-            ("dodgesim_" + name + "_" + std::to_string(::getpid()));
-    std::filesystem::remove_all(root_);
-    std::filesystem::create_directories(root_);
     scenario_ = parse_scenario(
         "seed: 4\nrepeats: 12\nthrow: {size_m: !choice [0.1, 0.2], distance_m: !uniform [2, 5]}\n",
         "fake.yaml", "");
   }
-  ~CampaignTest() override { std::filesystem::remove_all(root_); }
 
   CampaignOptions options(const std::string& name, int jobs = 1) const {
     CampaignOptions options;
@@ -51,15 +43,8 @@ class CampaignTest : public ::testing::Test {
     return result;
   }
 
-  static std::string read(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    EXPECT_TRUE(file) << path;
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-
-  std::filesystem::path root_;
+  const testing::TemporaryDirectory directory_;
+  const std::filesystem::path root_ = directory_.path();
   Scenario scenario_;
 };
 

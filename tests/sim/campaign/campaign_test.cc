@@ -6,10 +6,10 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <thread>
 
 #include "sim/base/error.h"
+#include "sim/files/input_file.h"
 #include "sim/files/json.h"
 #include "sim/files/output_file.h"
 #include "sim/outcome/blank_result.h"
@@ -31,7 +31,7 @@ TEST_F(CampaignTest, WritesTheTruthOnRequestOnly) {
   CampaignOptions with = options("with");
   with.truth = true;
   const CampaignSummary summary = run_campaign(scenario_, with, fly_one);
-  EXPECT_EQ(read(root_ / "with/truth.csv"),
+  EXPECT_EQ(read_file(root_ / "with/truth.csv"),
             "throw,cycle_us,evading,events,object_events,found_events,found_object_events,"
             "event_precision,event_recall\n"
             "0,500000,0,100,40,20,10,0.5,0.25\n"
@@ -42,7 +42,7 @@ TEST_F(CampaignTest, WritesTheTruthOnRequestOnly) {
   run_campaign(scenario_, options("without"), fly_one);
   EXPECT_FALSE(fs::exists(root_ / "without/truth.csv"));
   for (const char* name : {"throws.csv", "detections.csv", "table.md"}) {
-    EXPECT_EQ(read(root_ / "with" / name), read(root_ / "without" / name));
+    EXPECT_EQ(read_file(root_ / "with" / name), read_file(root_ / "without" / name));
   }
   // What an earlier run left is not taken for this one's.
   CampaignOptions again = options("with");
@@ -59,12 +59,12 @@ TEST_F(CampaignTest, ResultsAreByteIdenticalForAnyNumberOfWorkers) {
     run_campaign(scenario_, options(name, jobs), fly_one);
     for (const char* file :
          {"scenario.resolved.yaml", "throws.csv", "detections.csv", "table.md", "table.csv"}) {
-      EXPECT_EQ(read(root_ / "one" / file), read(root_ / name / file)) << file;
+      EXPECT_EQ(read_file(root_ / "one" / file), read_file(root_ / name / file)) << file;
     }
   }
-  const std::string throws = read(root_ / "one" / "throws.csv");
+  const std::string throws = read_file(root_ / "one" / "throws.csv");
   EXPECT_EQ(std::count(throws.begin(), throws.end(), '\n'), 13);
-  const std::string detections = read(root_ / "one" / "detections.csv");
+  const std::string detections = read_file(root_ / "one" / "detections.csv");
   EXPECT_EQ(std::count(detections.begin(), detections.end(), '\n'), 1 + 66);
 }
 
@@ -167,12 +167,12 @@ TEST_F(CampaignTest, AnotherScenarioIsNotOverwrittenUnlessForced) {
   const auto fly_one = [&](int index) { return fly(index); };
   run_campaign(scenario_, options("a"), fly_one);
   EXPECT_THROW(run_campaign(scenario_, options("a"), fly_one), ScenarioError) << "the same again";
-  const std::string before = read(root_ / "a" / "throws.csv");
+  const std::string before = read_file(root_ / "a" / "throws.csv");
 
   Scenario other = scenario_;
   other.seed = 5;
   EXPECT_THROW(run_campaign(other, options("a"), fly_one), ScenarioError);
-  EXPECT_EQ(read(root_ / "a" / "throws.csv"), before);
+  EXPECT_EQ(read_file(root_ / "a" / "throws.csv"), before);
   CampaignOptions forced = options("a");
   forced.force = true;
   EXPECT_NO_THROW(run_campaign(other, forced, fly_one));
@@ -180,20 +180,20 @@ TEST_F(CampaignTest, AnotherScenarioIsNotOverwrittenUnlessForced) {
 
 TEST_F(CampaignTest, ADirectoryOfSomethingElseIsLeftAlone) {
   fs::create_directories(root_ / "home");
-  std::ofstream(root_ / "home" / "precious.txt") << "x";
+  testing::put(root_ / "home" / "precious.txt", "x");
   const auto fly_home = [&](bool force) {
     CampaignOptions home = options("home");
     home.force = force;
     run_campaign(scenario_, home, [&](int i) { return fly(i); });
   };
   EXPECT_THROW(fly_home(false), ScenarioError);
-  std::ofstream(root_ / "home" / "throws.csv") << "precious, too";
+  testing::put(root_ / "home" / "throws.csv", "precious, too");
   EXPECT_THROW(fly_home(false), ScenarioError);
   EXPECT_THROW(fly_home(true), ScenarioError);
-  EXPECT_EQ(read(root_ / "home" / "throws.csv"), "precious, too");
+  EXPECT_EQ(read_file(root_ / "home" / "throws.csv"), "precious, too");
   fs::remove(root_ / "home" / "throws.csv");
   EXPECT_NO_THROW(fly_home(true)) << "beside other files, as shards are";
-  EXPECT_EQ(read(root_ / "home" / "precious.txt"), "x");
+  EXPECT_EQ(read_file(root_ / "home" / "precious.txt"), "x");
   EXPECT_THROW(run_campaign(scenario_, options("home/precious.txt"), [&](int i) { return fly(i); }),
                IoError);
 }
@@ -215,7 +215,7 @@ TEST_F(CampaignTest, TheManifestSaysWhatFlewAndWhere) {
   with_facts.command_line = "dodgesim run fake.yaml \xff";
   with_facts.gl_renderer = [] { return std::string("llvmpipe"); };
   run_campaign(scenario_, with_facts, [&](int index) { return fly(index); });
-  const auto manifest = parse_json(read(root_ / "out" / "manifest.json"));
+  const auto manifest = parse_json(read_file(root_ / "out" / "manifest.json"));
   EXPECT_GE(manifest["program"]["commit"].get<std::string>().size(), 7u);
   EXPECT_THAT(manifest["program"]["compiler"].get<std::string>(), HasSubstr("g++ "));
   for (const char* library : {"mujoco", "opencv", "eigen", "yaml_cpp", "gl_renderer"}) {
@@ -236,7 +236,7 @@ TEST_F(CampaignTest, AFileIsAbsentUntilItIsWhole) {
   }
   EXPECT_FALSE(fs::exists(root_ / "file.txt.partial")) << "dropped without commit()";
   write_file(path, "whole");
-  EXPECT_EQ(read(path), "whole");
+  EXPECT_EQ(read_file(path), "whole");
 }
 
 }  // namespace

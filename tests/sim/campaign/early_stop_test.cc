@@ -4,6 +4,7 @@
 #include "sim/base/error.h"
 #include "sim/campaign/load_campaign.h"
 #include "sim/campaign/merge.h"
+#include "sim/files/input_file.h"
 #include "sim/tables/report.h"
 #include "sim/tables/statistics_table.h"
 #include "tests/sim/campaign/campaign_fixture.h"
@@ -31,7 +32,7 @@ TEST_F(EarlyStopCampaignTest, FliesNoMoreThanItNeedsWhateverTheWorkers) {
   EXPECT_EQ(static_cast<int>(one.results.size()), one.wanted);
   EXPECT_EQ(one.wanted, three.wanted);
   for (const char* file : kReproducible) {
-    EXPECT_EQ(read(root_ / "one" / file), read(root_ / "three" / file)) << file;
+    EXPECT_EQ(read_file(root_ / "one" / file), read_file(root_ / "three" / file)) << file;
   }
 }
 
@@ -47,11 +48,11 @@ TEST_F(EarlyStopCampaignTest, IsCompleteForWhoReadsItAndStatesTheIntervalThatHol
   EXPECT_EQ(headline.interval_name(), "sequential 95 %");
   EXPECT_NEAR(headline.interval().half_width(), 0.2, 1e-3) << "as asked for, where it is not cut";
   EXPECT_NE(headline.interval().lo, wilson(headline.count, headline.of).lo);
-  const std::string table = read(root_ / "out/table.md");
+  const std::string table = read_file(root_ / "out/table.md");
   EXPECT_THAT(table, HasSubstr("Ended by stop after " + std::to_string(flown) + " throws"));
   EXPECT_THAT(table, HasSubstr("Dodged: " + rate_text(headline)));
   EXPECT_THAT(rate_text(headline), ::testing::EndsWith(", sequential 95 %)"));
-  EXPECT_THAT(read(root_ / "out/table.csv"), HasSubstr(",sequential 95 %,"));
+  EXPECT_THAT(read_file(root_ / "out/table.csv"), HasSubstr(",sequential 95 %,"));
   // The pilot's hits are what it did not dodge: Wilson's interval would not hold for them either.
   const Rate collisions = statistics_of(parts_of(campaign).front()).flown().tally.collisions;
   EXPECT_EQ(collisions.interval_name(), "none");
@@ -88,7 +89,7 @@ TEST_F(EarlyStopCampaignTest, GoesOnWhereItWasInterrupted) {
   part.resume = true;
   EXPECT_TRUE(run_campaign(scenario_, part, fly_nth()).complete());
   for (const char* file : kReproducible) {
-    EXPECT_EQ(read(root_ / "whole" / file), read(root_ / "part" / file)) << file;
+    EXPECT_EQ(read_file(root_ / "whole" / file), read_file(root_ / "part" / file)) << file;
   }
   const CampaignSummary again = run_campaign(scenario_, part, fly_nth());
   EXPECT_EQ(again.flown, 0) << "nothing is left to fly";

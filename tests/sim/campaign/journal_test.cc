@@ -8,6 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 #include "sim/files/csv.h"
+#include "sim/files/input_file.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 
 namespace dodgesim {
@@ -25,8 +26,8 @@ class JournalTest : public CampaignTest {
       ends_.push_back(fs::file_size(path_));
     }
   }
-  std::string bytes() const { return read(path_); }
-  void put(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
+  std::string bytes() const { return read_file(path_); }
+  void put(const std::string& bytes) const { testing::put(path_, bytes); }
 
   fs::path path_ = root_ / "results.bin";
   CampaignIdentity identity_ = {"seed: 1\n", "0.1.0 abc", "12ab", "34cd", false};

@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "sim/base/error.h"
+#include "sim/files/input_file.h"
+#include "tests/complaint.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 
 namespace dodgesim {
@@ -26,13 +29,9 @@ class MergeTest : public CampaignTest {
   }
   template <class Error>
   std::string refusal(const std::vector<std::string>& names) const {
-    try {
-      merge(names, "refused");
-    } catch (const Error& error) {
-      EXPECT_FALSE(std::filesystem::exists(root_ / "refused" / "throws.csv"));
-      return error.what();
-    }
-    return "";
+    const std::string sentence = testing::complaint<Error>([&] { merge(names, "refused"); });
+    EXPECT_FALSE(std::filesystem::exists(root_ / "refused" / "throws.csv"));
+    return sentence;
   }
 };
 
@@ -48,9 +47,9 @@ TEST_F(MergeTest, IsWhatOneProcessWouldHaveWritten) {
     const std::string out = "merged" + std::to_string(count);
     EXPECT_EQ(merge(names, out).results.size(), 12u);
     for (const char* file : kReproducible) {
-      EXPECT_EQ(read(root_ / "whole" / file), read(root_ / out / file)) << file;
+      EXPECT_EQ(read_file(root_ / "whole" / file), read_file(root_ / out / file)) << file;
     }
-    EXPECT_THAT(read(root_ / out / "manifest.json"), Not(HasSubstr("throws_per_minute")));
+    EXPECT_THAT(read_file(root_ / out / "manifest.json"), Not(HasSubstr("throws_per_minute")));
   }
 }
 
@@ -89,12 +88,12 @@ TEST_F(MergeTest, AThrowThatWasLostInOneShardAndFlownInAnotherIsFlown) {
     const std::string out = names.front() + "_first";
     merge(names, out);
     for (const char* file : kReproducible) {
-      EXPECT_EQ(read(root_ / "whole" / file), read(root_ / out / file)) << file;
+      EXPECT_EQ(read_file(root_ / "whole" / file), read_file(root_ / out / file)) << file;
     }
   }
   EXPECT_EQ(merge({"lost", "other"}, "ab").errors, 1);
   EXPECT_EQ(merge({"other", "lost"}, "ba").errors, 1);
-  EXPECT_EQ(read(root_ / "ab/throws.csv"), read(root_ / "ba/throws.csv"));
+  EXPECT_EQ(read_file(root_ / "ab/throws.csv"), read_file(root_ / "ba/throws.csv"));
 }
 
 TEST_F(MergeTest, OfManyMissingThrowsItListsTheFirst) {
@@ -107,9 +106,9 @@ TEST_F(MergeTest, OfManyMissingThrowsItListsTheFirst) {
 TEST_F(MergeTest, SaysWhenAPartIsDamaged) {
   fly_shard("a", 0, 1);
   const std::filesystem::path journal = root_ / "a/results.bin";
-  std::string bytes = read(journal);
+  std::string bytes = read_file(journal);
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
-  std::ofstream(journal, std::ios::binary) << bytes;
+  testing::put(journal, bytes);
   EXPECT_THAT(refusal<MissingThrows>({"a"}),
               ::testing::EndsWith("; results.bin of " + (root_ / "a").string() +
                                   " is damaged or cut off, and --resume flies there what was "
@@ -135,11 +134,11 @@ TEST_F(MergeTest, RefusesShardsOfOtherCampaigns) {
 TEST_F(MergeTest, NeverWritesOverAPart) {
   fly_shard("a", 0, 2);
   fly_shard("b", 1, 2);
-  const std::string before = read(root_ / "a/results.bin");
+  const std::string before = read_file(root_ / "a/results.bin");
   CampaignOptions over = options("a");
   over.force = true;
   EXPECT_THROW(merge_campaigns({root_ / "b", root_ / "." / "a"}, over), ScenarioError);
-  EXPECT_EQ(read(root_ / "a/results.bin"), before);
+  EXPECT_EQ(read_file(root_ / "a/results.bin"), before);
 }
 
 TEST_F(MergeTest, OverwritesNothing) {

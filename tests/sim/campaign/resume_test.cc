@@ -9,6 +9,7 @@
 #include "sim/base/error.h"
 #include "sim/base/random.h"
 #include "sim/campaign/journal.h"
+#include "sim/files/input_file.h"
 #include "sim/outcome/blank_result.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 
@@ -41,7 +42,7 @@ class ResumeTest : public CampaignTest {
   }
   void expect_same_files(const std::string& a, const std::string& b) const {
     for (const char* file : kReproducible) {
-      EXPECT_EQ(read(root_ / a / file), read(root_ / b / file)) << file;
+      EXPECT_EQ(read_file(root_ / a / file), read_file(root_ / b / file)) << file;
     }
   }
 };
@@ -79,7 +80,7 @@ TEST_F(ResumeTest, AFinishedCampaignFliesNothingMore) {
       run_campaign(scenario_, resuming("a"), [](int) -> ThrowResult { ::_exit(1); });
   EXPECT_EQ(again.flown, 0);
   EXPECT_EQ(again.errors, 0);
-  EXPECT_THAT(read(root_ / "a/manifest.json"),
+  EXPECT_THAT(read_file(root_ / "a/manifest.json"),
               AllOf(HasSubstr("\"throws_flown\": 0"), Not(HasSubstr("throws_per_minute"))));
   EXPECT_EQ(again.results.size(), 12u);
 }
@@ -242,7 +243,7 @@ TEST_F(ResumeTest, ADamagedJournalNeverMakesAWrongTable) {
     return result;
   };
   run_campaign(scenario_, options("whole"), fly_fast);
-  const std::string whole = read(root_ / "whole" / "results.bin");
+  const std::string whole = read_file(root_ / "whole" / "results.bin");
   RandomStream random(2, 0, "damage");
   int refused = 0;
   for (int trial = 0; trial < 60; ++trial) {
@@ -251,7 +252,7 @@ TEST_F(ResumeTest, ADamagedJournalNeverMakesAWrongTable) {
     if (trial % 3 != 0) damaged[at] = static_cast<char>(damaged[at] ^ (1 << trial % 8));
     fs::remove_all(root_ / "damaged");
     fs::copy(root_ / "whole", root_ / "damaged");
-    std::ofstream(root_ / "damaged" / "results.bin", std::ios::binary) << damaged;
+    testing::put(root_ / "damaged" / "results.bin", damaged);
     try {
       run_campaign(scenario_, resuming("damaged"), fly_fast);
       expect_same_files("whole", "damaged");

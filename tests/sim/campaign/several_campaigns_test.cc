@@ -1,11 +1,13 @@
 // Several campaigns in the same workers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <map>
 
 #include "sim/base/error.h"
 #include "sim/campaign/journal.h"
+#include "sim/files/input_file.h"
 #include "sim/outcome/blank_result.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 
@@ -59,8 +61,8 @@ TEST_F(SeveralCampaignsTest, GiveTheFilesOfEachOne) {
     EXPECT_THAT(begun_, ElementsAre(0, 1));
     EXPECT_THAT(ended_, ElementsAre(Pair(0, true), Pair(1, true)));
     for (const char* file : kReproducible) {
-      EXPECT_EQ(read(root_ / (both + "a") / file), read(root_ / "a" / file)) << file;
-      EXPECT_EQ(read(root_ / (both + "b") / file), read(root_ / "b" / file)) << file;
+      EXPECT_EQ(read_file(root_ / (both + "a") / file), read_file(root_ / "a" / file)) << file;
+      EXPECT_EQ(read_file(root_ / (both + "b") / file), read_file(root_ / "b" / file)) << file;
     }
     begun_.clear();
     ended_.clear();
@@ -75,11 +77,11 @@ TEST_F(SeveralCampaignsTest, BeginTheNextWhileTheLastThrowOfOneIsInTheAir) {
     return fly(index);
   };
   second.fly = [&](int index) {
-    std::ofstream(sign) << index;
+    testing::put(sign, std::to_string(index));
     return fly(index);
   };
   run_campaigns({first, second}, listener());
-  EXPECT_THAT(read(root_ / "first/throws.csv"),
+  EXPECT_THAT(read_file(root_ / "first/throws.csv"),
               ::testing::Not(::testing::HasSubstr("did not begin")));
   EXPECT_THAT(ended_, ElementsAre(Pair(0, true), Pair(1, true)));
 }
@@ -143,25 +145,25 @@ TEST_F(SeveralCampaignsTest, ThatEndEarlyMakeRoomForTheNext) {
 
 TEST_F(SeveralCampaignsTest, GoOnWithAWholeOneWhileTheOneBeforeItIsInTheAir) {
   run_campaign(scenario_, options("second"), plan("second", 1).fly);
-  const std::string table = read(root_ / "second/throws.csv");
+  const std::string table = read_file(root_ / "second/throws.csv");
   PlannedCampaign second = plan("second", 2);
   second.options.resume = true;
   second.fly = [](int) -> ThrowResult { ::_exit(3); };
   run_campaigns({plan("first", 2), second, plan("third", 2)}, listener());
   EXPECT_THAT(ended_, ElementsAre(Pair(0, true), Pair(1, true), Pair(2, true)));
-  EXPECT_EQ(read(root_ / "second/throws.csv"), table);
+  EXPECT_EQ(read_file(root_ / "second/throws.csv"), table);
 }
 
 TEST_F(SeveralCampaignsTest, AreAllLookedThroughBeforeTheFirstThrow) {
   fs::create_directories(root_ / "second");
-  std::ofstream(root_ / "second/thesis.txt") << "years of work";
+  testing::put(root_ / "second/thesis.txt", "years of work");
   PlannedCampaign first = plan("first", 2);
   first.options.force = true;
   run_campaign(scenario_, first.options, first.fly);
-  const std::string before = read(root_ / "first/results.bin");
+  const std::string before = read_file(root_ / "first/results.bin");
   EXPECT_THROW(run_campaigns({first, plan("second", 2)}, listener()), ScenarioError);
   EXPECT_THAT(begun_, ::testing::IsEmpty());
-  EXPECT_EQ(read(root_ / "first/results.bin"), before) << "nothing is overwritten for nothing";
+  EXPECT_EQ(read_file(root_ / "first/results.bin"), before) << "nothing is overwritten for nothing";
 }
 
 TEST_F(SeveralCampaignsTest, NeverShareADirectory) {

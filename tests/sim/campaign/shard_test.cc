@@ -6,6 +6,7 @@
 #include <map>
 
 #include "sim/base/error.h"
+#include "tests/complaint.h"
 
 namespace dodgesim {
 namespace {
@@ -20,12 +21,7 @@ Shard parsed(const std::string& text, const Variables& variables = {}) {
 }
 
 std::string refusal(const std::string& text, const Variables& variables = {}) {
-  try {
-    parsed(text, variables);
-  } catch (const ScenarioError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::complaint<ScenarioError>([&] { parsed(text, variables); });
 }
 
 TEST(Shard, IsIndexAndCount) {

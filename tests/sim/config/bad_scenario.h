@@ -5,16 +5,13 @@
 
 #include "sim/base/error.h"
 #include "sim/config/scenario.h"
+#include "tests/complaint.h"
 
 namespace dodgesim {
 
 inline std::string error_of(const std::string& yaml) {
-  try {
-    parse_scenario(yaml, "bad.yaml", std::string(DODGESIM_SOURCE_DIR) + "/models");
-  } catch (const ScenarioError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::complaint<ScenarioError>(
+      [&] { parse_scenario(yaml, "bad.yaml", std::string(DODGESIM_SOURCE_DIR) + "/models"); });
 }
 
 inline std::string repeat(const std::string& text, int times) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "sim/base/error.h"
+#include "tests/complaint.h"
 #include "tests/sim/files/temporary_directory.h"
 
 namespace dodgesim {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/base/error.h"
+#include "tests/complaint.h"
 #include "tests/sim/files/temporary_directory.h"
 
 namespace dodgesim {

@@ -3,18 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "sim/base/error.h"
+#include "tests/complaint.h"
 #include "tests/sim/config/parse.h"
 
 namespace dodgesim {
 namespace {
 
 std::string complaint(const std::string& yaml) {
-  try {
-    parse(yaml);
-  } catch (const ScenarioError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::complaint<ScenarioError>([&] { parse(yaml); });
 }
 
 constexpr const char* kPilots = "sweep: {pilot: [falanga2020, dodgesim]}\n";

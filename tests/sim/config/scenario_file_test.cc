@@ -6,6 +6,7 @@
 
 #include "sim/base/error.h"
 #include "sim/config/scenario.h"
+#include "tests/complaint.h"
 
 namespace dodgesim {
 namespace {
@@ -14,17 +15,12 @@ using ::testing::HasSubstr;
 
 // The name that a scenario has without one, that of its file, is one of its texts, too.
 TEST(ScenarioFile, AFileMustHaveANameThatACampaignCanHave) {
-  const auto error_of_file = [](const std::string& file) -> std::string {
-    try {
-      parse_scenario("seed: 1\n", file, "");
-    } catch (const ScenarioError& error) {
-      return error.what();
-    }
-    return "no error";
+  const auto error_of_file = [](const std::string& file) {
+    return testing::complaint<ScenarioError>([&] { parse_scenario("seed: 1\n", file, ""); });
   };
   EXPECT_EQ(error_of_file("b\xc3\xa4"
                           "d.yaml"),
-            "no error");
+            "");
   EXPECT_THAT(error_of_file("a\nb.yaml"),
               HasSubstr("The file's name, for want of the key name, has a line break"));
   EXPECT_THAT(error_of_file("a\xff.yaml"), HasSubstr("name, is not UTF-8 text."));

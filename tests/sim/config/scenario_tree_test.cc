@@ -10,6 +10,8 @@
 #include "sim/base/error.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario.h"
+#include "tests/complaint.h"
+#include "tests/sim/files/temporary_directory.h"
 
 namespace dodgesim {
 namespace {
@@ -20,13 +22,7 @@ using ::testing::StartsWith;
 
 class ScenarioTree : public ::testing::Test {
  protected:
-  ScenarioTree() {
-    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    root_ = fs::canonical(fs::temp_directory_path()) /
-            ("dodgesim_" + name + "_" + std::to_string(::getpid()));
-    fs::create_directories(root_ / "a/b/c");
-  }
-  ~ScenarioTree() override { fs::remove_all(root_); }
+  ScenarioTree() { fs::create_directories(root_ / "a/b/c"); }
 
   void write(const std::string& file, const std::string& text) const {
     std::ofstream(root_ / file) << text;
@@ -36,23 +32,19 @@ class ScenarioTree : public ::testing::Test {
   }
   // The message without the folder's name.
   std::string error_of(const std::string& file, const std::vector<Setting>& settings = {}) const {
-    try {
-      load(file, settings);
-    } catch (const ScenarioError& error) {
-      std::string text = error.what();
-      const std::string folder = root_.string() + "/";
-      for (std::size_t at = 0; (at = text.find(folder)) != std::string::npos;) {
-        text.erase(at, folder.size());
-      }
-      return text;
+    std::string text = testing::complaint<ScenarioError>([&] { load(file, settings); });
+    const std::string folder = root_.string() + "/";
+    for (std::size_t at = 0; (at = text.find(folder)) != std::string::npos;) {
+      text.erase(at, folder.size());
     }
-    return "no error";
+    return text;
   }
   static Setting set(const std::string& key, const std::string& value) {
     return {key, value, "--set " + key + "=" + value};
   }
 
-  fs::path root_;
+  const testing::TemporaryDirectory directory_;
+  const fs::path root_ = fs::canonical(directory_.path());
 };
 
 TEST_F(ScenarioTree, KeysOfTheFileCountMoreThanThoseOfItsBase) {

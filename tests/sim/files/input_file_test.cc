@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "sim/base/error.h"
+#include "tests/complaint.h"
 #include "tests/sim/files/temporary_directory.h"
 
 namespace dodgesim {

@@ -1,12 +1,11 @@
 #include "sim/files/npy_header.h"
+#include "tests/complaint.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <utility>
-
-#include "tests/sim/files/temporary_directory.h"
 
 namespace dodgesim {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "sim/base/error.h"
 #include "sim/files/output_file.h"
+#include "tests/complaint.h"
 #include "tests/sim/files/temporary_directory.h"
 
 namespace dodgesim {
@@ -20,12 +21,7 @@ namespace fs = std::filesystem;
 using testing::contents;
 
 std::string complaint_about(const fs::path& path) {
-  try {
-    StagedFile file(path);
-  } catch (const IoError& error) {
-    return error.what();
-  }
-  return "";
+  return testing::complaint<IoError>([&] { StagedFile file(path); });
 }
 
 TEST(StagedFile, AppearsWholeOrNotAtAll) {

@@ -50,15 +50,4 @@ std::string bytes_of(const Values& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0])};
 }
 
-// What the function complains about; empty when it does not.
-template <class Error, class Function>
-std::string complaint(Function function) {
-  try {
-    function();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 }  // namespace dodgesim::testing

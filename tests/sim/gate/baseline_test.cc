@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include "sim/files/input_file.h"
 #include "sim/files/json.h"
 #include "sim/files/output_file.h"
+#include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/gate/outcomes_fixture.h"
 
 namespace dodgesim {
@@ -37,12 +37,11 @@ class BaselineTest : public ::testing::Test {
     write("table.md", "# t\n");
     write("manifest.json", kManifest);
   }
-  ~BaselineTest() override { fs::remove_all(root_); }
 
   void write(const char* name, const std::string& text) { write_file(campaign_ / name, text); }
 
-  fs::path root_ = fs::temp_directory_path() / ("dodgesim_baseline_" + std::to_string(::getpid()));
-  fs::path campaign_ = root_ / "campaign", baseline_ = root_ / "baselines/b";
+  const testing::TemporaryDirectory directory_;
+  const fs::path campaign_ = directory_ / "campaign", baseline_ = directory_ / "baselines/b";
 };
 
 TEST_F(BaselineTest, ReadsBackWhatWasMade) {
@@ -64,7 +63,7 @@ TEST_F(BaselineTest, ReplacesAnEarlierOneAndNothingElse) {
   write("throws.csv", "throw\n0\n1\n");
   write_baseline(with_slash, campaign_, {});
   EXPECT_EQ(read_baseline(baseline_).tables.throws.rows(), 2U);
-  EXPECT_EQ(std::distance(fs::directory_iterator(root_ / "baselines"), {}), 1)
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory_ / "baselines"), {}), 1)
       << "nothing is left beside it";
   EXPECT_EQ(std::distance(fs::directory_iterator(baseline_), {}), 6);
 }
@@ -113,7 +112,7 @@ TEST_F(BaselineTest, SaysWhatIsBroken) {
               ThrowsMessage<IoError>(HasSubstr("gate.margin must be a number, not \"x\".")));
   EXPECT_THAT(with("program.commit", "null"),
               ThrowsMessage<IoError>(HasSubstr("program.commit must be a text, not null.")));
-  EXPECT_THROW(read_baseline(root_ / "nothing"), IoError);
+  EXPECT_THROW(read_baseline(directory_ / "nothing"), IoError);
 }
 
 TEST_F(BaselineTest, RefusesWhatCannotBeJudgedBy) {

@@ -7,7 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/random.h"
-#include "tests/sim/files/temporary_directory.h"
+#include "tests/complaint.h"
 
 namespace dodgesim {
 namespace {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/base/error.h"
+#include "tests/complaint.h"
 #include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/recordings/random_events.h"
 

@@ -13,6 +13,7 @@
 
 #include "sim/base/error.h"
 #include "sim/files/npy_header.h"
+#include "tests/complaint.h"
 #include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/recordings/random_events.h"
 

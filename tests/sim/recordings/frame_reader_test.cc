@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/base/error.h"
+#include "tests/complaint.h"
 #include "tests/sim/files/video_files.h"
 
 namespace dodgesim {

@@ -5,6 +5,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/random.h"
+#include "tests/complaint.h"
 #include "tests/sim/files/temporary_directory.h"
 
 namespace dodgesim {

@@ -9,6 +9,7 @@
 #include "sim/base/error.h"
 #include "sim/recordings/event_reader.h"
 #include "sim/recordings/sensor_log.h"
+#include "tests/complaint.h"
 #include "tests/sim/files/temporary_directory.h"
 
 namespace dodgesim {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 #include "sim/base/error.h"
+#include "tests/complaint.h"
 #include "tests/models.h"
 #include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/world/test_world.h"
@@ -21,12 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::string message_of(const WorldSpec& spec) {
-  try {
-    compose_model(spec);
-  } catch (const ScenarioError& error) {
-    return error.what();
-  }
-  return "no error";
+  return testing::complaint<ScenarioError>([&] { compose_model(spec); });
 }
 
 // A copy of the models in which a test may put files of its own.
@@ -52,12 +47,7 @@ class OwnModels : public ::testing::Test {
   }
 
   std::string world_message() const {
-    try {
-      World world(spec_);
-    } catch (const ScenarioError& error) {
-      return error.what();
-    }
-    return "no error";
+    return testing::complaint<ScenarioError>([&] { World world(spec_); });
   }
 
   testing::TemporaryDirectory own_;
@@ -165,17 +155,16 @@ TEST_F(OwnModels, RoomsAndVehiclesMustNotChangeGravityAndAir) {
   for (const std::string& file :
        {"rooms/" + spec_.room + ".xml", "vehicles/" + spec_.vehicle + ".xml"}) {
     const std::filesystem::path path = directory_ / file;
-    std::stringstream text;
-    text << std::ifstream(path).rdbuf();
-    std::string moon = text.str();
+    const std::string text = testing::contents(path);
+    std::string moon = text;
     moon.insert(moon.rfind("</mujoco>"), "<option gravity='0 0 -1.62'/>");
     std::filesystem::remove(path);
-    std::ofstream(path) << moon;
+    testing::put(path, moon);
     EXPECT_THAT(message_of(spec_), AllOf(HasSubstr(file), HasSubstr("must not use <option>")));
     std::filesystem::remove(path);
-    std::ofstream(path) << text.str();
+    testing::put(path, text);
   }
-  EXPECT_EQ(message_of(spec_), "no error");
+  EXPECT_EQ(message_of(spec_), "");
 }
 
 TEST_F(OwnModels, DefaultsOfARoomAreOfItsOwnClasses) {
@@ -190,8 +179,7 @@ TEST_F(OwnModels, DefaultsOfARoomAreOfItsOwnClasses) {
   };
   EXPECT_THAT(room("<geom rgba='1 0 0 1'/>", ""),
               AllOf(HasSubstr("rooms/own.xml:2: "), HasSubstr("<default> without a class")));
-  EXPECT_EQ(room("<default class='wall'><geom rgba='1 0 0 1'/></default>", "class='wall'"),
-            "no error");
+  EXPECT_EQ(room("<default class='wall'><geom rgba='1 0 0 1'/></default>", "class='wall'"), "");
 }
 
 TEST_F(OwnModels, NothingOfARoomIsSeenByTheCamerasAloneOrByTheRangeSensorAlone) {
@@ -203,8 +191,8 @@ TEST_F(OwnModels, NothingOfARoomIsSeenByTheCamerasAloneOrByTheRangeSensorAlone) 
         << "'/></worldbody></mujoco>";
     return world_message();
   };
-  EXPECT_EQ(geom_in_group(0), "no error");
-  EXPECT_EQ(geom_in_group(4), "no error");
+  EXPECT_EQ(geom_in_group(0), "");
+  EXPECT_EQ(geom_in_group(4), "");
   for (const int group : {1, 2, 3}) {
     EXPECT_THAT(geom_in_group(group),
                 AllOf(HasSubstr("rooms/own.xml: "), HasSubstr("wall is in group")));
@@ -290,15 +278,14 @@ TEST_F(OwnModels, AMeshWithoutAScaleIsScaledToo) {
 TEST_F(OwnModels, AVehicleThatTheMixerWouldTakeForAnotherIsRefused) {
   spec_.objects.clear();
   const auto file = directory_ / "vehicles" / "qav_rxl.xml";
-  std::stringstream good;
-  good << std::ifstream(file).rdbuf();
+  const std::string good = testing::contents(file);
   const auto with = [&](const std::string& from, const std::string& to) {
-    std::string text = good.str();
+    std::string text = good;
     text.replace(text.find(from), from.size(), to);
-    std::ofstream(file) << text;
+    testing::put(file, text);
     return world_message();
   };
-  EXPECT_EQ(with("mujoco", "mujoco"), "no error");
+  EXPECT_EQ(with("mujoco", "mujoco"), "");
   const auto a_rotor = HasSubstr("a rotor must be a motor at its site");
   EXPECT_THAT(with("gear=\"0 0 1", "gear=\"0 0 1.5"), a_rotor);
   EXPECT_THAT(with("gear=\"0 0 1", "gear=\"0.1 0 1"), a_rotor);
@@ -333,16 +320,15 @@ TEST_F(OwnModels, AVehicleThatTheMixerWouldTakeForAnotherIsRefused) {
 TEST_F(OwnModels, WhatStaysBehindWhenTheVehicleFliesIsNoPartOfIt) {
   spec_.objects.clear();
   const auto file = directory_ / "vehicles" / "qav_rxl.xml";
-  std::stringstream good;
-  good << std::ifstream(file).rdbuf();
+  const std::string good = testing::contents(file);
   for (const std::string part :
        {"<site name=\"range\"", "<site name=\"rotor_2\"", "<camera name=\"bottom\""}) {
-    std::string text = good.str();
+    std::string text = good;
     const std::size_t begin = text.find(part), end = text.find("/>", begin) + 2;
     const std::string tag = text.substr(begin, end - begin);
     text.erase(begin, end - begin);
     text.insert(text.find("</worldbody>"), tag);
-    std::ofstream(file) << text;
+    testing::put(file, text);
     EXPECT_THAT(world_message(), HasSubstr("must be in the body 'vehicle'")) << part;
   }
 }
@@ -353,10 +339,10 @@ TEST_F(OwnModels, AnObjectIsAsLargeAsItsReferenceSizeSays) {
     write_object(object(geom));
     return world_message();
   };
-  EXPECT_EQ(with("<geom size='0.05'/>"), "no error");
-  EXPECT_EQ(with("<geom type='box' size='0.05 0.05 0.05'/>"), "no error");
-  EXPECT_EQ(with("<geom type='capsule' size='0.01' fromto='0 0 -0.03 0 0 0.06'/>"), "no error");
-  EXPECT_EQ(with("<geom type='capsule' size='0.01' fromto='0 0 0 0 0 0.09'/>"), "no error");
+  EXPECT_EQ(with("<geom size='0.05'/>"), "");
+  EXPECT_EQ(with("<geom type='box' size='0.05 0.05 0.05'/>"), "");
+  EXPECT_EQ(with("<geom type='capsule' size='0.01' fromto='0 0 -0.03 0 0 0.06'/>"), "");
+  EXPECT_EQ(with("<geom type='capsule' size='0.01' fromto='0 0 0 0 0 0.09'/>"), "");
   EXPECT_THAT(with("<geom size='0.15'/>"),
               HasSubstr("own.xml: with a size of 0.2 m its geoms that collide reach 0.3 m from its "
                         "centre of mass, but must reach 0.08 to 0.24 m"));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sim/base/error.h"
+#include "tests/complaint.h"
 
 namespace dodgesim {
 namespace {
@@ -21,12 +22,7 @@ TEST(MjcfTest, PrintsElementsOnTheLinesThatTheyHad) {
 
 TEST(MjcfTest, NamesTheLineOfWhatIsWrong) {
   const auto complaint = [](const std::string& text) -> std::string {
-    try {
-      parse_mjcf(text, "test");
-    } catch (const ScenarioError& error) {
-      return error.what();
-    }
-    return "";
+    return testing::complaint<ScenarioError>([&] { parse_mjcf(text, "test"); });
   };
   EXPECT_THAT(complaint("<a>\n<b></a>"),
               ::testing::StartsWith("test:2: The model is not valid XML"));

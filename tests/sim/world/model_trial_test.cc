@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sim/base/error.h"
+#include "tests/complaint.h"
 #include "tests/models.h"
 #include "tests/sim/files/temporary_directory.h"
 #include "tests/sim/world/test_world.h"
@@ -29,7 +30,7 @@ class ModelTrial : public ::testing::Test {
     spec_.models_dir = directory_.string();
   }
   void write(const std::string& file, const std::string& text) const {
-    std::ofstream(directory_ / file, std::ios::binary) << text;
+    testing::put(directory_ / file, text);
   }
   void write_object(const std::string& geom, const std::string& asset = "",
                     const std::string& inertia = "1 1 1") const {
@@ -49,12 +50,7 @@ class ModelTrial : public ::testing::Test {
                  "<mesh name='m' file='meshes/own.obj'/>");
   }
   std::string complaint(const TrialLimits& limits = {}) const {
-    try {
-      try_world(spec_, {}, {}, limits);
-    } catch (const ScenarioError& error) {
-      return error.what();
-    }
-    return "";
+    return testing::complaint<ScenarioError>([&] { try_world(spec_, {}, {}, limits); });
   }
 
   static constexpr const char* kBall = "<geom size='0.05' group='1' contype='4' conaffinity='7'/>";
@@ -77,12 +73,9 @@ TEST_F(ModelTrial, APlaceInsideOrOutsideOfWhatStandsThereCostsASentence) {
   write_object(kBall);
   spec_.room = "room";
   const auto complaint_at = [&](double x_m, double z_m) -> std::string {
-    try {
+    return testing::complaint<ScenarioError>([&] {
       try_world(spec_, {{"mission.start_m", {0, 0, 2}, 0}, {"mission.goal_m", {x_m, 0, z_m}, 1}});
-    } catch (const ScenarioError& error) {
-      return error.what();
-    }
-    return "";
+    });
   };
   EXPECT_EQ(complaint_at(1, 2), "");
   for (const auto& [x_m, z_m] : {std::pair{0.0, 0.01}, {0.0, -3.0}, {50.0, 2.0}}) {

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "tests/models.h"
@@ -28,12 +26,10 @@ class ModelsDigest : public ::testing::Test {
   }
 
   std::string read(const std::string& file) const {
-    std::stringstream text;
-    text << std::ifstream(directory_ / file, std::ios::binary).rdbuf();
-    return text.str();
+    return testing::contents(directory_ / file);
   }
   void write(const std::string& file, const std::string& text) const {
-    std::ofstream(directory_ / file, std::ios::binary) << text;
+    testing::put(directory_ / file, text);
   }
   std::uint64_t digest() const { return models_digest(spec_); }
 
