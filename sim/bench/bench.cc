@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/campaign/build_info.h"
 #include "sim/campaign/manifest.h"
@@ -39,7 +40,7 @@ std::vector<std::string> known_names(const std::vector<BenchCase>& cases) {
 
 double Measurement::median() const {
   std::vector<double> sorted = runs;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const std::size_t half = sorted.size() / 2;
   return sorted.size() % 2 == 1 ? sorted[half] : 0.5 * (sorted[half - 1] + sorted[half]);
 }
@@ -57,24 +58,22 @@ std::vector<BenchCase> select(std::vector<BenchCase> cases,
   if (asked_names.empty()) return cases;
   const std::vector<std::string> known = known_names(cases);
   for (const std::string& asked : asked_names) {
-    if (std::find(known.begin(), known.end(), asked) != known.end()) continue;
+    if (contains(known, asked)) continue;
     std::string near = closest_name(asked, known);
     for (const std::string& name : known) {
       if (name.ends_with("." + asked)) near = name;  // the first part was left out
     }
-    throw ScenarioError(
-        "There is no benchmark case \"" + asked + "\"" +
-        (near.empty() ? "; --list names them all." : "; did you mean " + near + "?"));
+    throw ScenarioError("There is no benchmark case \"" + asked + "\"" +
+                        (near.empty() ? "; --list names them all." : did_you_mean(near)));
   }
   for (BenchCase& bench : cases) {
     for (Quantity& quantity : bench.quantities) {
-      quantity.wanted = std::any_of(asked_names.begin(), asked_names.end(),
-                                    [&](const auto& asked) { return names(asked, quantity.name); });
+      quantity.wanted = std::ranges::any_of(
+          asked_names, [&](const auto& asked) { return names(asked, quantity.name); });
     }
   }
   std::erase_if(cases, [](const BenchCase& bench) {
-    return std::none_of(bench.quantities.begin(), bench.quantities.end(),
-                        [](const Quantity& quantity) { return quantity.wanted; });
+    return std::ranges::none_of(bench.quantities, &Quantity::wanted);
   });
   return cases;
 }

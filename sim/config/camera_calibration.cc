@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
 #include "sim/base/numbers.h"
@@ -100,9 +101,7 @@ struct CameraInfoKeys {
 // Keys without a value count as not given.
 void drop_empty(YamlNode& map) {
   for (std::size_t i = map.keys.size(); i-- > 0;) {
-    if (map.items[i].kind != YamlNode::Kind::kNull) continue;
-    map.keys.erase(map.keys.begin() + static_cast<std::ptrdiff_t>(i));
-    map.items.erase(map.items.begin() + static_cast<std::ptrdiff_t>(i));
+    if (map.items[i].kind == YamlNode::Kind::kNull) map.erase(i);
   }
 }
 
@@ -113,8 +112,8 @@ void expect_no_misspelling(const YamlNode& root, Problems& problems) {
   const std::vector<std::string> kalibr = {"camera_model", "resolution", "distortion_model",
                                            "distortion_coeffs", "T_cam_imu"};
   for (const YamlNode::Key& key : root.keys) {
-    if (std::find(names.begin(), names.end(), key.name) != names.end()) continue;
-    if (std::find(kalibr.begin(), kalibr.end(), key.name) != kalibr.end()) {
+    if (contains(names, key.name)) continue;
+    if (contains(kalibr, key.name)) {
       problems.add(key.at, key.name +
                                " is a key of Kalibr's, which must stand below the name of its "
                                "camera, such as cam0.");
@@ -122,13 +121,12 @@ void expect_no_misspelling(const YamlNode& root, Problems& problems) {
     }
     const std::string meant = closest_name(key.name, names);
     if (meant.empty()) continue;
-    problems.add(key.at, key.name + " is not a known key; did you mean " + meant + "?");
+    problems.add(key.at, key.name + " is not a known key" + did_you_mean(meant));
   }
 }
 
-void expect_given(const char* key, const std::map<std::string, Position>& where,
-                  Problems& problems) {
-  if (where.count(key) == 0) problems.add({}, std::string(key) + " is missing.");
+void expect_given(const std::string& key, ReadContext& context) {
+  if (!context.where.contains(key)) context.problems.add({}, key + " is missing.");
 }
 
 // The size and the lens of a camera_info, as keys of ours.
@@ -136,14 +134,14 @@ void read_camera_info(const YamlNode& root, ReadContext& context, CalibrationKey
   CameraInfoKeys info;
   Reader reader(root, "", context);
   info.visit(reader);
-  expect_given("image_height", context.where, context.problems);
+  expect_given("image_height", context);
   keys.width = info.image_width;
   keys.height = info.image_height;
   const std::vector<double>& K = info.camera_matrix.data;
   if (K.size() != 9 || K[0] < 1 || K[4] < 1) {
-    context.problems.add(context.position_of("camera_matrix"),
-                         "camera_matrix.data must be the nine numbers fx, 0, cx, 0, fy, cy, 0, 0 "
-                         "and 1.");
+    context.add_problem("camera_matrix",
+                        "camera_matrix.data must be the nine numbers fx, 0, cx, 0, fy, cy, 0, 0 "
+                        "and 1.");
     return;
   }
   keys.intrinsics = IntrinsicsKeys{K[0], K[4], K[2], K[5]};
@@ -170,7 +168,7 @@ std::optional<Eigen::Matrix3d> rotation_of(const std::string& axes) {
   return R;
 }
 
-void read_rotations(const CalibrationKeys& keys, const ReadContext& context, Problems& problems,
+void read_rotations(const CalibrationKeys& keys, ReadContext& context,
                     CameraCalibration& calibration) {
   constexpr double kRoundingOfText = 1e-4;
   Eigen::Matrix3d R_BC = Eigen::Matrix3d::Zero();
@@ -178,9 +176,10 @@ void read_rotations(const CalibrationKeys& keys, const ReadContext& context, Pro
   R_BC.transposeInPlace();
   const bool orthonormal = (R_BC * R_BC.transpose()).isIdentity(kRoundingOfText);
   if (!orthonormal || R_BC.determinant() < 0) {
-    problems.add(context.position_of("R_BC"),
-                 "R_BC must be a rotation: three rows of three numbers, at right angles to each "
-                 "other, of length 1 and right-handed.");
+    context.add_problem(
+        "R_BC",
+        "R_BC must be a rotation: three rows of three numbers, at right angles to each "
+        "other, of length 1 and right-handed.");
   }
   calibration.camera.X_BC.linear() = R_BC;
   calibration.camera.X_BC.translation() = keys.p_BC_m;
@@ -189,15 +188,14 @@ void read_rotations(const CalibrationKeys& keys, const ReadContext& context, Pro
   if (R_BG) {
     calibration.R_BG = *R_BG;
   } else {
-    problems.add(context.position_of("imu_axes"),
-                 "imu_axes is " + in_quotes(keys.imu_axes) +
-                     ", but must be three of forward, backward, left, right, up and down, that "
-                     "make a right-handed frame, such as right down forward.");
+    context.add_problem(
+        "imu_axes", "imu_axes is " + in_quotes(keys.imu_axes) +
+                        ", but must be three of forward, backward, left, right, up and down, that "
+                        "make a right-handed frame, such as right down forward.");
   }
 }
 
-void read_lens(const CalibrationKeys& keys, const ReadContext& context, Problems& problems,
-               dodge::CameraModel& camera) {
+void read_lens(const CalibrationKeys& keys, ReadContext& context, dodge::CameraModel& camera) {
   camera.width = keys.width;
   camera.height = keys.height;
   if (keys.intrinsics) {
@@ -213,8 +211,8 @@ void read_lens(const CalibrationKeys& keys, const ReadContext& context, Problems
   if (!keys.distortion || keys.distortion->model == "none") return;
   const std::vector<double>& k = keys.distortion->coeffs;
   if (k.size() != 4 && k.size() != 5) {
-    problems.add(context.position_of("distortion"),
-                 "distortion.coeffs must be the four or five numbers k1, k2, p1, p2 and k3.");
+    context.add_problem(
+        "distortion", "distortion.coeffs must be the four or five numbers k1, k2, p1, p2 and k3.");
     return;
   }
   camera.k1 = k[0];
@@ -233,8 +231,7 @@ std::pair<std::string, std::string> path_and_name(const std::string& text) {
 
 CameraCalibration load_of_chain(const YamlNode& root, std::vector<std::string> cameras,
                                 const std::string& chosen, ReadContext& context) {
-  const auto found =
-      chosen.empty() ? cameras.begin() : std::find(cameras.begin(), cameras.end(), chosen);
+  const auto found = chosen.empty() ? cameras.begin() : std::ranges::find(cameras, chosen);
   if (found == cameras.end()) {
     context.problems.fail(
         {}, "There is no camera " + chosen + ", but " + joined(cameras, {}, " and ") + ".");
@@ -261,22 +258,19 @@ CameraCalibration load_camera_calibration(const std::string& path_and_camera) {
   CalibrationKeys keys;
   Reader reader(root, "", context);
   keys.visit(reader);
-  const bool is_camera_info = std::any_of(root.keys.begin(), root.keys.end(), [](const auto& key) {
-    return key.name == "image_width";
-  });
-  if (is_camera_info) {
+  if (root.find("image_width") != nullptr) {
     read_camera_info(root, context, keys);
   } else {
     expect_no_misspelling(root, context.problems);
-    for (const char* key : {"width", "height"}) expect_given(key, context.where, context.problems);
+    for (const char* key : {"width", "height"}) expect_given(key, context);
     for (const char* key : {"intrinsics.fx", "intrinsics.fy", "intrinsics.cx", "intrinsics.cy"}) {
-      if (keys.intrinsics) expect_given(key, context.where, context.problems);
+      if (keys.intrinsics) expect_given(key, context);
     }
   }
   context.problems.raise_if_any();
   CameraCalibration calibration;
-  read_lens(keys, context, context.problems, calibration.camera);
-  read_rotations(keys, context, context.problems, calibration);
+  read_lens(keys, context, calibration.camera);
+  read_rotations(keys, context, calibration);
   context.problems.raise_if_any();
   calibration.p_BR = keys.p_BR_m;
   calibration.focal_length_assumed = !keys.intrinsics;

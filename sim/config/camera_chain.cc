@@ -1,6 +1,5 @@
 #include "sim/config/camera_chain.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -32,17 +31,10 @@ struct ChainKeys {
   }
 };
 
-const YamlNode* value_of(const YamlNode& map, const std::string& key) {
-  for (std::size_t i = 0; i < map.keys.size(); ++i) {
-    if (map.keys[i].name == key) return &map.items[i];
-  }
-  return nullptr;
-}
-
 // The map whose values are cameras.
 const YamlNode& cameras(const YamlNode& root) {
-  const YamlNode* intrinsics = value_of(root, "intrinsics");
-  const bool is_dsec = intrinsics != nullptr && value_of(*intrinsics, "cam0") != nullptr;
+  const YamlNode* intrinsics = root.find("intrinsics");
+  const bool is_dsec = intrinsics != nullptr && intrinsics->find("cam0") != nullptr;
   return is_dsec ? *intrinsics : root;
 }
 
@@ -74,8 +66,8 @@ std::optional<Eigen::Isometry3d> transform(const YamlNode& node) {
 void expect_numbers(const std::string& name, const std::vector<double>& numbers, std::size_t count,
                     const char* meaning, ReadContext& context) {
   if (numbers.size() == count) return;
-  context.problems.add(context.position_of(name), name + " must be the " + std::to_string(count) +
-                                                      " numbers " + meaning + ".");
+  context.add_problem(name,
+                      name + " must be the " + std::to_string(count) + " numbers " + meaning + ".");
 }
 
 void read_lens(const ChainKeys& keys, const std::string& path, ReadContext& context,
@@ -92,12 +84,11 @@ void read_lens(const ChainKeys& keys, const std::string& path, ReadContext& cont
   context.problems.raise_if_any();
   for (const double side : keys.resolution) {
     if (side == std::floor(side)) continue;
-    context.problems.add(context.position_of(path + "resolution"),
-                         path + "resolution must be whole numbers.");
+    context.add_problem(path + "resolution", path + "resolution must be whole numbers.");
   }
   if (keys.intrinsics[0] < 1 || keys.intrinsics[1] < 1) {
-    context.problems.add(context.position_of(intrinsics),
-                         intrinsics + " begins with fx and fy, which must be at least 1.");
+    context.add_problem(intrinsics,
+                        intrinsics + " begins with fx and fy, which must be at least 1.");
   }
   camera.width = static_cast<int>(keys.resolution[0]);
   camera.height = static_cast<int>(keys.resolution[1]);
@@ -114,7 +105,7 @@ void read_lens(const ChainKeys& keys, const std::string& path, ReadContext& cont
 
 // The polynomials of the pilot's lens do not bend as far.
 void refuse_fisheye(const YamlNode& camera, const std::string& path, ReadContext& context) {
-  const YamlNode* model = value_of(camera, "distortion_model");
+  const YamlNode* model = camera.find("distortion_model");
   if (model == nullptr || (model->text != "equidistant" && model->text != "fov")) return;
   context.problems.fail(model->at, path + "distortion_model is " + model->text +
                                        ", a fisheye's, which the pilots do not know: undistort "
@@ -135,7 +126,7 @@ std::vector<std::string> cameras_of_chain(const YamlNode& root) {
 
 CameraCalibration read_chain(const YamlNode& root, const std::string& name, ReadContext& context) {
   const YamlNode& map = cameras(root);
-  const YamlNode& node = *value_of(map, name);
+  const YamlNode& node = *map.find(name);
   const std::string path = (&map == &root ? "" : "intrinsics.") + name;
   refuse_fisheye(node, path + ".", context);
   ChainKeys keys;
@@ -146,7 +137,7 @@ CameraCalibration read_chain(const YamlNode& root, const std::string& name, Read
   calibration.imu_later_us = std::llround(1e6 * keys.timeshift_cam_imu);
   const Eigen::Matrix3d R_BC = looking_forward();
   calibration.camera.X_BC.linear() = R_BC;
-  const YamlNode* T_cam_imu = value_of(node, "T_cam_imu");
+  const YamlNode* T_cam_imu = node.find("T_cam_imu");
   calibration.imu_axes_assumed = T_cam_imu == nullptr;
   const auto X_CG = T_cam_imu == nullptr ? Eigen::Isometry3d::Identity() : transform(*T_cam_imu);
   if (X_CG) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "sim/base/contains.h"
 #include "sim/config/pilot.h"
 
 namespace dodgesim {
@@ -27,21 +28,17 @@ const Preset kCamera = {"sensors.events.preset", "sensors.events"};
 // Of a dotted key; empty if it is not there.
 std::string text_at(const YamlNode& root, const std::string& key) {
   const YamlNode* node = &root;
-  for (std::size_t begin = 0; begin <= key.size();) {
+  for (std::size_t begin = 0; node != nullptr && begin <= key.size();) {
     const std::size_t end = std::min(key.find('.', begin), key.size());
-    const std::string part = key.substr(begin, end - begin);
-    const auto named = [&part](const YamlNode::Key& k) { return k.name == part; };
-    const auto found = std::find_if(node->keys.begin(), node->keys.end(), named);
-    if (found == node->keys.end()) return "";
-    node = &node->items[static_cast<std::size_t>(found - node->keys.begin())];
+    node = node->find(key.substr(begin, end - begin));
     begin = end + 1;
   }
-  return node->text;
+  return node == nullptr ? "" : node->text;
 }
 
 // As a resolved scenario does, which does not tell the keys that somebody chose from defaults.
 bool gives_all_keys(const Preset& preset, const ReadContext& context) {
-  return std::all_of(context.all_keys.begin(), context.all_keys.end(), [&](const auto& key) {
+  return std::ranges::all_of(context.all_keys, [&](const auto& key) {
     return !preset.has(key) || context.where.contains(key);
   });
 }
@@ -52,23 +49,21 @@ void check_set_preset(const Preset& preset, const YamlNode& file, const YamlNode
   if (before.empty() || preset.same(now, before) || !gives_all_keys(preset, context)) return;
   const std::string change =
       now.empty() ? " is left out instead of " : " is " + now + " instead of ";
-  context.problems.add(context.position_of(now.empty() ? preset.group : preset.key),
-                       preset.key + change + before +
-                           " by its name only: the file sets all keys of " + preset.group +
-                           " itself. Put --set " + preset.group + "=~ in front to take them away.");
+  context.add_problem(now.empty() ? preset.group : preset.key,
+                      preset.key + change + before +
+                          " by its name only: the file sets all keys of " + preset.group +
+                          " itself. Put --set " + preset.group + "=~ in front to take them away.");
 }
 
 bool varies(const Scenario& scenario, const std::string& key) {
-  const auto is_key = [&key](const VariedKey& axis) { return axis.key == key; };
-  return std::any_of(scenario.grid.begin(), scenario.grid.end(), is_key) ||
-         std::any_of(scenario.sweep.begin(), scenario.sweep.end(), is_key);
+  return contains(scenario.grid, key, &VariedKey::key) ||
+         contains(scenario.sweep, key, &VariedKey::key);
 }
 
 void check_varied_preset(const Preset& preset, const std::string& own, const Scenario& scenario,
                          const VariedKey& axis, ReadContext& context) {
-  const auto other =
-      std::find_if(axis.values.begin(), axis.values.end(),
-                   [&](const YamlNode& value) { return !preset.same(value.text, own); });
+  const auto other = std::ranges::find_if(
+      axis.values, [&](const YamlNode& value) { return !preset.same(value.text, own); });
   if (other == axis.values.end() || gives_all_keys(preset, context)) return;
   for (const auto& [key, at] : context.where) {
     const auto below = context.where.lower_bound(key + ".");

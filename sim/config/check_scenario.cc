@@ -31,12 +31,12 @@ void check_text(const std::string& key, const std::string& text, std::string_vie
   for (std::size_t i = 0; i < text.size(); i += length) {
     length = utf8_length(std::string_view(text).substr(i));
     if (length == 0) {
-      return context.problems.add(context.position_of(key), what + " is not UTF-8 text.");
+      return context.add_problem(key, what + " is not UTF-8 text.");
     }
     const bool control =
         byte(i) < 0x20 || byte(i) == 0x7f || (length == 2 && byte(i) == 0xc2 && byte(i + 1) < 0xa0);
     if (!control || allowed.find(text[i]) != std::string_view::npos) continue;
-    return context.problems.add(context.position_of(key), what + complaint);
+    return context.add_problem(key, what + complaint);
   }
 }
 
@@ -53,26 +53,24 @@ void check_mission_key(const Scenario& scenario, const std::string& type, const 
                        bool given, ReadContext& context) {
   const std::string& mission = scenario.mission.type;
   if (mission == type && !given) {
-    context.problems.add(context.position_of("mission.type"),
-                         key + " is missing, but mission.type " + type + " needs it.");
+    context.add_problem("mission.type",
+                        key + " is missing, but mission.type " + type + " needs it.");
   }
   if (mission != type && given) {
-    context.problems.add(context.position_of(key),
-                         key + " is given, but mission.type " + mission + " does not fly there.");
+    context.add_problem(key,
+                        key + " is given, but mission.type " + mission + " does not fly there.");
   }
 }
 
 void check_throws(const Scenario& scenario, ReadContext& context) {
   if (scenario.throw_spec && !scenario.throws.empty()) {
-    context.problems.add(context.position_of("throws"),
-                         "throws and throw are both given; one of them is enough.");
+    context.add_problem("throws", "throws and throw are both given; one of them is enough.");
   }
   int objects = 0;
   for (const ThrowSpec& spec : scenario.throw_specs()) objects += spec.count;
   if (objects > ThrowSpec::kMost) {
-    context.problems.add(context.position_of("throws"),
-                         "throws has " + std::to_string(objects) + " objects; at most " +
-                             std::to_string(ThrowSpec::kMost) + " can fly.");
+    context.add_problem("throws", "throws has " + std::to_string(objects) + " objects; at most " +
+                                      std::to_string(ThrowSpec::kMost) + " can fly.");
   }
 }
 
@@ -80,18 +78,18 @@ void check_throws(const Scenario& scenario, ReadContext& context) {
 void check_stop(const Scenario& scenario, ReadContext& context) {
   if (!scenario.stop) return;
   if (!scenario.anyone_throws()) {
-    context.problems.add(context.position_of("stop"), "stop is given, but nobody throws.");
+    context.add_problem("stop", "stop is given, but nobody throws.");
   }
   if (!scenario.sweep.empty()) {
-    context.problems.add(context.position_of("stop"),
-                         "stop and sweep are both given, but the success rates of different sweep "
-                         "values are not one.");
+    context.add_problem("stop",
+                        "stop and sweep are both given, but the success rates of different sweep "
+                        "values are not one.");
   }
   if (cell_count(scenario) > 1) {
-    context.problems.add(context.position_of("stop"),
-                         "stop and grid are both given, but a campaign that ends within a round of "
-                         "its cells has flown some oftener than others, and its interval would "
-                         "not hold: draw the key instead, as in size_m: !choice [0.1, 0.2].");
+    context.add_problem("stop",
+                        "stop and grid are both given, but a campaign that ends within a round of "
+                        "its cells has flown some oftener than others, and its interval would "
+                        "not hold: draw the key instead, as in size_m: !choice [0.1, 0.2].");
   }
 }
 
@@ -103,7 +101,7 @@ void add_core_problem(const std::string& what, ReadContext& context) {
     const auto at = context.where.find(text.substr(0, text.find(' ')));
     if (at != context.where.end()) return context.problems.add(at->second, text);
   }
-  context.problems.add(context.position_of("dodger"), "dodger does not fit together: " + what);
+  context.add_problem("dodger", "dodger does not fit together: " + what);
 }
 
 // The flight core checks its own configuration. Which cameras it gets is known only with the
@@ -124,12 +122,12 @@ void check_vehicle(const Scenario& scenario, ReadContext& context) {
   const VehicleOverrides& vehicle = scenario.vehicle_overrides;
   constexpr double kLeast = VehicleOverrides::kLeastMassOfInertia;
   if (vehicle.mass_scale >= kLeast * vehicle.inertia_scale) return;
-  context.problems.add(context.position_of("vehicle_overrides.mass_scale"),
-                       "vehicle_overrides.mass_scale is " + to_text(vehicle.mass_scale) +
-                           ", but must be at least " + to_text(kLeast) +
-                           " of vehicle_overrides.inertia_scale, which is " +
-                           to_text(vehicle.inertia_scale) +
-                           ": so light a vehicle would climb away when its rotors turn it.");
+  context.add_problem("vehicle_overrides.mass_scale",
+                      "vehicle_overrides.mass_scale is " + to_text(vehicle.mass_scale) +
+                          ", but must be at least " + to_text(kLeast) +
+                          " of vehicle_overrides.inertia_scale, which is " +
+                          to_text(vehicle.inertia_scale) +
+                          ": so light a vehicle would climb away when its rotors turn it.");
 }
 
 // A monitor that takes every reading for the end of a pause never lands the vehicle.
@@ -138,12 +136,12 @@ void check_height_monitor(const Scenario& scenario, ReadContext& context) {
   const int rate_hz = scenario.sensors.range.rate_hz;
   if (!perceives(scenario.pilot) || !monitor.enabled) return;
   if (monitor.max_gap_us * rate_hz >= 1000000) return;
-  context.problems.add(context.position_of("sensors.range.rate_hz"),
-                       "sensors.range.rate_hz is " + std::to_string(rate_hz) +
-                           ", too slow for dodger.height_monitor.max_gap_us, which is " +
-                           std::to_string(monitor.max_gap_us) +
-                           ": the pilot would never land; raise it, or set "
-                           "dodger.height_monitor.enabled: false.");
+  context.add_problem("sensors.range.rate_hz",
+                      "sensors.range.rate_hz is " + std::to_string(rate_hz) +
+                          ", too slow for dodger.height_monitor.max_gap_us, which is " +
+                          std::to_string(monitor.max_gap_us) +
+                          ": the pilot would never land; raise it, or set "
+                          "dodger.height_monitor.enabled: false.");
 }
 
 // Our own pilots look at the events of a window that ends at most the timeout before now.
@@ -164,9 +162,8 @@ void check_transport(const Scenario& scenario, ReadContext& context) {
 
 void check_rate(const std::string& key, int rate_hz, ReadContext& context) {
   if (SampleClock::fits(rate_hz)) return;
-  context.problems.add(context.position_of(key),
-                       key + " is " + std::to_string(rate_hz) + ", but must divide " +
-                           std::to_string(SampleClock::kTickRateHz) + ".");
+  context.add_problem(key, key + " is " + std::to_string(rate_hz) + ", but must divide " +
+                               std::to_string(SampleClock::kTickRateHz) + ".");
 }
 
 void check_rates(const Scenario& scenario, ReadContext& context) {
@@ -176,9 +173,8 @@ void check_rates(const Scenario& scenario, ReadContext& context) {
   const int period_us = scenario.flight_controller.period_us;
   if (period_us % kTickUs != 0) {
     const std::string key = "flight_controller.period_us";
-    context.problems.add(context.position_of(key), key + " is " + std::to_string(period_us) +
-                                                       ", but must be a multiple of " +
-                                                       std::to_string(kTickUs) + ".");
+    context.add_problem(key, key + " is " + std::to_string(period_us) +
+                                 ", but must be a multiple of " + std::to_string(kTickUs) + ".");
   }
 }
 
@@ -194,10 +190,9 @@ void add_contradiction(const ValueOfKey& a, const std::string& must, const Value
                        const std::string& converse, ReadContext& context) {
   const bool a_given = context.where.contains(a.key) || !context.where.contains(b.key);
   const auto &about = a_given ? a : b, &other = a_given ? b : a;
-  context.problems.add(context.position_of(about.key),
-                       about.key + " is " + to_text(about.value) + ", but must " +
-                           (a_given ? must : converse) + " " + other.key + ", which is " +
-                           to_text(other.value) + ".");
+  context.add_problem(about.key, about.key + " is " + to_text(about.value) + ", but must " +
+                                     (a_given ? must : converse) + " " + other.key + ", which is " +
+                                     to_text(other.value) + ".");
 }
 
 void check_range_sensor(const Scenario& scenario, ReadContext& context) {

@@ -47,6 +47,10 @@ std::string name_with(const std::string& word, const std::vector<std::string>& c
   return "";
 }
 
+std::string did_you_mean(const std::string& name) {
+  return name.empty() ? "." : "; did you mean " + name + "?";
+}
+
 std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
 std::string closest_key(const std::string& word, const std::vector<std::string>& paths) {

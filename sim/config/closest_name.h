@@ -15,6 +15,9 @@ std::string closest_name(const std::string& word, const std::vector<std::string>
 // launch_height_m for height.
 std::string name_with(const std::string& word, const std::vector<std::string>& candidates);
 
+// The end of a sentence about a name that is none: "; did you mean size_m?", or "." for no name.
+std::string did_you_mean(const std::string& name);
+
 // "size_m" of "throw.size_m".
 std::string last_part(const std::string& path);
 

@@ -45,7 +45,7 @@ Distribution Distribution::choice(std::vector<double> values) {
 }
 
 double Distribution::largest() const {
-  return kind == Kind::kNormal ? hi : *std::max_element(values.begin(), values.end());
+  return kind == Kind::kNormal ? hi : *std::ranges::max_element(values);
 }
 
 double Distribution::quantile(double p) const {

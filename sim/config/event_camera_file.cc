@@ -1,9 +1,10 @@
 #include "sim/config/event_camera_file.h"
 
-#include <algorithm>
 #include <filesystem>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
+#include "sim/base/joined.h"
 #include "sim/config/closest_name.h"
 #include "sim/config/parameter_docs.h"
 #include "sim/config/reader.h"
@@ -57,15 +58,12 @@ EventCameraSpec named_event_camera(const std::string& name_or_file) {
   const std::string end = std::filesystem::path(name_or_file).extension().string();
   if (end == ".yaml" || end == ".yml") return load(name_or_file);
   const std::vector<std::string> names = preset_names();
-  if (std::find(names.begin(), names.end(), name_or_file) != names.end()) {
+  if (contains(names, name_or_file)) {
     return event_camera_preset(name_or_file);
   }
-  std::string known;
-  for (const std::string& name : names) known += name + ", ";
-  const std::string near = closest_name(name_or_file, names);
-  throw ScenarioError("There is no event camera \"" + name_or_file + "\"; known are " + known +
-                      "and files that end in .yaml" +
-                      (near.empty() ? "." : "; did you mean " + near + "?"));
+  throw ScenarioError("There is no event camera \"" + name_or_file + "\"; known are " +
+                      joined(names) + ", and files that end in .yaml" +
+                      did_you_mean(closest_name(name_or_file, names)));
 }
 
 }  // namespace dodgesim

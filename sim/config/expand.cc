@@ -1,8 +1,8 @@
 #include "sim/config/expand.h"
 
-#include <algorithm>
 #include <stdexcept>
 
+#include "sim/base/contains.h"
 #include "sim/base/joined.h"
 #include "sim/config/layers.h"
 
@@ -59,12 +59,11 @@ Scenario with_values(Scenario scenario, const Assignments& values, ReadContext& 
     part.visit(reader);
     reader.finish();
   };
-  for (std::size_t i = 0; i < patch.keys.size() && !scenario.throws.empty(); ++i) {
-    if (patch.keys[i].name != "throw") continue;
-    for (ThrowSpec& spec : scenario.throws) read(patch.items[i], "throw", spec);
-    patch.keys.erase(patch.keys.begin() + static_cast<std::ptrdiff_t>(i));
-    patch.items.erase(patch.items.begin() + static_cast<std::ptrdiff_t>(i));
-    break;
+  if (!scenario.throws.empty()) {
+    const std::optional<YamlNode> of_each = patch.take("throw");
+    for (ThrowSpec& spec : scenario.throws) {
+      if (of_each) read(*of_each, "throw", spec);
+    }
   }
   read(patch, "", scenario);
   return scenario;
@@ -114,8 +113,7 @@ void for_each_combination(const Scenario& scenario,
 bool flies_plugin(const Scenario& scenario) {
   for (const VariedKey& axis : scenario.sweep) {
     if (axis.key != "pilot") continue;
-    return std::any_of(axis.values.begin(), axis.values.end(),
-                       [](const YamlNode& value) { return value.text == kPluginPilot; });
+    return contains(axis.values, kPluginPilot, &YamlNode::text);
   }
   return scenario.pilot == kPluginPilot;
 }

@@ -55,7 +55,7 @@ std::vector<std::string> given(const IdleRule& rule, const Scenario& scenario) {
 // As a resolved scenario does; nobody writes all keys of a group so large.
 bool gives_all_keys(const Scenario& scenario) {
   const std::vector<ParameterDoc> docs = scenario_docs();
-  return std::all_of(docs.begin(), docs.end(), [&scenario](const ParameterDoc& doc) {
+  return std::ranges::all_of(docs, [&scenario](const ParameterDoc& doc) {
     return !doc.path.starts_with("sensors.") || scenario.places.contains(doc.path);
   });
 }

@@ -33,8 +33,7 @@ void lay_over(YamlNode& base, const YamlNode& over) {
     } else if (is_plain_map(base.items[k]) && is_plain_map(over.items[i])) {
       lay_over(base.items[k], over.items[i]);
     } else if (over.items[i].kind == YamlNode::Kind::kNull) {
-      base.keys.erase(base.keys.begin() + static_cast<std::ptrdiff_t>(k));
-      base.items.erase(base.items.begin() + static_cast<std::ptrdiff_t>(k));
+      base.erase(k);
     } else {
       base.keys[k] = over.keys[i];
       base.items[k] = over.items[i];

@@ -133,9 +133,8 @@ std::string explain(const std::vector<ParameterDoc>& docs, const std::string& ke
     names.push_back(doc.path);
     names.push_back(last_part(doc.path));
   }
-  const std::string near = closest_name(key, names);
   throw ScenarioError("There is no key " + key + " in a scenario" +
-                      (near.empty() ? "." : "; did you mean " + near + "?"));
+                      did_you_mean(closest_name(key, names)));
 }
 
 }  // namespace dodgesim

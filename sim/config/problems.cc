@@ -43,7 +43,7 @@ std::string Problems::place(Position at) const {
 void Problems::raise_if_any() const {
   if (problems_.empty()) return;
   std::vector<Problem> sorted = problems_;
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Problem& a, const Problem& b) {
+  std::ranges::stable_sort(sorted, [](const Problem& a, const Problem& b) {
     return std::tie(a.at.source, a.at.line, a.at.column) <
            std::tie(b.at.source, b.at.line, b.at.column);
   });

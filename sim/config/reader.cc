@@ -1,9 +1,9 @@
 #include "sim/config/reader.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <type_traits>
 
+#include "sim/base/contains.h"
 #include "sim/base/joined.h"
 #include "sim/base/names.h"
 #include "sim/base/numbers.h"
@@ -74,12 +74,9 @@ std::optional<Number> parse_number(const std::string& text) {
 
 const YamlNode* Reader::take(const char* key) {
   known_.emplace_back(key);
-  for (std::size_t i = 0; i < map_.keys.size(); ++i) {
-    if (map_.keys[i].name != key) continue;
-    context_.where[full(key)] = map_.items[i].at;
-    return &map_.items[i];
-  }
-  return nullptr;
+  const YamlNode* node = map_.find(key);
+  if (node != nullptr) context_.where[full(key)] = node->at;
+  return node;
 }
 
 const YamlNode* Reader::take_map(const char* key) {
@@ -162,7 +159,7 @@ void Reader::operator()(const char* key, std::string& value,
   if (node == nullptr) return;
   const std::vector<std::string> names(allowed.begin(), allowed.end());
   const bool text = node->kind == Kind::kScalar && node->tag.empty();
-  if (text && std::find(names.begin(), names.end(), node->text) != names.end()) {
+  if (text && contains(names, node->text)) {
     value = node->text;
     return;
   }
@@ -230,11 +227,6 @@ struct NormalKeys {
   }
 };
 
-bool has_key(const YamlNode& map, const char* name) {
-  return std::any_of(map.keys.begin(), map.keys.end(),
-                     [&](const YamlNode::Key& key) { return key.name == name; });
-}
-
 }  // namespace
 
 bool Reader::read_distribution(const YamlNode& node, const std::string& name, Distribution& value,
@@ -271,7 +263,7 @@ bool Reader::read_uniform(const YamlNode& node, const std::string& name, Distrib
 
 bool Reader::read_normal(const YamlNode& node, const std::string& name, Distribution& value,
                          double min, double max) {
-  if (node.kind != Kind::kMap || !has_key(node, "mean") || !has_key(node, "sd")) {
+  if (node.kind != Kind::kMap || node.find("mean") == nullptr || node.find("sd") == nullptr) {
     return refuse(node, name, "must be !normal {mean: a, sd: b}, optionally with min and max");
   }
   NormalKeys keys{min, 1, min, max, min, max};

@@ -33,6 +33,9 @@ struct ReadContext {
     const auto found = where.find(key);
     return found == where.end() ? Position{} : found->second;
   }
+  void add_problem(const std::string& key, const std::string& sentence) {
+    problems.add(position_of(key), sentence);
+  }
 };
 
 class Reader {

@@ -1,6 +1,6 @@
 // Reader: what is said of keys that are none.
-#include <algorithm>
 
+#include "sim/base/contains.h"
 #include "sim/base/joined.h"
 #include "sim/base/utf8.h"
 #include "sim/config/closest_name.h"
@@ -34,13 +34,12 @@ std::string strange_character(const std::string& name) {
 // What the user may have meant by a key that is none.
 std::string Reader::hint(const std::string& unknown_key, const YamlNode& value) const {
   const auto& all = context_.all_keys;
-  if (std::find(all.begin(), all.end(), full(unknown_key)) != all.end()) {
+  if (contains(all, full(unknown_key))) {
     return "; write " + nested(unknown_key, value) + " or use --set " + full(unknown_key) +
            "=VALUE.";
   }
-  const auto meant = [](const std::string& path) { return "; did you mean " + path + "?"; };
   const std::string longer = name_with(unknown_key, known_);
-  if (!longer.empty()) return meant(full(longer));
+  if (!longer.empty()) return did_you_mean(full(longer));
   std::vector<std::string> elsewhere, below;
   for (const std::string& path : context_.all_keys) {
     if (last_part(path) == unknown_key) elsewhere.push_back(path);
@@ -50,15 +49,14 @@ std::string Reader::hint(const std::string& unknown_key, const YamlNode& value) 
     return "; " + joined(elsewhere, {}, " and ") + (elsewhere.size() == 1 ? " is." : " are.");
   }
   const std::string near = closest_name(unknown_key, known_);
-  if (!near.empty()) return meant(full(near));
-  const std::string deeper = closest_key(unknown_key, below);
-  return deeper.empty() ? "." : meant(deeper);
+  if (!near.empty()) return did_you_mean(full(near));
+  return did_you_mean(closest_key(unknown_key, below));
 }
 
 void Reader::finish() {
   for (std::size_t i = 0; i < map_.keys.size(); ++i) {
     const YamlNode::Key& key = map_.keys[i];
-    if (std::find(known_.begin(), known_.end(), key.name) != known_.end()) continue;
+    if (contains(known_, key.name)) continue;
     if (key.name == "<<") continue;  // already a problem of the parser
     context_.problems.add(key.at, full(key.name) + " is not a known key" +
                                       strange_character(key.name) + hint(key.name, map_.items[i]));

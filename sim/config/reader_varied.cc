@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "sim/base/contains.h"
 #include "sim/base/numbers.h"
 #include "sim/config/closest_name.h"
 #include "sim/config/reader.h"
@@ -13,7 +14,7 @@ bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const V
   const std::vector<std::string>& keys = context_.variable_keys;
   axis.at = key.at;
   for (const std::string& path : {key.name, "throw." + key.name}) {
-    if (std::find(keys.begin(), keys.end(), path) != keys.end()) axis.key = path;
+    if (contains(keys, path)) axis.key = path;
   }
   const std::string name = full(key.name);
   const auto refuse_key = [&](const std::string& sentence) {
@@ -21,9 +22,8 @@ bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const V
     return false;
   };
   if (axis.key.empty()) {
-    const std::string near = closest_key(key.name, keys);
     return refuse_key(name + " is not a key that can take several values" +
-                      (near.empty() ? "." : "; did you mean " + near + "?"));
+                      did_you_mean(closest_key(key.name, keys)));
   }
   for (const VariedKey& other : before) {
     if (other.key == axis.key) return refuse_key(name + " is given twice.");
@@ -37,7 +37,7 @@ bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const V
     const auto same = [&](const YamlNode& other) {
       return number ? as_number(to_text(other)) == number : to_text(other) == to_text(item);
     };
-    if (std::any_of(axis.values.begin(), axis.values.end(), same)) {
+    if (std::ranges::any_of(axis.values, same)) {
       return refuse(item, name + "[" + std::to_string(axis.values.size()) + "]",
                     "this value is in the list already");
     }

@@ -1,9 +1,9 @@
 #include "sim/config/scenario.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <iterator>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/config/check_presets.h"
 #include "sim/config/check_scenario.h"
@@ -18,8 +18,7 @@ namespace {
 bool may_vary(const ParameterDoc& doc) {
   constexpr const char* kSingle[] = {"extends", "name", "description", "seed",
                                      "repeats", "grid", "sweep",       "throws"};
-  return !doc.is_group() &&
-         std::find(std::begin(kSingle), std::end(kSingle), doc.path) == std::end(kSingle);
+  return !doc.is_group() && !contains(kSingle, doc.path);
 }
 
 // The list of grid and sweep that is longest; nullptr without any.

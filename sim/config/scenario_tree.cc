@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "sim/base/contains.h"
 #include "sim/base/names.h"
 #include "sim/config/layers.h"
 #include "sim/config/writer.h"
@@ -20,18 +21,6 @@ constexpr std::size_t kMostFoldersUp = 2;
 constexpr std::size_t kLongestShown = 100;
 constexpr std::size_t kDeepestKey = 16;
 
-// Takes a key out of a map.
-std::optional<YamlNode> take(YamlNode& map, const std::string& key) {
-  for (std::size_t i = 0; i < map.keys.size(); ++i) {
-    if (map.keys[i].name != key) continue;
-    YamlNode value = std::move(map.items[i]);
-    map.keys.erase(map.keys.begin() + static_cast<std::ptrdiff_t>(i));
-    map.items.erase(map.items.begin() + static_cast<std::ptrdiff_t>(i));
-    return value;
-  }
-  return std::nullopt;
-}
-
 // Follows `extends` from one file to the next.
 class Bases {
  public:
@@ -45,14 +34,14 @@ class Bases {
 
   // `node`, which stands in `file`, laid over its bases.
   YamlNode complete(YamlNode node, const fs::path& file) {
-    const std::optional<YamlNode> extends = take(node, "extends");
+    const std::optional<YamlNode> extends = node.take("extends");
     if (!extends) return node;
     const fs::path base = file.parent_path() / named_file(*extends);
     chain_.push_back(checked(base, *extends));
     const int source = problems_.add_source(base.lexically_normal().string());
     YamlNode below = parse_yaml(read_scenario_text(base.string()), problems_, source);
     below = complete(std::move(below), base);
-    for (const char* own : {"name", "description"}) take(below, own);
+    for (const char* own : {"name", "description"}) below.take(own);
     lay_over(below, node);
     return below;
   }
@@ -85,7 +74,7 @@ class Bases {
       refuse(extends,
              "leads more than " + std::to_string(kMostFoldersUp) + " folders up from the scenario");
     }
-    if (std::find(chain_.begin(), chain_.end(), path) != chain_.end()) {
+    if (contains(chain_, path)) {
       refuse(extends, "leads back to where it came from");
     }
     if (chain_.size() > kMostBases) {
@@ -104,7 +93,7 @@ void apply(const Setting& setting, YamlNode& root, Problems& problems) {
   std::string shown = setting.shown.substr(0, kLongestShown);
   if (shown.size() < setting.shown.size()) shown += "...";
   const int source = problems.add_source(shown);
-  const auto depth = std::count(setting.key.begin(), setting.key.end(), '.');
+  const auto depth = std::ranges::count(setting.key, '.');
   if (setting.key.empty() || static_cast<std::size_t>(depth) >= kDeepestKey) {
     problems.fail({0, 0, source}, "A key is needed before =, such as throw.speed_mps.");
   }

@@ -100,25 +100,6 @@ void Writer::line(const char* key, const std::string& value) {
   yaml_ += "\n";
 }
 
-void Writer::operator()(const char* key, bool& value, const char*) {
-  line(key, value ? "true" : "false");
-}
-
-void Writer::operator()(const char* key, const std::string& value,
-                        std::initializer_list<const char*>, const char*) {
-  line(key, value);
-}
-
-void Writer::operator()(const char* key, const Eigen::Vector3d& value, double, double,
-                        const char*) {
-  line(key, to_yaml(value));
-}
-
-void Writer::operator()(const char* key, const std::optional<Eigen::Vector3d>& value, double,
-                        double, const char*) {
-  if (value) line(key, to_yaml(*value));
-}
-
 void Writer::operator()(const char* key, const std::vector<Eigen::Vector3d>& value, double, double,
                         const char*) {
   if (value.empty()) return;
@@ -126,26 +107,6 @@ void Writer::operator()(const char* key, const std::vector<Eigen::Vector3d>& val
   items.reserve(value.size());
   for (const Eigen::Vector3d& vector : value) items.push_back(to_yaml(vector));
   line(key, list(items));
-}
-
-void Writer::operator()(const char* key, const Distribution& value, double, double, const char*) {
-  line(key, to_yaml(value));
-}
-
-void Writer::operator()(const char* key, const Components& value, double, double, const char*) {
-  line(key, to_yaml(value));
-}
-
-void Writer::text(const char* key, const std::string& value, const char*) {
-  line(key, in_quotes(value));
-}
-
-void Writer::model(const char* key, const std::string& value, const char*, const char*) {
-  line(key, name_text(value));
-}
-
-void Writer::model(const char* key, const NameChoice& value, const char*, const char*) {
-  line(key, to_yaml(value));
 }
 
 void Writer::varied(const char* key, const VariedKeys& axes, const char*) {

@@ -15,6 +15,15 @@
 
 namespace dodgesim {
 
+// Text as a YAML scalar in double quotes.
+std::string in_quotes(const std::string& text);
+
+// As they stand in YAML: "0.3", "!uniform [0.1, 0.3]", "[0.1, 0, !normal {...}]".
+std::string to_yaml(const Distribution& distribution);
+std::string to_yaml(const Components& components);
+std::string to_yaml(const NameChoice& choice);
+std::string to_yaml(const Eigen::Vector3d& vector);
+
 // Values are taken by reference only so that no number converts to another type.
 class Writer {
  public:
@@ -26,19 +35,31 @@ class Writer {
                   std::type_identity_t<Number>, const char*) {
     line(key, to_text(value));
   }
-  void operator()(const char* key, bool& value, const char*);
+  void operator()(const char* key, bool& value, const char*) {
+    line(key, value ? "true" : "false");
+  }
   void operator()(const char* key, const std::string& value, std::initializer_list<const char*>,
-                  const char*);
-  void operator()(const char* key, const Eigen::Vector3d& value, double, double, const char*);
+                  const char*) {
+    line(key, value);
+  }
+  template <class T>
+  requires requires(const T& value) { to_yaml(value); }
+  void operator()(const char* key, const T& value, double, double, const char*) {
+    line(key, to_yaml(value));
+  }
   void operator()(const char* key, const std::optional<Eigen::Vector3d>& value, double, double,
-                  const char*);
+                  const char*) {
+    if (value) line(key, to_yaml(*value));
+  }
   void operator()(const char* key, const std::vector<Eigen::Vector3d>& value, double, double,
                   const char*);
-  void operator()(const char* key, const Distribution& value, double, double, const char*);
-  void operator()(const char* key, const Components& value, double, double, const char*);
-  void text(const char* key, const std::string& value, const char*);
-  void model(const char* key, const std::string& value, const char*, const char*);
-  void model(const char* key, const NameChoice& value, const char*, const char*);
+  void text(const char* key, const std::string& value, const char*) { line(key, in_quotes(value)); }
+  void model(const char* key, const std::string& value, const char*, const char*) {
+    line(key, to_yaml(NameChoice{{value}}));
+  }
+  void model(const char* key, const NameChoice& value, const char*, const char*) {
+    line(key, to_yaml(value));
+  }
   void varied(const char* key, const VariedKeys& axes, const char*);
   void file(const char*, const char*) {}  // its contents are written
 
@@ -74,14 +95,5 @@ class Writer {
   int level_ = 0;
   bool item_ = false;  // the next line begins an item of a list
 };
-
-// Text as a YAML scalar in double quotes.
-std::string in_quotes(const std::string& text);
-
-// As they stand in YAML: "0.3", "!uniform [0.1, 0.3]", "[0.1, 0, !normal {...}]".
-std::string to_yaml(const Distribution& distribution);
-std::string to_yaml(const Components& components);
-std::string to_yaml(const NameChoice& choice);
-std::string to_yaml(const Eigen::Vector3d& vector);
 
 }  // namespace dodgesim

@@ -277,12 +277,30 @@ YamlNode parse_document(std::string_view text, Problems& problems, const Place& 
 
 // Whether a scalar can stand without quotes wherever a value may stand.
 bool is_plain(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+  return !text.empty() && std::ranges::all_of(text, [](char c) {
     return is_name_character(c) || c == '.' || c == '+';
   });
 }
 
 }  // namespace
+
+const YamlNode* YamlNode::find(std::string_view key) const {
+  const auto named = std::ranges::find(keys, key, &Key::name);
+  return named == keys.end() ? nullptr : &items[static_cast<std::size_t>(named - keys.begin())];
+}
+
+void YamlNode::erase(std::size_t i) {
+  keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(i));
+  items.erase(items.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
+std::optional<YamlNode> YamlNode::take(std::string_view key) {
+  const YamlNode* const found = find(key);
+  if (found == nullptr) return std::nullopt;
+  std::optional<YamlNode> value = *found;
+  erase(static_cast<std::size_t>(found - items.data()));
+  return value;
+}
 
 YamlNode parse_yaml(std::string_view text, Problems& problems, int source) {
   const Place place{source};

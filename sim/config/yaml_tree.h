@@ -4,6 +4,8 @@
 // (dropped).
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +29,12 @@ struct YamlNode {
   bool alias = false;           // stands for an alias, which is a problem already
   std::vector<YamlNode> items;  // of a sequence or map
   std::vector<Key> keys;        // of a map: keys[i] names items[i]
+
+  // The value of a key; null if there is none, or this is no map.
+  const YamlNode* find(std::string_view key) const;
+  // Removes a key with its value.
+  void erase(std::size_t i);
+  std::optional<YamlNode> take(std::string_view key);
 };
 
 // Parses one document whose root is a map; its positions have the given source. Duplicate keys,
