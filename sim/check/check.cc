@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/contains.h"
 #include "sim/files/text_table.h"
 
 namespace dodgesim {
@@ -32,10 +33,7 @@ std::string line_text(const CheckLine& line) {
          padded(line.expected, kExpectedColumn) + outcome_text(line.outcome);
 }
 
-bool Check::failed() const {
-  return std::any_of(lines.begin(), lines.end(),
-                     [](const CheckLine& line) { return line.outcome == Outcome::kFail; });
-}
+bool Check::failed() const { return contains(lines, Outcome::kFail, &CheckLine::outcome); }
 
 void Check::within(const std::string& name, double measured, double expected, double limit,
                    const std::string& unit, int decimals) {

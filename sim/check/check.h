@@ -28,8 +28,8 @@ struct CheckLine {
 struct Check {
   std::string title;
   std::string method;  // what was done, in a few sentences
-  std::vector<CheckLine> lines;
-  std::vector<Plot> plots;
+  std::vector<CheckLine> lines = {};
+  std::vector<Plot> plots = {};
 
   bool failed() const;
 

@@ -18,8 +18,8 @@ std::uint32_t pixel(const Event& event) {
 // By pixel, in order of time within each.
 std::vector<Event> by_pixel(std::span<const Event> events) {
   std::vector<Event> sorted(events.begin(), events.end());
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Event& a, const Event& b) { return pixel(a) < pixel(b); });
+  std::ranges::stable_sort(sorted,
+                           [](const Event& a, const Event& b) { return pixel(a) < pixel(b); });
   return sorted;
 }
 

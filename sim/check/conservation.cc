@@ -105,9 +105,7 @@ Check judge(const PixelsAfterFilm& after, const EventCameraSpec& expected) {
       "refractory period may be farther from its reference than its threshold, and a "
       "large step up, or one of the steps down and up after it, must make every pixel that is not "
       "dead fire. The readout's limit is off, and noise is limited. The plot shows how far the "
-      "signals are from the references, in thresholds.",
-      {},
-      {}};
+      "signals are from the references, in thresholds."};
   double beyond = 0, stuck = 0, alive = 0;
   std::vector<double> distances;
   for (std::size_t i = 0; i < after.pixels.size(); ++i) {

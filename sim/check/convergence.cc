@@ -56,25 +56,20 @@ Check judge(const std::vector<Sampled>& rates) {
               "A texture of waves of 8 px and more drifts at 500 px/s. Its events when it is "
               "sampled at several rates, against the same camera that sees it sampled eight times "
               "finer than by default. The limits hold for the default rate. Noise and jitter are "
-              "off.",
-              {},
-              {}};
+              "off."};
   if (rates.front().difference.reference_events < kLeastFilmed) {
     check.off("convergence", "the film makes fewer than 5000 events");
     return check;
   }
-  Series counts{"", Series::Kind::kPoints, 0, {}, {}, {}};
-  Series medians{"median", Series::Kind::kPoints, 0, {}, {}, {}};
-  Series tails{"90 % of the events", Series::Kind::kPoints, 1, {}, {}, {}};
+  Series counts{"", Series::Kind::kPoints, 0};
+  Series medians{"median", Series::Kind::kPoints, 0};
+  Series tails{"90 % of the events", Series::Kind::kPoints, 1};
   for (const Sampled& rate : rates) {
     const std::string name = "convergence." + quantity_text(rate.displacement_px, 3, "") + "px";
     const EventDifference& d = rate.difference;
-    counts.x.push_back(rate.displacement_px);
-    counts.y.push_back(100 * (d.count_ratio - 1));
-    medians.x.push_back(rate.displacement_px);
-    medians.y.push_back(d.median_us);
-    tails.x.push_back(rate.displacement_px);
-    tails.y.push_back(d.percentile_90_us);
+    counts.add(rate.displacement_px, 100 * (d.count_ratio - 1));
+    medians.add(rate.displacement_px, d.median_us);
+    tails.add(rate.displacement_px, d.percentile_90_us);
     if (rate.displacement_px > default_displacement_px()) continue;
     check.within(name + ".count", d.count_ratio, 1, kSamplingCountLimit, "of reference", 4);
     check.between(name + ".stamps", d.median_us, 0, kSamplingStampLimitUs, "us", 1);

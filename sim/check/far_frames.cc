@@ -70,9 +70,7 @@ Check judge(const std::vector<FarFrames>& intervals) {
               "Four frames of random light, from 0.011 to 1 in each pixel, as far apart as those "
               "of a fast camera and of a video. The events of dodgesim emulate, against the same "
               "camera that sees 500 pictures from frame to frame, along the same straight line of "
-              "the response. Noise and jitter are off.",
-              {},
-              {}};
+              "the response. Noise and jitter are off."};
   for (const FarFrames& frames : intervals) {
     const std::string name = "frames." + std::to_string(frames.interval_us) + "us";
     const EventDifference& d = frames.difference;

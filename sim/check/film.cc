@@ -22,7 +22,7 @@ constexpr double kLogRms = 0.5;
 
 Scene even_scene(std::function<double(TimeUs t_us)> luminance) {
   return [luminance = std::move(luminance)](TimeUs t_us, std::vector<float>& picture) {
-    std::fill(picture.begin(), picture.end(), static_cast<float>(luminance(t_us)));
+    std::ranges::fill(picture, static_cast<float>(luminance(t_us)));
   };
 }
 
@@ -42,7 +42,7 @@ void DriftingTexture::operator()(TimeUs t_us, std::vector<float>& luminance) con
   const double amplitude = kLogRms / std::sqrt(0.5 * kWaves);
   std::vector<double> row(static_cast<std::size_t>(width_));
   for (int y = 0; y < height_; ++y) {
-    std::fill(row.begin(), row.end(), 0.0);
+    std::ranges::fill(row, 0.0);
     for (const Wave& wave : waves_) {
       const double start = wave.ky * y - wave.kx * shift_px + wave.phase;
       const std::complex<double> step = std::polar(1.0, wave.kx);

@@ -269,9 +269,7 @@ Check judge(const NoiseCounts& counts, const EventCameraSpec& expected) {
       "over all pixels, dead ones included, and hold within three standard deviations of "
       "the counts and of the random start of the leak. A pixel in its refractory period is "
       "silent, and leak and shot noise are in inverse proportion to a pixel's thresholds: both "
-      "are part of what is expected.",
-      {},
-      {}};
+      "are part of what is expected."};
   judge_leak(counts.leak, expected, check);
   judge_shot("noise.shot.dark", counts.shot_dark, 1, expected, check);
   judge_shot("noise.shot.bright", counts.shot_bright, expected.shot_noise_bright_share, expected,

@@ -40,9 +40,8 @@ BurstFilm film(const EventCameraSpec& spec, int rows, const std::vector<TimeUs>&
   const Response response(spec.log_epsilon, spec.linear_below);
   const double start = response.at(spec.linear_below + 0.1);
   const Scene scene = even_scene([&](TimeUs t_us) {
-    const auto passed = std::count_if(steps_us.begin(), steps_us.end(), [t_us](TimeUs step_us) {
-      return t_us > kBeforeBurstUs + step_us;
-    });
+    const auto passed = std::ranges::count_if(
+        steps_us, [t_us](TimeUs step_us) { return t_us > kBeforeBurstUs + step_us; });
     return response.inverse(start + 1.2 * spec.contrast_threshold_on * static_cast<double>(passed));
   });
   std::vector<TimeUs> times = {0};
@@ -53,7 +52,7 @@ BurstFilm film(const EventCameraSpec& spec, int rows, const std::vector<TimeUs>&
   for (int i = 1; i <= kBurstPictures; ++i) {
     times.push_back(kBeforeBurstUs + 2 + duration_us * i / kBurstPictures);
   }
-  std::sort(times.begin(), times.end());
+  std::ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
   const auto events = record(camera, scene, times).events;
   BurstFilm found{static_cast<double>(events.size()), static_cast<double>(camera.lost()), 0, 0};
@@ -93,9 +92,7 @@ Check judge(const Burst& burst, const EventCameraSpec& expected) {
   Check check{"Readout",
               "All pixels fire at the same instant: the events leave at the rate of the readout. "
               "Then all fire again when half of them have left: the others are lost, and every "
-              "loss is counted. Mismatch, bandwidth, refractory period, noise and jitter are off.",
-              {},
-              {}};
+              "loss is counted. Mismatch, bandwidth, refractory period, noise and jitter are off."};
   if (!burst.filmed) {
     check.off("readout.rate", "readout_max_hz is 0, or below 1 Hz");
     return check;

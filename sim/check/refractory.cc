@@ -154,9 +154,7 @@ Check judge(const RampEvents& measured, const EventCameraSpec& expected) {
       "median time between two events of a pixel is the sum of both, in the median over "
       "the pixels, and no two are nearer than the period. With the clock's resolution the "
       "same events come later, by half of "
-      "it on average. Noise, jitter and the readout's limit are off.",
-      {},
-      {}};
+      "it on average. Noise, jitter and the readout's limit are off."};
   const std::vector<double>& intervals = measured.intervals_us;
   const auto period_us = static_cast<double>(expected.refractory_us);
   const std::vector<double>& medians = measured.pixel_medians_us;
@@ -170,7 +168,7 @@ Check judge(const RampEvents& measured, const EventCameraSpec& expected) {
     const double limit_us = kIntervalLimit * median_us + kRoundedUs;
     check.within("refractory.interval", quantile(medians, 0.5), median_us, limit_us + chance_us,
                  "us", 1);
-    check.between("refractory.shortest", *std::min_element(intervals.begin(), intervals.end()),
+    check.between("refractory.shortest", *std::ranges::min_element(intervals),
                   period_us - kRoundedUs, median_us + limit_us + chance_us, "us", 0);
   }
   if (expected.stamp_resolution_us == 1 || measured.rounded_by_us.empty()) {
@@ -186,9 +184,9 @@ Check judge(const RampEvents& measured, const EventCameraSpec& expected) {
   const auto resolution_us = static_cast<double>(expected.stamp_resolution_us);
   double sum_us = 0;
   for (const double late_us : measured.rounded_by_us) sum_us += late_us;
-  const auto off =
-      std::count_if(measured.stamps_us.begin(), measured.stamps_us.end(),
-                    [&](TimeUs stamp_us) { return stamp_us % expected.stamp_resolution_us != 0; });
+  const auto off = std::ranges::count_if(measured.stamps_us, [&](TimeUs stamp_us) {
+    return stamp_us % expected.stamp_resolution_us != 0;
+  });
   check.within("clock.off", static_cast<double>(off), 0, 0, "stamps", 0);
   // The events of a pixel may be alike; the pixels are not. The film may end within a step of the
   // clock.

@@ -85,7 +85,7 @@ class Accuracy {
 };
 
 SamplingVariant changed(const std::string& name, const std::function<void(SamplingVariant&)>& f) {
-  SamplingVariant variant{name, {}, {}};
+  SamplingVariant variant{name};
   f(variant);
   return variant;
 }
@@ -127,7 +127,7 @@ std::vector<SamplingVariant> sampling_variants() {
 }
 
 SamplingVariant sampling_reference() {
-  SamplingVariant reference{"reference", {}, {}};
+  SamplingVariant reference{"reference"};
   SamplingSpec& sampling = reference.sampling;
   sampling.max_displacement_px /= kReferenceFiner;
   sampling.min_interval_us =
@@ -199,9 +199,7 @@ Check judge(const std::vector<SamplingResult>& results) {
       "Random throws in the room with a vehicle that moves and turns as it is told, half of "
       "them at 5 rad/s, half of the balls entering the view from the side. Events against "
       "those of a camera that is sampled eight times finer and for which every picture is "
-      "drawn anew. Noise and jitter are off.",
-      {},
-      {}};
+      "drawn anew. Noise and jitter are off."};
   const auto judge_part = [&check](const std::string& part, const SamplingAccuracy& accuracy) {
     check.within(part + ".count", accuracy.count_ratio(), 1, kSamplingCountLimit, "of reference",
                  4);

@@ -16,8 +16,8 @@ namespace dodgesim {
 // A way to sample.
 struct SamplingVariant {
   std::string name;
-  SamplingSpec sampling;
-  KeySpec keys;
+  SamplingSpec sampling = {};
+  KeySpec keys = {};
   bool whole_pictures = false;  // objects' regions are taken as whole pictures
 };
 

@@ -43,22 +43,20 @@ Check judge(const StampPhases& measured) {
               "A texture drifts by half a pixel from sample to sample, 1 ms apart. Stamps, less "
               "the latency, must be spread evenly between the samples: of all events as many "
               "within 5 % of the interval about a sample as elsewhere, and none of twenty bins "
-              "more than a quarter above the even share. Noise and jitter are off.",
-              {},
-              {}};
+              "more than a quarter above the even share. Noise and jitter are off."};
   const auto& phases = measured.phases;
   if (phases.size() < kLeastStamps) {
     check.off("stamps", "the film makes fewer than 5000 events");
     return check;
   }
   const auto n = static_cast<double>(phases.size());
-  const auto near = std::count_if(phases.begin(), phases.end(),
-                                  [](double phase) { return phase < kNear || phase >= 1 - kNear; });
+  const auto near = std::ranges::count_if(
+      phases, [](double phase) { return phase < kNear || phase >= 1 - kNear; });
   check.within("stamps.at_samples", 100 * static_cast<double>(near) / n, 200 * kNear,
                100 * kShareSlack, "%", 2);
   const Series bars = histogram("", 0, phases, 0, 1, kBins);
-  const double highest = *std::max_element(bars.y.begin(), bars.y.end()) * kBins;
-  const double lowest = *std::min_element(bars.y.begin(), bars.y.end()) * kBins;
+  const double highest = *std::ranges::max_element(bars.y) * kBins;
+  const double lowest = *std::ranges::min_element(bars.y) * kBins;
   check.between("stamps.fullest_bin", highest, 1, kMostOfEven, "of even", 3);
   check.between("stamps.emptiest_bin", lowest, 2 - kMostOfEven, 1, "of even", 3);
   check.plots.push_back({"Time stamps between two samples of the light",

@@ -89,7 +89,7 @@ StepAnswer measure_level(const EventCameraSpec& spec, double lux, std::uint64_t 
     const double later_us = std::pow(longest_us, static_cast<double>(i) / kStepPictures);
     times.push_back(std::max(times.back() + 1, kBeforeStepUs + static_cast<TimeUs>(later_us)));
   }
-  StepAnswer answer{lux, {}};
+  StepAnswer answer{lux};
   std::vector<bool> seen(static_cast<std::size_t>(kStepWidth) * kStepHeight);
   for (const Event& event : record(camera, step, times).events) {
     const auto pixel = std::size_t{event.y} * kStepWidth + event.x;
@@ -131,8 +131,7 @@ void judge_level(const StepAnswer& answer, const EventCameraSpec& expected, Chec
                kStepRelativeLimit * late_us + kAbsoluteLimitUs + kMedianSigma * chance_us, "us", 1);
   check.within(name + ".spread", spread(answer.latencies_us), spread_us,
                kSpreadLimit * spread_us + kAbsoluteLimitUs + kSpreadSigma * chance_us, "us", 1);
-  measured.x.push_back(answer.lux);
-  measured.y.push_back(median_us);
+  measured.add(answer.lux, median_us);
   measured.spread.push_back(spread(answer.latencies_us));
 }
 
@@ -173,18 +172,15 @@ Check judge(const std::vector<StepAnswer>& answers, const EventCameraSpec& expec
       "to pass the threshold: for one low-pass -tau ln(1 - C/step). Median and spread "
       "(half of what lies between the quantiles 0.16 and 0.84: mismatch and jitter) "
       "against that closed form, to 2 % without the latency and three standard deviations of "
-      "the median. Noise, the readout's limit and further events are off.",
-      {},
-      {}};
-  Series measured{"measured, with spread", Series::Kind::kPoints, 0, {}, {}, {}};
-  Series curve{"closed form", Series::Kind::kLine, 1, {}, {}, {}};
+      "the median. Noise, the readout's limit and further events are off."};
+  Series measured{"measured, with spread", Series::Kind::kPoints, 0};
+  Series curve{"closed form", Series::Kind::kLine, 1};
   for (const StepAnswer& answer : answers) judge_level(answer, expected, check, measured);
   constexpr int kPoints = 50;
   for (int i = 0; i < kPoints; ++i) {
     const double lux = std::pow(10, 4.0 * i / (kPoints - 1));  // 1 to 10000
     if (!applies(expected, lux)) continue;
-    curve.x.push_back(lux);
-    curve.y.push_back(quantile(expected_latencies_us(expected, lux), 0.5));
+    curve.add(lux, quantile(expected_latencies_us(expected, lux), 0.5));
   }
   check.plots.push_back({"First event after the light has doubled",
                          {"illuminance before the step [lux]", 0.7, 15000, true},

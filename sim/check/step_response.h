@@ -10,8 +10,8 @@
 namespace dodgesim {
 
 struct StepAnswer {
-  double lux = 0;                    // before the step; twice that after it
-  std::vector<double> latencies_us;  // of the first events of the pixels that fired
+  double lux = 0;                         // before the step; twice that after it
+  std::vector<double> latencies_us = {};  // of the first events of the pixels that fired
 };
 
 std::vector<StepAnswer> measure_step_response(const EventCameraSpec& camera, std::uint64_t seed);

@@ -116,13 +116,12 @@ void judge_polarity(const std::string& name, const std::vector<double>& measured
 
 Series expected_curve(const std::string& name, int colour, double mean, double sd, double from,
                       double to, int bins) {
-  Series curve{name, Series::Kind::kLine, colour, {}, {}, {}};
+  Series curve{name, Series::Kind::kLine, colour};
   const double width = (to - from) / bins;
   for (int i = 0; sd > 0 && i < bins; ++i) {
     const double x = from + (i + 0.5) * width;
     const double z = (x - mean) / sd;
-    curve.x.push_back(x);
-    curve.y.push_back(width / sd * std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi));
+    curve.add(x, width / sd * std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi));
   }
   return curve;
 }
@@ -152,9 +151,7 @@ Check judge(const MeasuredThresholds& measured, const EventCameraSpec& expected)
               "ramp's slope times the mean time between its events. Mean and standard deviation "
               "over the pixels against the set ones (of a normal cut at threshold_min), within "
               "three standard errors and 0.2 %, and what a slow photoreceptor's lag changes by. "
-              "Noise and jitter are off.",
-              {},
-              {}};
+              "Noise and jitter are off."};
   judge_polarity("on", measured.on, measured.pixels, expected.contrast_threshold_on, expected,
                  check);
   judge_polarity("off", measured.off, measured.pixels, expected.contrast_threshold_off, expected,

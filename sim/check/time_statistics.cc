@@ -52,9 +52,8 @@ class Statistician : public EventTruth {
 };
 
 double share_above(const std::vector<PixelTime>& pixels, double threshold) {
-  const auto above = std::count_if(pixels.begin(), pixels.end(), [threshold](const PixelTime& p) {
-    return p.averaged >= threshold;
-  });
+  const auto above = std::ranges::count_if(
+      pixels, [threshold](const PixelTime& p) { return p.averaged >= threshold; });
   return 100 * static_cast<double>(above) / static_cast<double>(pixels.size());
 }
 
@@ -96,9 +95,7 @@ Check judge(const TimeStatistics& statistics) {
       "have the mean 0 and much the same spread pixel by pixel; averaged over neighbours the "
       "static ones draw together, while the side of a moving object where new events are stays "
       "apart. So more dynamic pixels than static ones must be above the pilot's threshold for a "
-      "camera at rest.",
-      {},
-      {}};
+      "camera at rest."};
   for (const auto& [name, title, regions] :
        {std::tuple{"hovering", "before the vehicle evades", statistics.hovering},
         std::tuple{"evading", "while the vehicle evades", statistics.evading}}) {

@@ -4,9 +4,9 @@
 #include <functional>
 #include <set>
 #include <span>
-#include <sstream>
 
 #include "dodge/presets.h"
+#include "sim/base/formatted.h"
 #include "sim/base/joined.h"
 #include "sim/config/pilot.h"
 #include "sim/files/text_table.h"
@@ -56,15 +56,14 @@ using Sets = std::span<const Set>;
 
 // Each scenario by falanga2020 and then by dodgesim, whose oracle is told of what it may believe.
 std::vector<PaperFlight> flights_of_both(const std::vector<std::string>& scenarios) {
-  std::ostringstream range_m;
-  range_m << dodge::preset(kOwnPilot).position.max_range_m;
+  const std::string range_m = formatted("%g", dodge::preset(kOwnPilot).position.max_range_m);
   std::vector<PaperFlight> flights;
   for (const std::string& scenario : scenarios) {
     flights.push_back({scenario + "_falanga2020", scenario + ".yaml", {}});
     flights.push_back(
         {scenario + "_dodgesim",
          scenario + ".yaml",
-         {paper_setting("pilot", kOwnPilot), paper_setting("oracle.range_cap_m", range_m.str())}});
+         {paper_setting("pilot", kOwnPilot), paper_setting("oracle.range_cap_m", range_m)}});
   }
   return flights;
 }
@@ -96,10 +95,7 @@ void add_success(const std::string& name, Sets sets, const std::vector<Group>& g
 // The range within which the campaign's oracle is told of objects.
 std::string range_text(const LoadedCampaign& campaign) {
   const double range_m = campaign.scenario.oracle.range_cap_m;
-  if (range_m == 0) return "any";
-  std::ostringstream text;
-  text << range_m << " m";
-  return text.str();
+  return range_m == 0 ? "any" : formatted("%g m", range_m);
 }
 
 // "27 not detected, 3 seen late".

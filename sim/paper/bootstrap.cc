@@ -26,7 +26,7 @@ Interval cluster_bootstrap(std::size_t clusters, std::string_view name,
     }
     values.push_back(statistic(drawn));
   }
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   return {estimate_quantile(values, kTail)->value, estimate_quantile(values, 1 - kTail)->value};
 }
 

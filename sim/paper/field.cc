@@ -57,8 +57,7 @@ std::string p_against(const LoadedCampaign& faithful, const LoadedCampaign& vari
 RateGrid grid_of(const std::vector<LoadedCampaign>& campaigns, std::size_t range) {
   const Axis speeds("speed_mps", campaigns.front().results);
   const Part first = parts_of(campaigns.front()).at(range);
-  RateGrid grid{
-      "range " + sweep_value(first, "oracle.range_cap_m") + " m", {}, speed_columns(speeds), {}};
+  RateGrid grid{"range " + sweep_value(first, "oracle.range_cap_m") + " m", speed_columns(speeds)};
   for (std::size_t v = 0; v < variants().size(); ++v) {
     grid.add_row(variants()[v].name, success_by(speeds, parts_of(campaigns[v]).at(range).results));
   }

@@ -1,8 +1,8 @@
 // The claim behind event cameras: how late perception may be, by the speed of the object.
 #include <algorithm>
-#include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/config/pilot.h"
 #include "sim/paper/avoidance_bound.h"
 #include "sim/paper/experiment.h"
@@ -39,8 +39,8 @@ constexpr double kPaperRangeM = 1.5, kFarRangeM = 3;
 // Success of a pilot at each speed (rows) and latency (columns).
 struct LatencyCurves {
   std::string pilot, file;
-  RateGrid grid;
-  std::vector<double> latency_ms;  // of perception
+  RateGrid grid = {};
+  std::vector<double> latency_ms = {};  // of perception
 };
 
 double perception_ms(const Part& part, const DelaySpec& delays) {
@@ -50,8 +50,8 @@ double perception_ms(const Part& part, const DelaySpec& delays) {
 LatencyCurves curves_of(const std::string& pilot, const std::string& file,
                         const std::vector<Part>& parts, const LoadedCampaign& campaign) {
   const Axis speeds("speed_mps", campaign.results);
-  LatencyCurves curves{pilot, file, {}, {}};
-  RateGrid by_latency{"", {}, speed_columns(speeds), {}};
+  LatencyCurves curves{pilot, file};
+  RateGrid by_latency{"", speed_columns(speeds)};
   for (const Part& part : parts) {
     curves.latency_ms.push_back(perception_ms(part, campaign.scenario.delays));
     by_latency.add_row(fixed_text(curves.latency_ms.back(), 1) + " ms",
@@ -86,7 +86,7 @@ std::vector<double> bounds_ms(const AvoidanceBound& bound, const LoadedCampaign&
 // The bound of the fastest objects is always within the plot.
 PaperPlot plot_of(const LatencyCurves& curves, double range_m, const LoadedCampaign& campaign) {
   const std::vector<double> bounds = bounds_ms(rotors_bound(campaign.scenario, range_m), campaign);
-  const double least_ms = *std::min_element(bounds.begin(), bounds.end());
+  const double least_ms = *std::ranges::min_element(bounds);
   Plot plot;
   plot.title = curves.pilot + ": throws dodged by latency of perception";
   plot.x = {"latency of perception [ms]", 0, 1.05 * std::max(curves.latency_ms.back(), least_ms),
@@ -96,9 +96,7 @@ PaperPlot plot_of(const LatencyCurves& curves, double range_m, const LoadedCampa
     add_curve(curves.grid.rows[i], static_cast<int>(i), curves.latency_ms, curves.grid.rates[i],
               plot);
   }
-  std::ostringstream range;
-  range << range_m;
-  add_bounds("ticks: bound, " + range.str() + " m", bounds, plot);
+  add_bounds(formatted("ticks: bound, %g m", range_m), bounds, plot);
   add_mark("3.5 ms and 60 ms", kPaperLatencyMs, plot);
   add_mark("", kFrameLatencyMs, plot);
   return {curves.file, plot};

@@ -75,7 +75,7 @@ PaperTables analyse_speed(const std::vector<LoadedCampaign>& campaigns) {
       curve(0, campaigns[0], campaigns[1]), curve(0, campaigns[2], campaigns[3]),
       curve(0, campaigns[4], campaigns[5]), curve(1, campaigns[4], campaigns[5])};
   const char* names[] = {kPaperPilot, kOwnPilot, "oracle, 1.5 m", kOraclePilot};
-  RateGrid grid{"dodged", {}, curves[0].columns, {}};
+  RateGrid grid{"dodged", curves[0].columns};
   Plot plot;
   plot.title = "Throws dodged by their speed";
   plot.x = {"speed [m/s]", 0, curves[0].speed_mps.back() + 0.5, false};
@@ -98,13 +98,13 @@ PaperTables analyse_speed(const std::vector<LoadedCampaign>& campaigns) {
 
 struct RangeRows {
   RateGrid grid;
-  std::vector<double> range_m;
+  std::vector<double> range_m = {};
 };
 
 RangeRows rows_of(const std::string& pilot, const std::string& key,
                   const LoadedCampaign& campaign) {
   const Axis speeds("speed_mps", campaign.results);
-  RangeRows rows{{pilot, {}, speed_columns(speeds), {}}, {}};
+  RangeRows rows{{pilot, speed_columns(speeds)}};
   for (const Part& part : parts_of(campaign)) {
     rows.range_m.push_back(sweep_number(part, key));
     rows.grid.add_row(sweep_value(part, key) + " m", success_by(speeds, part.results));

@@ -106,8 +106,8 @@ void MissObserver::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
   for (std::size_t i = 0; i < rig_.X_BC.size(); ++i) {
     const int camera = static_cast<int>(i);
     const auto& window = truth_.window(camera);
-    cycle.events[i] = static_cast<int>(std::count_if(
-        window.begin(), window.end(), [](const WindowEvent& e) { return of_object(e.cause); }));
+    cycle.events[i] = static_cast<int>(
+        std::ranges::count_if(window, [](const WindowEvent& e) { return of_object(e.cause); }));
     const ObjectView one = view(*state, i);
     for (const dodge::Cluster& cluster : dodger.clusters(camera)) {
       const cv::Point2f middle = cluster.rectangle.center;

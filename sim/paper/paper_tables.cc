@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
 #include "sim/campaign/build_info.h"
@@ -21,8 +22,8 @@ std::string flown_markdown(const PaperExperiment& experiment,
   std::string text = "\nFlown:\n\n";
   for (std::size_t i = 0; i < campaigns.size(); ++i) {
     const auto& results = campaigns[i].results;
-    const auto failed = std::count_if(results.begin(), results.end(),
-                                      [](const ThrowResult& r) { return !r.flown.ok(); });
+    const auto failed =
+        std::ranges::count_if(results, [](const ThrowResult& r) { return !r.flown.ok(); });
     text += "- " + std::to_string(results.size()) + " throws, seed " +
             std::to_string(campaigns[i].scenario.seed) + ": `dodgesim run " +
             experiment.flights[i].arguments() + "`";
@@ -72,17 +73,15 @@ std::string contents_of(const fs::path& out) {
 
 std::vector<PaperExperiment> experiments_named(const std::vector<std::string>& names) {
   const std::vector<PaperExperiment>& all = paper_experiments();
-  const auto named = [](const std::string& name) {
-    return [&name](const PaperExperiment& experiment) { return experiment.name == name; };
-  };
+
   for (const std::string& name : names) {
-    if (std::any_of(all.begin(), all.end(), named(name))) continue;
+    if (contains(all, name, &PaperExperiment::name)) continue;
     throw ScenarioError("There is no experiment \"" + name + "\"; there are " +
                         joined(all, &PaperExperiment::name) + ".");
   }
   std::vector<PaperExperiment> chosen;
   for (const PaperExperiment& experiment : all) {
-    const bool wanted = std::find(names.begin(), names.end(), experiment.name) != names.end();
+    const bool wanted = contains(names, experiment.name);
     if (names.empty() || wanted) chosen.push_back(experiment);
   }
   return chosen;
@@ -92,8 +91,7 @@ std::vector<PaperFlight> flights_of(const std::vector<PaperExperiment>& experime
   std::vector<PaperFlight> flights;
   for (const PaperExperiment& experiment : experiments) {
     for (const PaperFlight& flight : experiment.flights) {
-      const bool known = std::any_of(flights.begin(), flights.end(),
-                                     [&](const PaperFlight& f) { return f.name == flight.name; });
+      const bool known = contains(flights, flight.name, &PaperFlight::name);
       if (!known) flights.push_back(flight);
     }
   }

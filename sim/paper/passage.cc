@@ -35,7 +35,7 @@ ObjectView view_of(const CameraRig& rig, const Eigen::Isometry3d& X_WB, const Ei
   view.p_C = view.X_WC.inverse() * p_W;
   view.radius_m = radius_m;
   const auto every_camera = [&](double margin_m) {
-    return std::all_of(rig.X_BC.begin(), rig.X_BC.end(), [&](const Eigen::Isometry3d& X_BC) {
+    return std::ranges::all_of(rig.X_BC, [&](const Eigen::Isometry3d& X_BC) {
       return whole_in_image(rig.intrinsics, (X_WB * X_BC).inverse() * p_W, margin_m);
     });
   };

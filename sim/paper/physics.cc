@@ -1,8 +1,8 @@
 // What physics allows a vehicle that is told of the object, by range, latency and gains.
-#include <algorithm>
 #include <array>
 #include <optional>
 
+#include "sim/base/contains.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/rate_grid.h"
 
@@ -72,16 +72,9 @@ constexpr const char* kPhysicsProtocol = R"(How to read it:
   and state estimate, with noise.
 )";
 
-template <std::size_t n>
-std::optional<std::size_t> find(const std::array<double, n>& values, double value) {
-  const auto found = std::find(values.begin(), values.end(), value);
-  if (found == values.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - values.begin());
-}
-
 // The rate, with the study's figure if it has one.
 std::string beside_study(const Rate& rate, const Study& study, double speed_mps, double size_m) {
-  const auto speed = find(kStudySpeedsMps, speed_mps), size = find(kStudySizesM, size_m);
+  const auto speed = index_of(kStudySpeedsMps, speed_mps), size = index_of(kStudySizesM, size_m);
   if (!speed || !size) return short_rate_text(rate);
   const int percent = study[*speed][*size];
   const std::string text = short_rate_text(rate) + ", " + std::to_string(percent);
@@ -91,7 +84,7 @@ std::string beside_study(const Rate& rate, const Study& study, double speed_mps,
 // A row for each size, a column for each speed.
 RateGrid grid_of(const PhysicsVariant& variant, const LoadedCampaign& campaign, const Axis& sizes,
                  const Axis& speeds) {
-  RateGrid grid{variant.variant.name, {}, speed_columns(speeds), {}};
+  RateGrid grid{variant.variant.name, speed_columns(speeds)};
   for (std::size_t size = 0; size < sizes.values().size(); ++size) {
     Results of_size;
     for (const ThrowResult& result : campaign.results) {

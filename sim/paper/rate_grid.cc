@@ -13,7 +13,7 @@ void RateGrid::add_row(const std::string& row, const std::vector<Rate>& row_rate
 }
 
 RateGrid RateGrid::transposed(const std::string& transposed_name) const {
-  RateGrid other{transposed_name, columns, rows, {}};
+  RateGrid other{transposed_name, rows, columns};
   other.rates.resize(columns.size());
   for (const std::vector<Rate>& row : rates) {
     for (std::size_t i = 0; i < columns.size(); ++i) other.rates[i].push_back(row[i]);
@@ -115,12 +115,11 @@ PlotAxis dodged_axis() { return {"dodged, of those that would have hit", 0, 1.05
 
 void add_curve(const std::string& name, int colour, const std::vector<double>& at,
                const std::vector<Rate>& rates, Plot& plot) {
-  Series line{name, Series::Kind::kLine, colour, {}, {}, {}};
+  Series line{name, Series::Kind::kLine, colour};
   for (std::size_t i = 0; i < at.size(); ++i) {
     const std::optional<double> value = rates[i].value();
     if (!value) continue;
-    line.x.push_back(at[i]);
-    line.y.push_back(*value);
+    line.add(at[i], *value);
   }
   Series points = line;
   points.name.clear();
@@ -131,7 +130,7 @@ void add_curve(const std::string& name, int colour, const std::vector<double>& a
 
 void add_mark(const std::string& name, double at, Plot& plot) {
   constexpr int kGrey = 5;
-  plot.series.push_back({name, Series::Kind::kLine, kGrey, {at, at}, {0, 1}, {}});
+  plot.series.push_back({name, Series::Kind::kLine, kGrey, {at, at}, {0, 1}});
 }
 
 void add_bounds(const std::string& name, const std::vector<double>& at, Plot& plot) {
@@ -139,9 +138,11 @@ void add_bounds(const std::string& name, const std::vector<double>& at, Plot& pl
   std::string legend = name;  // once
   for (std::size_t i = 0; i < at.size(); ++i) {
     if (!(at[i] >= plot.x.from && at[i] <= plot.x.to)) continue;
-    Series tick{legend, Series::Kind::kLine, static_cast<int>(i), {at[i], at[i]}, {}, {}};
-    tick.y = {0.5 - kHalfTick, 0.5 + kHalfTick};
-    plot.series.push_back(tick);
+    plot.series.push_back({legend,
+                           Series::Kind::kLine,
+                           static_cast<int>(i),
+                           {at[i], at[i]},
+                           {0.5 - kHalfTick, 0.5 + kHalfTick}});
     legend.clear();
   }
 }

@@ -15,8 +15,8 @@ namespace dodgesim {
 
 struct RateGrid {
   std::string name;  // head of the first column
-  std::vector<std::string> rows, columns;
-  std::vector<std::vector<Rate>> rates;  // [row][column]
+  std::vector<std::string> columns, rows = {};
+  std::vector<std::vector<Rate>> rates = {};  // [row][column]
 
   void add_row(const std::string& row, const std::vector<Rate>& row_rates);
   RateGrid transposed(const std::string& transposed_name) const;

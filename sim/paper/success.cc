@@ -31,8 +31,8 @@ TimeInView time_in_view(const Passage& passage, const std::vector<DetectionRow>&
     piece_us += kStepUs;
     if (piece_us < kLeastVisibleUs) continue;
     const TimeUs end_us = t_us + kStepUs, begin_us = end_us - piece_us;
-    const bool detected = std::any_of(detected_us.begin(), detected_us.end(),
-                                      [&](TimeUs at) { return at >= begin_us && at < end_us; });
+    const bool detected =
+        std::ranges::any_of(detected_us, [&](TimeUs at) { return at >= begin_us && at < end_us; });
     ++time.pieces;
     if (!detected) time.missed_us.push_back(begin_us);
     piece_us = 0;

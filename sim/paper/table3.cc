@@ -44,8 +44,8 @@ constexpr Load kLoads[] = {{"typical", "2000 to 6000 events"},
                            {"20000", "18,000 to 22,000 events"}};
 
 double median_of(const std::string& name, const std::vector<Measurement>& measured) {
-  const auto found = std::find_if(measured.begin(), measured.end(),
-                                  [&](const Measurement& m) { return m.quantity.name == name; });
+  const auto found =
+      std::ranges::find(measured, name, [](const Measurement& m) { return m.quantity.name; });
   if (found == measured.end()) throw ScenarioError("Table 3 needs the quantity " + name + ".");
   return found->median();
 }

@@ -197,7 +197,7 @@ cv::Mat3b legend(const Plot& plot) {
 
 Series histogram(const std::string& name, int colour, const std::vector<double>& values,
                  double from, double to, int bins) {
-  Series series{name, Series::Kind::kBars, colour, {}, {}, {}};
+  Series series{name, Series::Kind::kBars, colour};
   const double width = (to - from) / bins;
   for (int i = 0; i < bins; ++i) series.x.push_back(from + (i + 0.5) * width);
   series.y.resize(static_cast<std::size_t>(bins));

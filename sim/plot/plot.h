@@ -12,8 +12,13 @@ struct Series {
   std::string name;  // in the legend; empty: not there
   Kind kind = Kind::kLine;
   int colour = 0;  // 0 to 5
-  std::vector<double> x, y;
-  std::vector<double> spread;  // half-length of a bar about each point; empty: none
+  std::vector<double> x = {}, y = {};
+  std::vector<double> spread = {};  // half-length of a bar about each point; empty: none
+
+  void add(double at_x, double at_y) {
+    x.push_back(at_x);
+    y.push_back(at_y);
+  }
 };
 
 struct PlotAxis {

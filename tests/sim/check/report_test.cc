@@ -81,7 +81,7 @@ int coloured(const cv::Mat3b& image) {
 }
 
 TEST(Plot, DrawsBarsAsHighAsTheirValues) {
-  const Series bars{"", Series::Kind::kBars, 0, {0.5, 1.5}, {1, 2}, {}};
+  const Series bars{"", Series::Kind::kBars, 0, {0.5, 1.5}, {1, 2}};
   const cv::Mat3b image = draw({"", {"", 0, 2, false}, {"", 0, 2, false}, {bars}});
   const int middle = image.cols / 2 + 32;  // the frame is not in the middle
   const int left = coloured(image.colRange(0, middle));
@@ -90,13 +90,13 @@ TEST(Plot, DrawsBarsAsHighAsTheirValues) {
 }
 
 TEST(Plot, DrawsNothingThatIsNoNumberOrNotPositiveOnALogarithmicAxis) {
-  const Series points{"", Series::Kind::kPoints, 1, {1, 2, 3}, {NAN, 0, -1}, {}};
+  const Series points{"", Series::Kind::kPoints, 1, {1, 2, 3}, {NAN, 0, -1}};
   EXPECT_EQ(coloured(draw({"", {"", 0, 4, false}, {"", 0.1, 10, true}, {points}})), 0);
   EXPECT_EQ(coloured(draw({"", {"", 0, 0, false}, {"", 0, 0, false}, {}})), 0);
 }
 
 TEST(Report, HoldsEveryLineAndPlotInOnePage) {
-  Check check{"A <title>", "How & why", {}, {}};
+  Check check{"A <title>", "How & why"};
   check.within("one.line", 2, 1, 0.5, "us", 1);
   check.plots.push_back({"A plot", {"x", 0, 1, false}, {"y", 0, 1, false}, {}});
   const std::string html = html_report("camera.yaml", {check});

@@ -18,7 +18,7 @@ constexpr const char* kModels = DODGESIM_SOURCE_DIR "/models";
 
 TEST(SamplingStudy, FindsNoDifferenceBetweenTheReferenceAndItself) {
   SamplingOptions options{kModels, 1, 1, EventCameraSpec(), 4000};
-  SamplingVariant coarse{"coarse", {}, {}};
+  SamplingVariant coarse{"coarse"};
   coarse.sampling.max_displacement_px = 4;
   int reported = 0;
   const auto results = study_sampling(options, {sampling_reference(), coarse},

@@ -23,7 +23,7 @@ TEST(RateGrid, CountsTheDodgesOfEachValue) {
 }
 
 TEST(RateGrid, IsTransposed) {
-  RateGrid grid{"speed", {}, {"a", "b", "c"}, {}};
+  RateGrid grid{"speed", {"a", "b", "c"}};
   grid.add_row("x", {{1, 9}, {2, 9}, {3, 9}});
   grid.add_row("y", {{4, 9}, {5, 9}, {6, 9}});
   const RateGrid other = grid.transposed("letter");
@@ -37,7 +37,7 @@ TEST(RateGrid, IsTransposed) {
 }
 
 TEST(RateGrid, SumsItsRows) {
-  RateGrid grid{"speed", {}, {"a", "b"}, {}};
+  RateGrid grid{"speed", {"a", "b"}};
   grid.add_row("x", {{1, 3}, {2, 4}});
   const RateGrid summed = grid.with_sum();
   EXPECT_EQ(summed.columns.back(), "all");
@@ -46,7 +46,7 @@ TEST(RateGrid, SumsItsRows) {
 }
 
 TEST(RateGrid, IsWrittenForPeopleAndPrograms) {
-  RateGrid grid{"speed", {}, {"a", "b"}, {}};
+  RateGrid grid{"speed", {"a", "b"}};
   grid.add_row("x", {{25, 34}, {0, 0}});
   EXPECT_EQ(grid.table().rows[0][1], "25 / 34 (0.57 to 0.85)");
   EXPECT_EQ(grid.table().rows[0][2], "-");
