@@ -4,9 +4,9 @@
 #include <cmath>
 #include <new>
 #include <optional>
-#include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/base/memory_limit.h"
 #include "sim/base/process_state.h"
 #include "sim/base/utf8.h"
@@ -33,9 +33,7 @@ auto guarded(Call call) -> decltype(call()) {
 }
 
 [[noreturn]] void refuse(const char* what, dodge::TimeUs now_us) {
-  std::ostringstream message;
-  message << "The pilot " << what << " at " << dodge::seconds(now_us) << " s.";
-  throw SimulationError(message.str());
+  throw SimulationError(formatted("The pilot %s at %g s.", what, dodge::seconds(now_us)));
 }
 
 // What is written of it to detections.csv.
@@ -60,8 +58,8 @@ void check_detection(const dodge::Detection& detection, dodge::TimeUs now_us) {
 
 std::string sentence_of(const std::exception& error) {
   std::string text = valid_utf8(error.what());
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' '; }, ' ');
   while (!text.empty() && text.back() == ' ') text.pop_back();
   if (text.empty()) return "an exception without a text.";
   return text.back() == '.' ? text : text + ".";

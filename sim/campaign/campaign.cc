@@ -82,7 +82,7 @@ class CampaignQueue {
     progress_.reset();
     if (listener_.begun) listener_.begun(i);
     campaigns_[i]->begin();
-    progress_.emplace(campaigns_[i]->to_fly(), plans_[i].options.show_progress);
+    progress_.emplace(campaigns_[i]->to_fly(), "throws", plans_[i].options.show_progress);
   }
 
   void receive(const Task& task, const ThrowResult& result) {
@@ -105,7 +105,7 @@ class CampaignQueue {
   }
 
   bool all_ended() const {
-    return std::all_of(campaigns_.begin(), campaigns_.end(), [](const auto& c) { return !c; });
+    return std::ranges::all_of(campaigns_, [](const auto& c) { return !c; });
   }
 
   const std::vector<PlannedCampaign>& plans_;

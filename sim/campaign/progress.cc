@@ -1,5 +1,7 @@
 #include "sim/campaign/progress.h"
 
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -14,12 +16,14 @@ constexpr std::chrono::milliseconds kShowEvery(200);
 
 }  // namespace
 
-Progress::Progress(std::int64_t total, bool visible, std::string unit)
+Progress::Progress(std::int64_t total, std::string unit, bool visible)
     : total_(total),
-      visible_(visible),
       unit_(std::move(unit)),
+      visible_(visible),
       begin_(WallClock::now()),
       shown_(begin_ - kShowEvery) {}
+
+bool Progress::on_terminal() { return ::isatty(STDERR_FILENO) == 1; }
 
 void Progress::show(std::int64_t finished) {
   if (!visible_) return;

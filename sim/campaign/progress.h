@@ -10,8 +10,8 @@ namespace dodgesim {
 
 class Progress {
  public:
-  // Silent unless `visible`. `unit` is what is counted.
-  Progress(std::int64_t total, bool visible, std::string unit = "throws");
+  // `unit` is what is counted. Silent unless `visible`.
+  Progress(std::int64_t total, std::string unit, bool visible = on_terminal());
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress() { finish(); }  // so that an error message begins a line of its own
@@ -19,10 +19,12 @@ class Progress {
   void show(std::int64_t finished);  // of 1 and more; writes a few times a second at most
   void finish();                     // ends the line
 
+  static bool on_terminal();  // whether standard error is one
+
  private:
   std::int64_t total_;
-  bool visible_;
   std::string unit_;
+  bool visible_;
   WallClock::time_point begin_;
   WallClock::time_point shown_;
 };

@@ -14,7 +14,6 @@
 #include <cstring>
 #include <fstream>
 #include <new>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -23,6 +22,7 @@
 #include "sim/base/child_process.h"
 #include "sim/base/descriptor.h"
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/base/memory_limit.h"
 #include "sim/base/wall_clock.h"
 #include "sim/campaign/journal.h"
@@ -241,11 +241,9 @@ class Pool {
     const std::chrono::duration<double> limit(tasks_.limits.wall_s);
     for (std::size_t i = workers_.size(); i-- > 0;) {
       if (WallClock::now() - workers_[i].begin < limit || has_result(workers_[i])) continue;
-      std::ostringstream reason;
-      reason << "The throw took longer than the " << tasks_.limits.wall_s
-             << " s of computing time of the limit.";
       end(workers_[i]);
-      lose(i, reason.str());
+      lose(i, formatted("The throw took longer than the %g s of computing time of the limit.",
+                        tasks_.limits.wall_s));
     }
   }
 

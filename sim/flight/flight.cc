@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <numbers>
-#include <sstream>
 
 #include "dodge/dodger.h"
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/config/pilot.h"
 #include "sim/flight/setup.h"
 #include "sim/world/ray.h"
@@ -25,12 +25,11 @@ ImuSpec every_tick(ImuSpec spec) {
 void expect_free_launch(const World& world, std::size_t object) {
   const auto overlap = world.overlap(static_cast<int>(object));
   if (!overlap) return;
-  std::ostringstream message;
-  message << "Object " << object << " would be launched at " << seconds(world.snapshot().t_us)
-          << " s where it is " << overlap->depth_m << " m inside " << overlap->with
-          << ": change where (throw.distance_m, bearing_deg, launch_height_m) or when (launch_s, "
-             "interval_s).";
-  throw SimulationError(message.str());
+  throw SimulationError(
+      formatted("Object %zu would be launched at %g s where it is %g m inside %s: change where "
+                "(throw.distance_m, bearing_deg, launch_height_m) or when (launch_s, "
+                "interval_s).",
+                object, seconds(world.snapshot().t_us), overlap->depth_m, overlap->with.c_str()));
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/config/resolve_throw.h"
 #include "sim/flight/setup.h"
 #include "sim/loop.h"
@@ -34,12 +34,11 @@ void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_
   const Eigen::Vector3d ray_W = launch_p_W - vehicle_p_W;
   const std::optional<RayHit> hit = room_along(world, vehicle_p_W, ray_W);
   if (!hit || hit->distance >= 1) return;
-  std::ostringstream message;
-  message << "The throw starts at (" << launch_p_W.x() << ", " << launch_p_W.y() << ", "
-          << launch_p_W.z() << ") m, behind the room's \"" << geom_name(world, hit->geom)
-          << "\" as seen from the vehicle: change throw.distance_m, throw.bearing_deg, "
-             "throw.launch_height_m or the mission.";
-  throw ScenarioError(message.str());
+  throw ScenarioError(formatted("The throw starts at (%g, %g, %g) m, behind the room's \"",
+                                launch_p_W.x(), launch_p_W.y(), launch_p_W.z()) +
+                      geom_name(world, hit->geom) +
+                      "\" as seen from the vehicle: change throw.distance_m, throw.bearing_deg, "
+                      "throw.launch_height_m or the mission.");
 }
 
 // How object i leaves the hand to meet the vehicle. Throws ScenarioError if it cannot.

@@ -2,9 +2,9 @@
 
 #include <bit>
 #include <limits>
-#include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/events/event_camera.h"
 
 namespace dodgesim {
@@ -137,11 +137,9 @@ void FrameReader::check_luminance(const std::vector<float>& luminance) const {
   std::size_t i = 0;
   while (!bad(luminance[i])) ++i;
   const auto width = static_cast<std::size_t>(width_);
-  std::ostringstream value;
-  value << luminance[i];
-  refuse(frames_, "has the luminance " + value.str() + " in frame " + std::to_string(next_frame_) +
-                      ", row " + std::to_string(i / width) + ", column " +
-                      std::to_string(i % width) +
+  refuse(frames_, "has the luminance " + formatted("%g", static_cast<double>(luminance[i])) +
+                      " in frame " + std::to_string(next_frame_) + ", row " +
+                      std::to_string(i / width) + ", column " + std::to_string(i % width) +
                       ", but luminance must be finite and not negative");
 }
 

@@ -1,11 +1,11 @@
 #include "sim/world/model_trial.h"
 
 #include <new>
-#include <sstream>
 #include <string>
 
 #include "sim/base/child_process.h"
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/base/memory_limit.h"
 #include "sim/world/referee.h"
 #include "sim/world/world.h"
@@ -27,11 +27,10 @@ void check_place(const VehiclePlace& place, World& world, Referee& referee) {
   referee.reset();
   referee.observe(world, false);
   if (!referee.verdict().crashed) return;
-  std::ostringstream message;
-  message << "The vehicle cannot be at (" << place.p_W.x() << ", " << place.p_W.y() << ", "
-          << place.p_W.z() << ") m: it touches the room there, or is outside; move " << place.key
-          << ".";
-  throw ScenarioError(message.str());
+  throw ScenarioError(formatted("The vehicle cannot be at (%g, %g, %g) m: it touches the room "
+                                "there, or is outside; move ",
+                                place.p_W.x(), place.p_W.y(), place.p_W.z()) +
+                      place.key + ".");
 }
 
 // What is wrong with the models or the places, or nothing.

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
@@ -115,11 +114,11 @@ BodyState solve_throw(const Throw& toss, const ObjectPhysics& object,
     }
     launch.v_W -= J.inverse() * error;
   }
-  std::ostringstream message;
-  message << "A throw over " << toss.distance_m << " m at " << toss.speed_mps
-          << " m/s is impossible, as the air drag of the object is too strong: raise "
-             "throw.speed_mps, reduce throw.distance_m or take a heavier object.";
-  throw ScenarioError(message.str());
+  throw ScenarioError(
+      formatted("A throw over %g m at %g m/s is impossible, as the air drag of the object is too "
+                "strong: raise "
+                "throw.speed_mps, reduce throw.distance_m or take a heavier object.",
+                toss.distance_m, toss.speed_mps));
 }
 
 }  // namespace dodgesim

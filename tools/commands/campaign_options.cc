@@ -1,10 +1,9 @@
 #include "tools/commands/campaign_options.h"
 
-#include <unistd.h>
-
 #include <iostream>
 #include <thread>
 
+#include "sim/campaign/progress.h"
 #include "sim/files/text_table.h"
 #include "sim/flight/fly_throw.h"
 #include "sim/observers/event_truth.h"
@@ -85,7 +84,7 @@ PlannedCampaign plan_campaign(const Scenario& scenario, CampaignOptions options)
   options.models = digest_of_models(scenario);
   options.plugin = scenario.plugin.digest;
   options.stop = asked_to_stop;
-  options.show_progress = ::isatty(STDERR_FILENO) == 1;
+  options.show_progress = Progress::on_terminal();
   options.gl_renderer = renderer_name;
   const bool truth = options.truth;
   return {&scenario, std::move(options), [&scenario, truth](int index) {

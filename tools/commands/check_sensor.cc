@@ -1,6 +1,4 @@
 // dodgesim check-sensor: self-tests of the event camera.
-#include <unistd.h>
-
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -46,7 +44,7 @@ struct CheckSensorArguments {
 int study(const CheckSensorArguments& arguments) {
   const SamplingOptions options{arguments.models_dir, arguments.sampling, arguments.seed,
                                 named_event_camera(arguments.camera)};
-  Progress progress(arguments.sampling, ::isatty(STDERR_FILENO) == 1, "throws");
+  Progress progress(arguments.sampling, "throws");
   const auto results =
       study_sampling(options, sampling_variants(), [&](int finished) { progress.show(finished); });
   progress.finish();

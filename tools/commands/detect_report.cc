@@ -1,7 +1,5 @@
 #include "tools/commands/detect_report.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <numeric>
@@ -45,7 +43,7 @@ void report_events(const Playback& playback, int cameras) {
 PlaybackProgress::PlaybackProgress(const std::vector<std::string>& files)
     : sizes_kb_(sizes_kb(files)),
       progress_(std::accumulate(sizes_kb_.begin(), sizes_kb_.end(), std::int64_t{0}),
-                ::isatty(STDERR_FILENO) == 1, "kB of events") {}
+                "kB of events") {}
 
 void PlaybackProgress::show(const Playback& playback) {
   double played_kb = 0;

@@ -1,6 +1,4 @@
 // dodgesim emulate: video to events.
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -114,7 +112,7 @@ class Emulation {
 };
 
 void emulate(FrameReader& video, const LightBetween& light, Emulation& emulation) {
-  Progress progress(video.frame_count(), ::isatty(STDERR_FILENO) == 1, "frames");
+  Progress progress(video.frame_count(), "frames");
   TimeUs before_us = 0, t_us = 0;
   std::vector<float> before, luminance;
   video.next(t_us, luminance);

@@ -1,6 +1,4 @@
 // dodgesim replay: flies one throw of a campaign again, bit-identically.
-#include <unistd.h>
-
 #include <filesystem>
 #include <initializer_list>
 #include <iostream>
@@ -69,8 +67,7 @@ class Stopper : public FlightObserver {
 // Says on a terminal how far the flight is.
 class FlightProgress : public FlightObserver {
  public:
-  explicit FlightProgress(TimeUs duration_us)
-      : progress_(duration_us / kUsPerMs, ::isatty(STDERR_FILENO) == 1, "ms of flight") {}
+  explicit FlightProgress(TimeUs duration_us) : progress_(duration_us / kUsPerMs, "ms of flight") {}
   void on_tick(const World& world) override {
     // Before, the cost of the first pictures would spoil the estimate of the time that is left.
     if (world.snapshot().t_us >= kFirstUs) progress_.show(world.snapshot().t_us / kUsPerMs);
