@@ -14,7 +14,7 @@ inline bool is_name_character(char c) {
 
 // A plain name of letters, digits, _ and -: as a file's name it cannot lead out of its folder.
 inline bool is_plain_name(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), is_name_character);
+  return !text.empty() && std::ranges::all_of(text, is_name_character);
 }
 
 // Whether the path leads to the folder or into it. Both are canonical.

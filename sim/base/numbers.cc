@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "sim/base/contains.h"
+
 namespace dodgesim {
 
 namespace {
@@ -28,7 +30,7 @@ bool names_no_finite_number(std::string_view body) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
   static constexpr std::array kNames = {".nan", ".inf", "nan", "inf", "infinity"};
-  return std::find(kNames.begin(), kNames.end(), lower) != kNames.end();
+  return contains(kNames, lower);
 }
 
 // std::from_chars takes no plus sign.

@@ -8,7 +8,7 @@ namespace dodgesim {
 
 std::string shell_quoted(const std::string& word) {
   constexpr std::string_view kPlain = "_-./=+,:";
-  const bool plain = std::all_of(word.begin(), word.end(), [&](unsigned char c) {
+  const bool plain = std::ranges::all_of(word, [&](unsigned char c) {
     return std::isalnum(c) != 0 || kPlain.find(static_cast<char>(c)) != std::string_view::npos;
   });
   if (plain && !word.empty()) return word;

@@ -28,8 +28,8 @@ WeightedChoice::WeightedChoice(std::span<const double> weights) : places_(weight
     }
   }
   // What rounding leaves over gets a whole place, unless its weight is 0.
-  const auto heaviest = static_cast<std::uint32_t>(
-      std::distance(weights.begin(), std::max_element(weights.begin(), weights.end())));
+  const auto heaviest =
+      static_cast<std::uint32_t>(std::distance(weights.begin(), std::ranges::max_element(weights)));
   for (const std::uint32_t i : small) places_[i] = {weights[i] > 0 ? 1.0 : 0.0, heaviest};
 }
 

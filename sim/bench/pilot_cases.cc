@@ -119,7 +119,7 @@ struct Player {
         for (const auto& event : cycle.events) stamps.push_back(event.t_us);
         if (stamps.empty()) continue;
         const TimeUs begin_us = stamps.back() - window_us;
-        stamps.erase(stamps.begin(), std::upper_bound(stamps.begin(), stamps.end(), begin_us));
+        stamps.erase(stamps.begin(), std::ranges::upper_bound(stamps, begin_us));
         use(dodger, stamps.size());
       }
     }

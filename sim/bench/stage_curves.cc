@@ -48,7 +48,7 @@ void draw_curve(const std::filesystem::path& file, const std::string& title,
                 double WindowTimes::*load, double WindowTimes::*time_us) {
   const std::vector<double> x = all(windows, load);
   const Line line = line_of(windows, load, time_us);
-  const double most = x.empty() ? 1 : *std::max_element(x.begin(), x.end());
+  const double most = x.empty() ? 1 : *std::ranges::max_element(x);
   Plot plot;
   plot.title = title;
   plot.x = {load_name, 0, std::max(1.0, most), false};

@@ -42,8 +42,8 @@ void TruthPilot::see(const Snapshot& truth) {
     }
     const auto known = dodge::known_obstacle(id, truth.t_us, truth.objects[i].p_W,
                                              truth.objects[i].v_W, setup_.sizes_m[i]);
-    const auto old = std::find_if(obstacles_.begin(), obstacles_.end(),
-                                  [&](const auto& o) { return o.obstacle.id == id; });
+    const auto old =
+        std::ranges::find_if(obstacles_, [&](const auto& o) { return o.obstacle.id == id; });
     if (old == obstacles_.end()) {
       obstacles_.push_back(known);
     } else {

@@ -1,9 +1,9 @@
 #include "sim/campaign/result_files.h"
 
-#include <algorithm>
 #include <iterator>
 #include <optional>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/files/csv.h"
 #include "sim/files/output_file.h"
@@ -107,9 +107,7 @@ bool belongs_to_campaign(const fs::path& file) {
   const fs::path whole = StagedFile::target(file);
   if (!holds_campaign(whole.parent_path())) return false;
   const fs::path name = whole.filename();
-  return name == kJournalFile || name == kScenarioFile ||
-         std::find(std::begin(kResultFiles), std::end(kResultFiles), name) !=
-             std::end(kResultFiles);
+  return name == kJournalFile || name == kScenarioFile || contains(kResultFiles, name);
 }
 
 void write_result_files(const fs::path& out, const Scenario& scenario, const JournalIndex& index,

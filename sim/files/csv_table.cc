@@ -1,8 +1,8 @@
 #include "sim/files/csv_table.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/numbers.h"
 #include "sim/files/input_file.h"
@@ -122,7 +122,7 @@ bool CsvTable::boolean(std::size_t row, const std::string& column) const {
 const std::string& CsvTable::one_of(std::size_t row, const std::string& column,
                                     std::initializer_list<std::string_view> words) const {
   const std::string& text = at(row, column);
-  if (std::find(words.begin(), words.end(), text) != words.end()) return text;
+  if (contains(words, text)) return text;
   std::string list;
   for (const std::string_view word : words) list.append(list.empty() ? "" : " or ").append(word);
   refuse(row, column, list);

@@ -28,7 +28,7 @@ using Commands = std::span<const FlightLog::Command>;
 // The commands from the first evasive one on.
 Commands answer(const FlightLog& log, TimeUs from_us) {
   const Commands all = log.commands;
-  const auto first = std::find_if(all.begin(), all.end(), [&](const FlightLog::Command& command) {
+  const auto first = std::ranges::find_if(all, [&](const FlightLog::Command& command) {
     return command.evading && command.t_us >= from_us;
   });
   return {first, all.end()};
@@ -70,7 +70,7 @@ bool turned(Commands commands, const Encounter& undisturbed) {
     return undisturbed.across_flight(command.v_W - commands.front().vehicle_v_W);
   };
   const Vector3d first_W = across_W(commands.front());
-  return std::any_of(commands.begin(), commands.end(), [&](const FlightLog::Command& command) {
+  return std::ranges::any_of(commands, [&](const FlightLog::Command& command) {
     return command.evading && across_W(command).dot(first_W) < 0;
   });
 }
@@ -111,10 +111,9 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
   const FlightLog::Object& object = log.objects[static_cast<std::size_t>(hitter)];
   evidence.in_view = object.in_view_us.has_value();
   if (object.known_us) evidence.earliest_command_us = *object.known_us + flown.command_delay_us;
-  evidence.another_known_before =
-      std::any_of(log.objects.begin(), log.objects.end(), [&](const auto& other) {
-        return other.known_us && (!object.known_us || *other.known_us < *object.known_us);
-      });
+  evidence.another_known_before = std::ranges::any_of(log.objects, [&](const auto& other) {
+    return other.known_us && (!object.known_us || *other.known_us < *object.known_us);
+  });
   // Of a later object nobody knows how it would have met a vehicle that stayed.
   if (would_hit && none->verdict.nearest_object == hitter) evidence.undisturbed = encounter(*none);
   add_answer(log, object, flown.command_delay_us, evidence);

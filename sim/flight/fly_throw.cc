@@ -122,8 +122,7 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
   result.oracle = oracle.result;
   copy_record(own.record, result);
   for (ObjectRow& row : result.object_rows) copy_object(own.record, none.record, row);
-  result.none_after_room = std::any_of(result.object_rows.begin(), result.object_rows.end(),
-                                       [](const ObjectRow& row) { return row.none_after_room; });
+  result.none_after_room = std::ranges::any_of(result.object_rows, &ObjectRow::none_after_room);
   if (own.result.ok()) {
     explain_throw(plan, none.result.ok() ? &none.record : nullptr, own.record, result);
     result.trajectory = to_bytes(own.record.log.trajectory);

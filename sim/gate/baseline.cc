@@ -121,7 +121,7 @@ Baseline read_baseline(const fs::path& directory) {
 
 bool holds_baseline_files(const fs::path& directory) {
   const auto is_there = [&](const char* name) { return fs::exists(directory / name); };
-  return is_there(kManifestFile) || std::any_of(std::begin(kCopied), std::end(kCopied), is_there);
+  return is_there(kManifestFile) || std::ranges::any_of(kCopied, is_there);
 }
 
 bool is_marked_as_baseline(const fs::path& directory) {

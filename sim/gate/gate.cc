@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "sim/base/contains.h"
 #include "sim/base/formatted.h"
 #include "sim/files/markup.h"
 
@@ -138,10 +139,7 @@ GateCheck bytes_equal(const CampaignTables& before, const CampaignTables& after,
 
 }  // namespace
 
-bool GateVerdict::passed() const {
-  return std::none_of(checks.begin(), checks.end(),
-                      [](const GateCheck& c) { return c.result == Result::kFailed; });
-}
+bool GateVerdict::passed() const { return !contains(checks, Result::kFailed, &GateCheck::result); }
 
 GateVerdict judge(const Baseline& baseline, const CampaignTables& flown,
                   const std::string& machine_kind, const GateRules& rules) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
 #include "sim/base/numbers.h"
@@ -44,7 +45,7 @@ DrawnObject drawn(const CsvTable& table, std::size_t row, const char* kind_colum
 std::vector<AxisValue> settings_of(const CsvTable& throws, std::size_t row) {
   std::vector<AxisValue> settings;
   const auto& columns = throws.columns();
-  const auto end = std::find(columns.begin(), columns.end(), "objects");
+  const auto end = std::ranges::find(columns, "objects");
   auto column = std::find(columns.begin(), end, "sweep");
   if (column == end) return settings;
   for (++column; column != end; ++column) {
@@ -208,8 +209,7 @@ CampaignTables read_tables(const fs::path& directory) {
 
 bool is_drawn(const std::string& column) {
   return column == "object" || column == "kind" || column == "objects" ||
-         std::find(std::begin(kDrawnNumbers), std::end(kDrawnNumbers), column) !=
-             std::end(kDrawnNumbers);
+         contains(kDrawnNumbers, column);
 }
 
 std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign) {

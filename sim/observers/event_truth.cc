@@ -9,7 +9,7 @@ namespace dodgesim {
 
 namespace {
 
-bool contains(const cv::RotatedRect& rectangle, double x, double y) {
+bool covers(const cv::RotatedRect& rectangle, double x, double y) {
   const double angle = rectangle.angle * M_PI / 180;
   const double dx = x - rectangle.center.x, dy = y - rectangle.center.y;
   return std::abs(dx * std::cos(angle) + dy * std::sin(angle)) <= 0.5 * rectangle.size.width &&
@@ -71,8 +71,8 @@ void EventTruth::label_window(std::size_t camera, const dodge::Dodger& dodger) {
       const int y = event.pixel / stages.obstacle_mask.cols;
       const auto& clusters = dodger.clusters(index);
       event.found = stages.obstacle_mask(y, x) != 0 &&
-                    std::any_of(clusters.begin(), clusters.end(), [&](const auto& cluster) {
-                      return contains(cluster.rectangle, x, y);
+                    std::ranges::any_of(clusters, [&](const auto& cluster) {
+                      return covers(cluster.rectangle, x, y);
                     });
     }
     window.push_back(event);

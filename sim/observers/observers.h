@@ -13,8 +13,7 @@ class Observers : public FlightObserver {
  public:
   void add(FlightObserver* observer) { observers_.push_back(observer); }
   bool wants_causes() const override {
-    return std::any_of(observers_.begin(), observers_.end(),
-                       [](const FlightObserver* o) { return o->wants_causes(); });
+    return std::ranges::any_of(observers_, &FlightObserver::wants_causes);
   }
   void on_start(dodge::Pilot& pilot) override {
     for (FlightObserver* o : observers_) o->on_start(pilot);

@@ -92,9 +92,8 @@ double Playback::part_played(int camera) const {
 }
 
 bool Playback::next() {
-  const bool ended = std::all_of(eyes_.begin(), eyes_.end(), [](const Eye& e) {
-    return e.queue.front() == nullptr && e.held.empty();
-  });
+  const bool ended = std::ranges::all_of(
+      eyes_, [](const Eye& e) { return e.queue.front() == nullptr && e.held.empty(); });
   const int last_camera = static_cast<int>(eyes_.size()) - 1;
   const TimeUs transport_us = delays_.transport_us_of(last_camera);
   if (ended && now_us_ >= last_event_us_ + delays_.packet_us + transport_us) return false;
@@ -126,16 +125,16 @@ void Playback::hold(Eye& eye, TimeUs until_us) {
                         " us, more than a camera can see: is t in microseconds?");
   }
   const auto earlier = [](const Event& a, const Event& b) { return a.t_us < b.t_us; };
-  if (!std::is_sorted(eye.held.begin(), eye.held.end(), earlier)) {
-    std::stable_sort(eye.held.begin(), eye.held.end(), earlier);
+  if (!std::ranges::is_sorted(eye.held, earlier)) {
+    std::ranges::stable_sort(eye.held, earlier);
   }
 }
 
 void Playback::send_events(int camera) {
   Eye& eye = eyes_[static_cast<std::size_t>(camera)];
   hold(eye, now_us_ + EventQueue::kSortedUs);
-  const auto due = std::find_if(eye.held.begin(), eye.held.end(),
-                                [this](const Event& event) { return event.t_us > now_us_; });
+  const auto due =
+      std::ranges::find_if(eye.held, [this](const Event& event) { return event.t_us > now_us_; });
   if (due != eye.held.begin()) last_event_us_ = std::max(last_event_us_, std::prev(due)->t_us);
   eye.count += due - eye.held.begin();
   eye.packetizer.push({eye.held.begin(), due}, now_us_);

@@ -66,7 +66,7 @@ void add_place(const VehiclePlace& place, std::vector<VehiclePlace>& places) {
   const auto same = [&place](const VehiclePlace& other) {
     return other.p_W == place.p_W && other.heading_rad == place.heading_rad;
   };
-  if (std::none_of(places.begin(), places.end(), same)) places.push_back(place);
+  if (std::ranges::none_of(places, same)) places.push_back(place);
 }
 
 // The mission's start and goals.

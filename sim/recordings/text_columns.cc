@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
 #include "sim/base/numbers.h"
@@ -95,17 +96,15 @@ void TextColumns::read_names(const std::vector<std::string>& required) {
   }
 }
 
-bool TextColumns::has(const std::string& name) const {
-  return std::find(names_.begin(), names_.end(), name) != names_.end();
-}
+bool TextColumns::has(const std::string& name) const { return contains(names_, name); }
 
 Column TextColumns::column(const std::string& name) const {
-  if (std::count(names_.begin(), names_.end(), name) > 1) {
+  if (std::ranges::count(names_, name) > 1) {
     throw ScenarioError(place() + ": the column " + name + " comes twice.");
   }
-  const auto found = std::find(names_.begin(), names_.end(), name);
-  if (found == names_.end()) throw ScenarioError(path_ + " has no column " + name + ".");
-  return {name, static_cast<std::size_t>(found - names_.begin())};
+  const auto place = index_of(names_, name);
+  if (!place) throw ScenarioError(path_ + " has no column " + name + ".");
+  return {name, *place};
 }
 
 std::string_view TextColumns::text(const Column& column) const {

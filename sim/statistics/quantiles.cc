@@ -14,9 +14,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void check_sample(std::span<const double> sorted) {
-  const bool has_nan =
-      std::any_of(sorted.begin(), sorted.end(), [](double x) { return std::isnan(x); });
-  if (has_nan || !std::is_sorted(sorted.begin(), sorted.end()) ||
+  const bool has_nan = std::ranges::any_of(sorted, [](double x) { return std::isnan(x); });
+  if (has_nan || !std::ranges::is_sorted(sorted) ||
       (!sorted.empty() && sorted.front() == -kInfinity)) {
     throw std::invalid_argument("A sample must ascend, without NaN and -infinity.");
   }

@@ -127,7 +127,7 @@ void FixedWidthRule::find_stop_points() {
     while (first <= last && stop_at(first)) ++first;
     while (first <= last && stop_at(last)) --last;
   }
-  std::sort(stop_points_.begin(), stop_points_.end(), [](const StopPoint& a, const StopPoint& b) {
+  std::ranges::sort(stop_points_, [](const StopPoint& a, const StopPoint& b) {
     return a.interval.middle() < b.interval.middle();
   });
   widest_ = 0;

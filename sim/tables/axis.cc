@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/numbers.h"
 
@@ -77,7 +78,7 @@ std::vector<Bin> make_bins(const std::vector<double>& values, double width, bool
   const std::set<double> distinct(values.begin(), values.end());
   std::vector<Bin> bins;
   if (distinct.empty()) return bins;
-  const bool all_round = std::all_of(distinct.begin(), distinct.end(), is_round);
+  const bool all_round = std::ranges::all_of(distinct, is_round);
   if (written || (distinct.size() <= kMostSingleValues && all_round)) {
     for (const double value : distinct) bins.push_back({value, value});
     return bins;
@@ -99,8 +100,7 @@ std::vector<Bin> make_bins(const std::vector<double>& values, double width, bool
 }
 
 Axis::Axis(const std::string& name, const std::vector<ThrowResult>& results) : name_(name) {
-  const auto key = std::find_if(kNumericKeys.begin(), kNumericKeys.end(),
-                                [&](const NumericKey& k) { return k.name == name; });
+  const auto key = std::ranges::find(kNumericKeys, name, &NumericKey::name);
   const std::string in_grid = "throw." + name;
   if (!results.empty() && value_in_cell(results.front(), in_grid)) {
     // The grid's own values, however many, and never several of them as one.
@@ -124,7 +124,7 @@ Axis::Axis(const std::string& name, const std::vector<ThrowResult>& results) : n
 void Axis::set_names(const std::vector<ThrowResult>& results, const NameOf& name_of) {
   for (const ThrowResult& result : results) {
     const auto name = name_of(result);
-    if (name && std::find(values_.begin(), values_.end(), *name) == values_.end()) {
+    if (name && !contains(values_, *name)) {
       values_.push_back(*name);
     }
   }
@@ -134,10 +134,7 @@ void Axis::set_names(const std::vector<ThrowResult>& results, const NameOf& name
   if (middles_.size() < values_.size()) middles_.clear();
   of_ = [values = values_, name_of](const ThrowResult& result) -> std::optional<std::size_t> {
     const auto name = name_of(result);
-    if (!name) return std::nullopt;
-    const auto at = std::find(values.begin(), values.end(), *name);
-    if (at == values.end()) return std::nullopt;
-    return static_cast<std::size_t>(at - values.begin());
+    return name ? index_of(values, *name) : std::nullopt;
   };
 }
 
@@ -154,8 +151,8 @@ void Axis::set_numeric(const std::vector<ThrowResult>& results, double ThrowResu
   }
   of_ = [bins, key](const ThrowResult& result) -> std::optional<std::size_t> {
     if (!result.thrown()) return std::nullopt;
-    const auto at = std::find_if(bins.begin(), bins.end(),
-                                 [&](const Bin& bin) { return bin.contains(result.*key); });
+    const auto at =
+        std::ranges::find_if(bins, [&](const Bin& bin) { return bin.contains(result.*key); });
     if (at == bins.end()) return std::nullopt;
     return static_cast<std::size_t>(at - bins.begin());
   };

@@ -1,6 +1,5 @@
 #include "sim/tables/report.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <limits>

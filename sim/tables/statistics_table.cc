@@ -32,8 +32,7 @@ StatisticsTable group_by(const Part& part, const std::vector<Axis>& axes) {
 
 const StatisticsTable::Row* find_row(const StatisticsTable& table,
                                      const std::vector<std::string>& values) {
-  const auto row = std::find_if(table.rows.begin(), table.rows.end(),
-                                [&](const auto& r) { return r.values == values; });
+  const auto row = std::ranges::find(table.rows, values, &StatisticsTable::Row::values);
   return row == table.rows.end() ? nullptr : &*row;
 }
 
@@ -61,8 +60,8 @@ StatisticsTable group_by(const std::vector<Part>& parts, const std::vector<Axis>
 }
 
 std::vector<Role> shown_pilots(const StatisticsTable& table) {
-  const bool oracle = std::any_of(table.rows.begin(), table.rows.end(),
-                                  [](const auto& row) { return row.statistics.oracle_flew; });
+  const bool oracle =
+      std::ranges::any_of(table.rows, [](const auto& row) { return row.statistics.oracle_flew; });
   if (oracle) return {Role::kFlown, Role::kOracle, Role::kNone};
   return {Role::kFlown, Role::kNone};
 }

@@ -28,9 +28,8 @@ std::string sample_text(const Measured& sample) {
 // Dodged by each pilot of those that would have hit; for none, would have hit.
 void add_dodged(const StatisticsTable& table, TextTable& text) {
   const std::string& first = table.rows.front().statistics.flown().pilot;
-  const bool one_pilot = std::all_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-    return row.statistics.flown().pilot == first;
-  });
+  const bool one_pilot = std::ranges::all_of(
+      table.rows, [&](const auto& row) { return row.statistics.flown().pilot == first; });
   std::map<Role, std::string> heads = {{Role::kFlown, (one_pilot ? first + ": " : "") + "dodged"},
                                        {Role::kOracle, "oracle: dodged"},
                                        {Role::kNone, "none: would have hit"}};

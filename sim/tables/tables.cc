@@ -19,8 +19,8 @@ const std::vector<std::string> kKeys = {"size_m", "distance_m", "speed_mps"};
 
 // Under which key the tables show a key of the grid: throw.size_m is size_m.
 std::string shown_key(const std::string& key) {
-  const auto at = std::find_if(kKeys.begin(), kKeys.end(),
-                               [&](const std::string& k) { return "throw." + k == key; });
+  const auto at =
+      std::ranges::find_if(kKeys, [&](const std::string& k) { return "throw." + k == key; });
   return at == kKeys.end() ? key : *at;
 }
 
@@ -32,7 +32,7 @@ void append(const Part& part, const std::vector<Axis>& by, StatisticsTable& tabl
   for (StatisticsTable::Row& row : grouped.rows) {
     std::vector<std::string> values(table.keys.size(), "all");
     for (std::size_t i = 0; i < by.size(); ++i) {
-      const auto at = std::find(table.keys.begin(), table.keys.end(), shown_key(by[i].name()));
+      const auto at = std::ranges::find(table.keys, shown_key(by[i].name()));
       values[static_cast<std::size_t>(at - table.keys.begin())] = row.values[i];
     }
     if (find_row(table, values) != nullptr) continue;
@@ -244,8 +244,7 @@ std::string markdown_of(const Part& part, const TableAxes& axes, const Statistic
   const ThrowStatistics& all = table.rows.back().statistics;
   std::string text;
   if (!part.values.empty()) text += "# " + label(part.values) + "\n\n";
-  const bool anything_thrown = std::any_of(part.results.begin(), part.results.end(),
-                                           [](const ThrowResult* r) { return r->thrown(); });
+  const bool anything_thrown = std::ranges::any_of(part.results, &ThrowResult::thrown);
   if (anything_thrown) {
     text += "Dodged: " + rate_text(all.flown().tally.success()) + "\n\n";
     text += section("By size and distance", by_size_and_distance(axes, table).to_markdown());

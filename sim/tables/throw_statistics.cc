@@ -97,7 +97,7 @@ void Tally::add(const ThrowResult& result, ThrowResult::FlightOf by) {
 
 std::optional<QuantileEstimate> Measured::quantile(double share) const {
   std::vector<double> sorted = values_;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   return estimate_quantile(sorted, share);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/gravity.h"
 #include "sim/base/names.h"
@@ -24,7 +25,7 @@ void check_model_name(const std::string& name, const std::string& folder) {
 void refuse(const std::vector<MjcfTag>& tags, std::initializer_list<const char*> elements,
             const std::string& what, const std::string& label) {
   for (const MjcfTag& tag : tags) {
-    if (std::find(elements.begin(), elements.end(), tag.name) != elements.end()) {
+    if (contains(elements, tag.name)) {
       throw ScenarioError(label + ":" + std::to_string(tag.line) + ": The model of " + what +
                           " must not use <" + tag.name + ">.");
     }
@@ -76,7 +77,7 @@ void expect_one_joint(const std::vector<MjcfTag>& tags, const std::string& label
   const auto is_joint = [](const MjcfTag& tag) {
     return tag.kind != MjcfTag::Kind::kClose && (tag.name == "joint" || tag.name == "freejoint");
   };
-  const auto first = std::find_if(tags.begin(), tags.end(), is_joint);
+  const auto first = std::ranges::find_if(tags, is_joint);
   if (first == tags.end()) return;
   const auto second = std::find_if(first + 1, tags.end(), is_joint);
   if (second == tags.end()) return;
@@ -96,8 +97,7 @@ std::vector<MjcfTag> scaled_object(const std::string& models_dir, const ObjectSp
   // Files that bring global settings would change the other models in the world.
   refuse(tags, {"option", "size", "default", "contact"}, "an object", label);
   expect_one_body(tags, label);
-  if (std::none_of(tags.begin(), tags.end(),
-                   [](const MjcfTag& t) { return t.name == "inertial"; })) {
+  if (!contains(tags, "inertial", &MjcfTag::name)) {
     throw ScenarioError(label + ": The body of an object must have an <inertial>, which is what " +
                         "mass_exponent scales.");
   }
@@ -124,7 +124,7 @@ class CompiledModels {
   MjModelPtr get(const std::string& xml, const std::string& directory, const std::string& label) {
     const std::string key = directory + '\n' + xml;
     const auto same = [&](const Entry& entry) { return entry.first == key; };
-    const auto found = std::find_if(entries_.begin(), entries_.end(), same);
+    const auto found = std::ranges::find_if(entries_, same);
     if (found != entries_.end()) {
       std::rotate(entries_.begin(), found, found + 1);
     } else {
@@ -147,7 +147,7 @@ constexpr std::size_t kFewContacts = 20;
 // At how many points an object may touch others at once, lying on the floor.
 std::size_t most_contacts(const std::vector<MjcfTag>& object) {
   constexpr std::size_t kPerGeom = 5, kMost = 200;
-  const auto geoms = std::count_if(object.begin(), object.end(), [](const MjcfTag& tag) {
+  const auto geoms = std::ranges::count_if(object, [](const MjcfTag& tag) {
     return tag.name == "geom" && tag.kind != MjcfTag::Kind::kClose;
   });
   return std::clamp(kPerGeom * static_cast<std::size_t>(geoms), kFewContacts, kMost);

@@ -49,7 +49,7 @@ ContactBound::ContactBound(const mjModel& model, const std::vector<int>& moving)
     if (!collides(model, g)) continue;
     margin_m_ = std::max(margin_m_, model.geom_margin[g]);
     const int body = model.geom_bodyid[g];
-    const auto mover = std::find(moving.begin(), moving.end(), body);
+    const auto mover = std::ranges::find(moving, body);
     if (mover != moving.end()) {
       double& radius_m = moving_[static_cast<std::size_t>(mover - moving.begin())].radius_m;
       const double reach_m = ConstMap3(model.geom_pos + 3 * g).norm() + model.geom_rbound[g];

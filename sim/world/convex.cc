@@ -197,8 +197,8 @@ Eigen::Vector3d Convex::support(const Eigen::Vector3d& direction) const {
       break;
     }
     case Core::kVertices:
-      p = *std::max_element(
-          vertices_.begin(), vertices_.end(),
+      p = *std::ranges::max_element(
+          vertices_,
           [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.dot(d) < b.dot(d); });
       break;
   }

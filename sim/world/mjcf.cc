@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/names.h"
 
@@ -97,7 +98,7 @@ void check_asset(const std::string& path, const std::string& where) {
 bool leaves_folder(const std::string& path) {
   const std::filesystem::path p(path);
   return p.is_absolute() || path.find('\\') != std::string::npos ||
-         std::find(p.begin(), p.end(), std::filesystem::path("..")) != p.end();
+         contains(p, std::filesystem::path(".."));
 }
 
 // Neither may a link lead out of it.
@@ -163,7 +164,7 @@ const std::string* MjcfTag::find(const std::string& attribute) const {
 
 std::vector<MjcfTag> parse_mjcf(const std::string& text, const std::string& label) {
   if (text.find('\0') != std::string::npos) fail(label, 1, "The model holds a zero byte.");
-  if (std::count(text.begin(), text.end(), '=') > kMaxAttributes) {
+  if (std::ranges::count(text, '=') > kMaxAttributes) {
     fail(label, 1, "The model has more than " + std::to_string(kMaxAttributes) + " attributes.");
   }
   tinyxml2::XMLDocument document(false);  // entities stay as they are, to be refused
@@ -245,7 +246,7 @@ void prefix_names(std::vector<MjcfTag>& tags, const std::string& prefix) {
   constexpr std::array<const char*, 4> kNames = {"name", "material", "texture", "mesh"};
   for (MjcfTag& tag : tags) {
     for (auto& [name, value] : tag.attributes) {
-      if (std::find(kNames.begin(), kNames.end(), name) != kNames.end()) value = prefix + value;
+      if (contains(kNames, name)) value = prefix + value;
     }
   }
 }

@@ -39,8 +39,7 @@ void SnapshotHistory::add(const Snapshot& now) {
 
 std::optional<Snapshot> SnapshotHistory::at(TimeUs t_us) const {
   if (snapshots_.empty() || t_us < snapshots_.front().t_us) return std::nullopt;
-  const auto found = std::lower_bound(snapshots_.begin(), snapshots_.end(), t_us,
-                                      [](const Snapshot& s, TimeUs t) { return s.t_us < t; });
+  const auto found = std::ranges::lower_bound(snapshots_, t_us, {}, &Snapshot::t_us);
   if (found == snapshots_.end()) return std::nullopt;
   return found->t_us == t_us ? *found : interpolate(*std::prev(found), *found, t_us);
 }

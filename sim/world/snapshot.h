@@ -3,11 +3,11 @@
 #pragma once
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <deque>
 #include <optional>
 #include <vector>
 
+#include "sim/base/contains.h"
 #include "sim/base/time.h"
 
 namespace dodgesim {
@@ -34,9 +34,7 @@ struct Snapshot {
   std::vector<BodyState> objects;                         // thrown objects, by index
   std::vector<bool> launched;                             // an object is invisible before launch
 
-  bool any_launched() const {
-    return std::find(launched.begin(), launched.end(), true) != launched.end();
-  }
+  bool any_launched() const { return contains(launched, true); }
 };
 
 // The snapshots of the last while, for what is later told of an instant.

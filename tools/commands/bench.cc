@@ -33,8 +33,8 @@ void list_cases(const std::vector<BenchCase>& cases) {
 void run(const BenchArguments& arguments, const std::string& command_line) {
   const std::vector<BenchCase> cases = select(all_bench_cases(), arguments.cases);
   if (arguments.list) return list_cases(cases);
-  const auto draws = [](const BenchCase& bench) { return bench.plots; };
-  if (!arguments.options.plots_dir.empty() && std::none_of(cases.begin(), cases.end(), draws)) {
+
+  if (!arguments.options.plots_dir.empty() && std::ranges::none_of(cases, &BenchCase::plots)) {
     throw ScenarioError("--plots draws the times of the pilot: name a case of it, or none.");
   }
   std::optional<OutputFile> json;  // opened first, so that a failure shows at once

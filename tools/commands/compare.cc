@@ -103,9 +103,9 @@ std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& d
 
 // Whether nobody throws.
 bool is_quiet(const std::map<int, std::vector<ThrowOutcome>>& parts) {
-  return std::all_of(parts.begin(), parts.end(), [](const auto& part) {
-    return std::all_of(part.second.begin(), part.second.end(),
-                       [](const ThrowOutcome& outcome) { return outcome.draw.empty(); });
+  return std::ranges::all_of(parts, [](const auto& part) {
+    return std::ranges::all_of(part.second,
+                               [](const ThrowOutcome& outcome) { return outcome.draw.empty(); });
   });
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "dodge/dodger.h"
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
 #include "sim/campaign/result_files.h"
@@ -80,7 +81,7 @@ void name_idle_keys(const std::vector<Setting>& settings) {
   const std::vector<std::string> groups = {"pilot", "plugin_parameters", "dodger", "delays"};
   for (const Setting& setting : settings) {
     const std::string group = setting.key.substr(0, setting.key.find('.'));
-    if (std::find(groups.begin(), groups.end(), group) != groups.end()) continue;
+    if (contains(groups, group)) continue;
     std::fprintf(stderr, "%s has no effect on a recording, but %s have.\n", setting.shown.c_str(),
                  joined(groups, {}, " and ").c_str());
   }

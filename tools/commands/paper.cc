@@ -134,7 +134,7 @@ int paper(const PaperArguments& arguments) {
         std::to_string(flown.campaigns) + " of " + std::to_string(flights.size()) + " campaigns",
         arguments.options);
   }
-  if (std::any_of(experiments.begin(), experiments.end(), [](const PaperExperiment& experiment) {
+  if (std::ranges::any_of(experiments, [](const PaperExperiment& experiment) {
         return experiment.measure != nullptr;
       })) {
     std::cerr << "Timing the stages of the flight core\n";

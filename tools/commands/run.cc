@@ -50,8 +50,8 @@ void warn_of_lost_events(const std::vector<ThrowResult>& results) {
 void report_errors(const CampaignSummary& summary) {
   std::cerr << count_text(summary.errors, "throw")
             << " could not be flown; see \"Errors\" in the table.";
-  const auto first = std::find_if(summary.results.begin(), summary.results.end(),
-                                  [](const ThrowResult& result) { return result.flown.failed(); });
+  const auto first = std::ranges::find_if(
+      summary.results, [](const ThrowResult& result) { return result.flown.failed(); });
   if (first != summary.results.end()) {
     std::cerr << " Throw " << first->index << ": " << first->flown.error;
   }

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/campaign/load_campaign.h"
 #include "sim/campaign/result_files.h"
@@ -58,9 +59,7 @@ int table(const TableArguments& arguments) {
   for (const std::string& key : keys) {
     // What is swept stands apart in any case.
     const std::vector<AxisValue>& swept = parts.front().values;
-    if (std::any_of(swept.begin(), swept.end(), [&](const auto& v) { return v.key == key; })) {
-      continue;
-    }
+    if (contains(swept, key, &AxisValue::key)) continue;
     axes.emplace_back(key, campaign.results);
   }
   const std::string text = formatted(group_by(parts, axes), arguments.format);
