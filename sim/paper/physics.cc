@@ -1,6 +1,5 @@
 // What physics allows a vehicle that is told of the object, by range, latency and gains.
 #include <array>
-#include <optional>
 
 #include "sim/base/contains.h"
 #include "sim/paper/experiment.h"

@@ -6,7 +6,6 @@
 #include <hdf5.h>
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <vector>
 

@@ -25,9 +25,7 @@ class ModelsDigest : public ::testing::Test {
     before_ = models_digest(spec_);
   }
 
-  std::string read(const std::string& file) const {
-    return testing::contents(directory_ / file);
-  }
+  std::string read(const std::string& file) const { return testing::contents(directory_ / file); }
   void write(const std::string& file, const std::string& text) const {
     testing::put(directory_ / file, text);
   }
