@@ -150,8 +150,8 @@ void check_transport(const Scenario& scenario, ReadContext& context) {
   const std::int64_t oldest_us = window.window_us + window.event_timeout_us;
   if (!perceives(scenario.pilot) || scenario.pilot == kPluginPilot) return;
   if (scenario.delays.transport_us < oldest_us) return;
-  context.problems.add(
-      context.position_of("delays.transport_us"),
+  context.add_problem(
+      "delays.transport_us",
       "delays.transport_us is " + std::to_string(scenario.delays.transport_us) +
           ", but must be less than dodger.window.window_us and event_timeout_us together, which "
           "are " +

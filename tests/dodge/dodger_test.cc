@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "dodge/presets.h"
 #include "tests/dodge/synthetic_flight.h"
 
 namespace dodge {
@@ -145,6 +146,29 @@ TEST(Dodger, RangeCapDropsWhatIsBeyond) {
   far.position.max_range_m = 3;
   const Score score = watch(far, still, crossing_ball(0.2, 2.2), 0);
   EXPECT_GT(score.seen, 0.8 * score.cycles);
+}
+
+// A bar of 25 x 3 cm that lies across the view, comes and rises: what moves of it is a line.
+TEST(Dodger, ThePilotOfTheProjectSeesThinObjects) {
+  const synthetic::Disk middle = synthetic::thrown_ball({3, 0, -0.6}, {0.1, 0, 0.3}, 6, 0.03, 1);
+  std::vector<synthetic::Disk> bar;
+  for (int i = -5; i <= 5; ++i) {
+    synthetic::Disk part = middle;
+    part.p_W = [middle, i](double t_s) -> Eigen::Vector3d {
+      return middle.p_W(t_s) + 0.022 * i * Eigen::Vector3d::UnitY();
+    };
+    bar.push_back(part);
+  }
+  Config config = preset("dodgesim");
+  config.cameras = synthetic::vertical_pair();
+  Flight flight(still, bar, {}, 5);
+  Dodger dodger(config);
+  int seen = 0, cycles = 0;
+  for (TimeUs t = kCycleUs; t <= 300000; t += kCycleUs, ++cycles) {
+    flight.cycle(dodger, t);
+    if (!dodger.detections().empty()) ++seen;
+  }
+  EXPECT_GT(seen, 0.8 * cycles);  // with a max_aspect of 4, as for round objects, in none
 }
 
 TEST(Dodger, EvadesABallThatComes) {
