@@ -49,8 +49,8 @@ struct ClusterConfig {
       "A cluster with fewer events is noise. A ball of 10 cm at 1.5 m makes some 200 in a window, "
       "a patch of background noise a dozen.");
     v("max_aspect", max_aspect, 1, 1000,
-      "Clusters whose rectangle is longer than this times its width are edges of the background, "
-      "not obstacles.");
+      "Clusters whose rectangle is longer than this times its width are taken for edges of the "
+      "background. So is what moves of a frisbee seen edge-on or of a box that rises.");
   }
 };
 

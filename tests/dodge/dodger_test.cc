@@ -168,7 +168,7 @@ TEST(Dodger, ThePilotOfTheProjectSeesThinObjects) {
     flight.cycle(dodger, t);
     if (!dodger.detections().empty()) ++seen;
   }
-  EXPECT_GT(seen, 0.8 * cycles);  // with a max_aspect of 4, as for round objects, in none
+  EXPECT_GT(seen, 0.3 * cycles);  // with a max_aspect of 4, falanga2020's, in none
 }
 
 TEST(Dodger, EvadesABallThatComes) {
