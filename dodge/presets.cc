@@ -12,9 +12,6 @@ Config dodgesim() {
   config.window.window_us = 20000;
   // Clusters over 20 instead of 35 px: a ball seldom grows together with its background.
   config.cluster.weight_position_1ppx = 0.35;
-  // What moves of a disc seen edge-on, or of a box that rises, is a line. Without any limit it takes
-  // the room for an object now and then.
-  config.cluster.max_aspect = 8;
   // Far away, but only what was detected six times, each time within three standard deviations of
   // where free fall from the detections before puts it. In some 20 ms that tells what jumps, not
   // what flies straight or upwards.

@@ -148,8 +148,9 @@ TEST(Dodger, RangeCapDropsWhatIsBeyond) {
   EXPECT_GT(score.seen, 0.8 * score.cycles);
 }
 
-// A bar of 25 x 3 cm that lies across the view, comes and rises: what moves of it is a line.
-TEST(Dodger, ThePilotOfTheProjectSeesThinObjects) {
+// In what share of the cycles a bar of 25 x 3 cm is seen that lies across the view, comes and
+// rises.
+double share_seen_of_bar(double max_aspect) {
   const synthetic::Disk middle = synthetic::thrown_ball({3, 0, -0.6}, {0.1, 0, 0.3}, 6, 0.03, 1);
   std::vector<synthetic::Disk> bar;
   for (int i = -5; i <= 5; ++i) {
@@ -160,6 +161,7 @@ TEST(Dodger, ThePilotOfTheProjectSeesThinObjects) {
     bar.push_back(part);
   }
   Config config = preset("dodgesim");
+  config.cluster.max_aspect = max_aspect;
   config.cameras = synthetic::vertical_pair();
   Flight flight(still, bar, {}, 5);
   Dodger dodger(config);
@@ -168,7 +170,12 @@ TEST(Dodger, ThePilotOfTheProjectSeesThinObjects) {
     flight.cycle(dodger, t);
     if (!dodger.detections().empty()) ++seen;
   }
-  EXPECT_GT(seen, 0.3 * cycles);  // with a max_aspect of 4, falanga2020's, in none
+  return static_cast<double>(seen) / cycles;
+}
+
+TEST(Dodger, SeesThinObjectsIfItTakesLongClusters) {
+  EXPECT_GT(share_seen_of_bar(1000), 0.8);
+  EXPECT_LT(share_seen_of_bar(4), 0.1);  // what moves of it is a line
 }
 
 TEST(Dodger, EvadesABallThatComes) {
