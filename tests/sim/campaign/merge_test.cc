@@ -29,7 +29,7 @@ class MergeTest : public CampaignTest {
   }
   template <class Error>
   std::string refusal(const std::vector<std::string>& names) const {
-    const std::string sentence = testing::complaint<Error>([&] { merge(names, "refused"); });
+    std::string sentence = testing::complaint<Error>([&] { merge(names, "refused"); });
     EXPECT_FALSE(std::filesystem::exists(root_ / "refused" / "throws.csv"));
     return sentence;
   }
