@@ -297,8 +297,9 @@ void YamlNode::erase(std::size_t i) {
 std::optional<YamlNode> YamlNode::take(std::string_view key) {
   const YamlNode* const found = find(key);
   if (found == nullptr) return std::nullopt;
-  std::optional<YamlNode> value = *found;
-  erase(static_cast<std::size_t>(found - items.data()));
+  const auto i = static_cast<std::size_t>(found - items.data());
+  std::optional<YamlNode> value = std::move(items[i]);
+  erase(i);
   return value;
 }
 

@@ -207,14 +207,13 @@ constexpr Shape kShapes[] = {{"ball", "0.1", 4021},      {"box", "0.3", 4022},
                              {"marker", "0.14", 4023},   {"frisbee", "0.27", 4024},
                              {"quadrotor", "0.3", 4025}, {"bowling_pin", "0.38", 4026}};
 
-// How they fly: tumbling as the scenario says, or as they are held, when the thin ones are hard to
-// see. Each has throws of its own, so that all of them can be counted together.
-constexpr bool kTumbling[] = {true, false};
+// They tumble as the scenario says, or fly as they are held, when the thin ones are hard to see.
+// Each has throws of its own, so that all of them can be counted together.
 constexpr int kSeedsNotTumbling = 20;  // after the others
 
 std::vector<PaperFlight> flights_of_shapes() {
   std::vector<PaperFlight> flights;
-  for (const bool tumbling : kTumbling) {
+  for (const bool tumbling : {true, false}) {
     for (const Shape& shape : kShapes) {
       const int seed = tumbling ? shape.seed : shape.seed + kSeedsNotTumbling;
       for (PaperFlight flight : flights_of_both({"outdoor_shapes"})) {
@@ -232,7 +231,7 @@ std::vector<PaperFlight> flights_of_shapes() {
 
 PaperTables by_shape(const std::vector<LoadedCampaign>& campaigns) {
   std::vector<Set> sets;
-  for (const bool tumbling : kTumbling) {
+  for (const bool tumbling : {true, false}) {
     for (const Shape& shape : kShapes) {
       const std::string name =
           std::string(shape.object) + ", " + shape.size_m + (tumbling ? " m" : " m, not tumbling");

@@ -45,7 +45,7 @@ constexpr Load kLoads[] = {{"typical", "2000 to 6000 events"},
 
 double median_of(const std::string& name, const std::vector<Measurement>& measured) {
   const auto found =
-      std::ranges::find(measured, name, [](const Measurement& m) { return m.quantity.name; });
+      std::ranges::find_if(measured, [&](const Measurement& m) { return m.quantity.name == name; });
   if (found == measured.end()) throw ScenarioError("Table 3 needs the quantity " + name + ".");
   return found->median();
 }
