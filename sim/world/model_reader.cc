@@ -68,10 +68,20 @@ std::span<const double> ModelReader::numeric(const std::string& name, int count)
   return {model_.numeric_data + model_.numeric_adr[id], static_cast<std::size_t>(count)};
 }
 
+void ModelReader::check_margin(int geom) const {
+  if (!collides(model_, geom) || model_.geom_margin[geom] <= model_.geom_gap[geom]) return;
+  throw ScenarioError(
+      file_ + formatted(": a geom that can collide has a margin of %.3g m and a gap of %.3g m, but "
+                        "the gap must be no less than the margin: it would push away what has not "
+                        "touched it yet.",
+                        model_.geom_margin[geom], model_.geom_gap[geom]));
+}
+
 void ModelReader::check_room() const {
   for (int geom = 0; geom < model_.ngeom; ++geom) {
     const int group = model_.geom_group[geom];
     if (model_.body_weldid[model_.geom_bodyid[geom]] != 0) continue;
+    check_margin(geom);
     if (group == kRoomGroup || group > kVehicleGroup) continue;
     const char* name = mj_id2name(&model_, mjOBJ_GEOM, geom);
     const std::string number = std::to_string(geom);
@@ -104,6 +114,8 @@ FreeBody ModelReader::free_body(int body) const {
   if (ConstMap3(model_.body_ipos + 3 * body).norm() > 1e-6) {
     throw ScenarioError(file_ + ": the origin of the body must be its centre of mass.");
   }
+  const int first = model_.body_geomadr[body];
+  for (int g = first; g < first + model_.body_geomnum[body]; ++g) check_margin(g);
   out.qpos = model_.jnt_qposadr[joint];
   out.qvel = dof;
   const Eigen::Matrix3d R = quaternion(model_.body_iquat + 4 * body).toRotationMatrix();

@@ -39,10 +39,12 @@ class ModelReader {
 
   int find(mjtObj type, const std::string& name) const;
 
-  // That whatever shows the room, or measures to it, takes the same geoms for it.
+  // That whatever shows the room, or measures to it, takes the same geoms for it, and that they
+  // push at what touches them only.
   void check_room() const;
 
-  // A body that is free, rigid, and has its centre of mass at its origin.
+  // A body that is free, rigid, has its centre of mass at its origin, and pushes at what touches it
+  // only.
   FreeBody free_body(int body) const;
 
   // Changes the model itself, so that whatever reads it agrees. `model` is that of the reader.
@@ -58,6 +60,7 @@ class ModelReader {
  private:
   int find_on_vehicle(mjtObj type, const std::string& name) const;  // a camera or a site
   std::span<const double> numeric(const std::string& name, int count) const;
+  void check_margin(int geom) const;
   void check_rotor(int site, int actuator) const;
   void check_reach(int body, double size_m) const;
   void read_rotors(VehicleParameters& vehicle) const;

@@ -353,6 +353,33 @@ TEST_F(OwnModels, AnObjectIsAsLargeAsItsReferenceSizeSays) {
   EXPECT_THAT(with("<geom size='0.05' pos='1 0 0'/>"), HasSubstr("reach 2.1 m"));
 }
 
+// An object with such a cushion would turn round before the vehicle's hull: a miss of a throw that
+// hits.
+TEST_F(OwnModels, NothingPushesBeforeItIsTouched) {
+  const auto with = [&](const std::string& margin) {
+    write_object(
+        object("<geom size='0.05' group='1' contype='4' conaffinity='7' " + margin + "/>"));
+    return world_message();
+  };
+  EXPECT_THAT(
+      with("margin='0.05'"),
+      HasSubstr("own.xml: a geom that can collide has a margin of 0.05 m and a gap of 0 m"));
+  EXPECT_THAT(with("margin='0.05' gap='0.04'"), HasSubstr("a gap of 0.04 m"));
+  EXPECT_EQ(with("margin='0.05' gap='0.05'"), "");
+  EXPECT_EQ(with(""), "");
+
+  const auto refused = [&](const std::string& file, const std::string& geom) {
+    std::string text = testing::contents(directory_ / file);
+    const std::string good = text;
+    text.replace(text.find(geom), geom.size(), geom + " margin=\"0.01\"");
+    testing::put(directory_ / file, text);
+    EXPECT_THAT(world_message(), HasSubstr(file + ": a geom that can collide has a margin"));
+    testing::put(directory_ / file, good);
+  };
+  refused("vehicles/qav_rxl.xml", "<geom name=\"hull\"");
+  refused("rooms/field.xml", "<geom name=\"ground\"");
+}
+
 TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
   const std::string good = object("<geom size='0.05' group='1'/>");
   const auto with = [&](const std::string& from, const std::string& to) {
