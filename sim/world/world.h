@@ -1,8 +1,11 @@
 // Room, vehicle and thrown objects: the physics of one throw, in ticks of kTickUs.
 //
 // MuJoCo gives geometry, contacts and accelerations; every moving body is a free rigid body, which
-// World integrates itself to second order and better: a flight without drag is the exact parabola
-// (MuJoCo's Euler step is 1.2 mm off after 1 s, its Runge-Kutta step costs four times as much).
+// World integrates itself. What is thrown flies to second order and better: without drag along the
+// exact parabola (MuJoCo's Euler step is 1.2 mm off after 1 s, its Runge-Kutta step costs four
+// times as much). The vehicle turns as exactly, but its rotors push throughout a tick with the
+// thrust and along the axis that they had at its start, half a tick late: a millimetre or two after
+// some seconds of hard turns.
 #pragma once
 
 #include <Eigen/Dense>
