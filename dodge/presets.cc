@@ -12,13 +12,17 @@ Config dodgesim() {
   config.window.window_us = 20000;
   // Clusters over 20 instead of 35 px: a ball seldom grows together with its background.
   config.cluster.weight_position_1ppx = 0.35;
+  // What moves of a thin object is a line, and so is an edge of the background. But where that is
+  // taken for another edge there mostly is a better match, and it seldom comes again within 60 ms.
+  config.cluster.max_aspect = 8;
+  config.position.stereo.min_share_of_best = 0.9;
   // Far away, but only what was detected six times, each time within three standard deviations of
   // where free fall from the detections before puts it. In some 20 ms that tells what jumps, not
   // what flies straight or upwards.
   config.position.max_range_m = 5;
   config.association.gate_sigmas = 3;
   config.association.min_detections = 6;
-  config.association.tentative_timeout_us = 100000;
+  config.association.tentative_timeout_us = 60000;
   config.kalman.gravity = true;
   config.kalman.acceleration_noise_mps2_sqrthz = 1;
   // A wide cluster tells less of where its object is.

@@ -136,20 +136,30 @@ cv::RotatedRect DepthEstimator::joined(const cv::RotatedRect& top, const cv::Rot
 // The smaller cluster is the pattern: what it shows, the other camera is likely to see as well.
 std::optional<double> DepthEstimator::correlated_disparity(const View& top, const View& bottom,
                                                            const Match& match) const {
+  const StereoConfig& stereo = config_.stereo;
   const Cluster& above = (*top.clusters)[match.top];
   const Cluster& below = (*bottom.clusters)[match.bottom];
   const double guess_px = centre(above).y() - centre(below).y();
-  const int least = std::max(1, static_cast<int>(std::floor(guess_px - config_.stereo.search_px)));
-  const int most = static_cast<int>(std::ceil(guess_px + config_.stereo.search_px));
+  const int least_px = std::max(1, static_cast<int>(std::floor(guess_px - stereo.search_px)));
+  const int most_px = static_cast<int>(std::ceil(guess_px + stereo.search_px));
   const bool from_top = above.pixels <= below.pixels;
+  const cv::Mat1f& pattern = from_top ? *top.averaged_rho : *bottom.averaged_rho;
+  const cv::Mat1f& image = from_top ? *bottom.averaged_rho : *top.averaged_rho;
+  const cv::Rect patch = patch_around(from_top ? above.rectangle : below.rectangle);
+
   const std::optional<RowShift> found =
-      from_top ? find_row_shift(*top.averaged_rho, patch_around(above.rectangle),
-                                *bottom.averaged_rho, -most, -least)
-               : find_row_shift(*bottom.averaged_rho, patch_around(below.rectangle),
-                                *top.averaged_rho, least, most);
-  if (!found || found->correlation < config_.stereo.min_correlation) return std::nullopt;
+      from_top ? find_row_shift(pattern, patch, image, -most_px, -least_px)
+               : find_row_shift(pattern, patch, image, least_px, most_px);
+  if (!found || found->correlation < stereo.min_correlation) return std::nullopt;
   const double disparity_px = from_top ? -found->shift_px : found->shift_px;
-  return disparity_px > 0 ? std::optional(disparity_px) : std::nullopt;
+  if (disparity_px <= 0) return std::nullopt;
+  if (stereo.min_share_of_best > 0) {
+    const int farthest_px = image.rows - 1;
+    const double best = from_top ? best_correlation(pattern, patch, image, -farthest_px, -1)
+                                 : best_correlation(pattern, patch, image, 1, farthest_px);
+    if (found->correlation < stereo.min_share_of_best * best) return std::nullopt;
+  }
+  return disparity_px;
 }
 
 void DepthEstimator::append(const Cluster& cluster, double depth_m, double depth_sigma_m,

@@ -19,6 +19,7 @@ struct StereoConfig {
   std::string disparity = "correlation";
   double search_px = 16;
   double min_correlation = 0.4;
+  double min_share_of_best = 0;
   double weight_position_1ppx = 0.1;
   double weight_area = 0.5;
   double weight_count = 0.5;
@@ -37,6 +38,10 @@ struct StereoConfig {
       "How far from the centres' disparity the correlation looks, and on while it grows: about the "
       "size of an object.");
     v("min_correlation", min_correlation, 0, 1, "A pair whose rho images agree less is no match.");
+    v("min_share_of_best", min_share_of_best, 0, 1,
+      "A pair whose rho images agree less than this share of the best agreement along the whole "
+      "columns is no match: one with another part of the scene, which looks like it. 0: not looked "
+      "for, as nothing of the kind is in the paper.");
     v("weight_position_1ppx", weight_position_1ppx, 0, 100,
       "Weight w_p of the horizontal distance of the centres in eq. (8).");
     v("weight_area", weight_area, 0, 100, "Weight w_a of the ratio of the areas in eq. (8).");

@@ -18,4 +18,8 @@ struct RowShift {
 std::optional<RowShift> find_row_shift(const cv::Mat1f& pattern, const cv::Rect& patch,
                                        const cv::Mat1f& image, int min_shift_px, int max_shift_px);
 
+// The greatest of those correlations over all shifts within [min_shift_px, max_shift_px].
+double best_correlation(const cv::Mat1f& pattern, const cv::Rect& patch, const cv::Mat1f& image,
+                        int min_shift_px, int max_shift_px);
+
 }  // namespace dodge

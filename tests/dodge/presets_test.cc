@@ -33,7 +33,10 @@ TEST(Presets, LeaveThePaperAsItIs) {
   EXPECT_FALSE(paper.kalman.gravity);
   EXPECT_EQ(paper.kalman.lateral_size_share, 0);
   EXPECT_EQ(paper.association.gate_sigmas, 0);
+  EXPECT_EQ(paper.association.tentative_timeout_us, 25000);
   EXPECT_EQ(paper.cluster.weight_position_1ppx, 0.2);
+  EXPECT_EQ(paper.cluster.max_aspect, 4);
+  EXPECT_EQ(paper.position.stereo.min_share_of_best, 0);
 }
 
 TEST(Presets, ThereAreNoOthers) { EXPECT_THROW(preset("oracle"), std::invalid_argument); }

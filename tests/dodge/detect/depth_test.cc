@@ -260,6 +260,33 @@ TEST_F(DepthTest, CorrelationMeasuresDepthThoughEachCameraSeesAnotherPart) {
   EXPECT_TRUE(locate(config, {top}, {bottom}).empty());
 }
 
+// A horizontal bar that the bottom camera sees twice: its cluster is the worse of the two.
+TEST_F(DepthTest, AMatchThatHasABetterOneElsewhereIsNoneIfAskedFor) {
+  const auto draw = [&](std::size_t camera, int y, float rho) {
+    rho_[camera](cv::Rect(150, y - 1, 20, 3)) = rho;
+  };
+  const auto bar = [&](double y) {
+    Cluster cluster = square(160, y, 20);
+    cluster.rectangle.size.height = 3;
+    return cluster;
+  };
+  draw(0, 130, 0.3F);
+  draw(1, 105, 0.3F);
+  rho_[1](cv::Rect(150, 104, 6, 3)) = 0.0F;  // a part of it is hidden
+  draw(1, 60, 0.3F);
+  DepthConfig config = centres();
+  config.max_range_m = 5;
+  config.stereo.disparity = "correlation";
+  const auto matches = [&](double min_share_of_best, double y) {
+    config.stereo.min_share_of_best = min_share_of_best;
+    return locate(config, {bar(130)}, {bar(y)}).size();
+  };
+  EXPECT_EQ(matches(0, 105), 1U);
+  EXPECT_EQ(matches(0.7, 105), 1U);
+  EXPECT_EQ(matches(0.9, 105), 0U);
+  EXPECT_EQ(matches(0.9, 60), 1U);
+}
+
 TEST_F(DepthTest, DropsWhatIsTooFarTooNearTooLargeOrTooSmall) {
   const auto count = [&](double x_m, double size_m) {
     const Eigen::Vector3d p_B(x_m + 0.1, 0, 0.075);

@@ -70,5 +70,27 @@ TEST(FindRowShift, CutsPatchesAndShiftsAtTheBorder) {
   EXPECT_NEAR(found->shift_px, -111, 3);
 }
 
+TEST(BestCorrelation, IsTheGreatestOfAllShifts) {
+  const cv::Mat1f pattern = ring(80, 80, 8), near = ring(80, 62.4, 9), far = ring(80, 31.3, 8);
+  cv::Mat1f image;
+  cv::add(near, far, image);
+  const cv::Rect patch = around(80, 80, 8);
+  const auto nearest = find_row_shift(pattern, patch, image, -22, -14);
+  const auto farthest = find_row_shift(pattern, patch, image, -54, -44);
+  ASSERT_TRUE(nearest.has_value() && farthest.has_value());
+  ASSERT_GT(farthest->correlation, nearest->correlation + 0.05);
+  EXPECT_NEAR(best_correlation(pattern, patch, image, -119, -1), farthest->correlation, 1e-6);
+  EXPECT_NEAR(best_correlation(pattern, patch, image, -25, -1), nearest->correlation, 1e-6);
+}
+
+TEST(BestCorrelation, CutsPatchesAndShiftsAtTheBorder) {
+  const cv::Mat1f pattern = ring(3, 115, 8), image = ring(3, 4, 8);
+  const cv::Rect patch = around(3, 115, 8);
+  const auto found = find_row_shift(pattern, patch, image, -200, 200);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NEAR(best_correlation(pattern, patch, image, -200, 200), found->correlation, 1e-6);
+  EXPECT_EQ(best_correlation(pattern, patch, image, 5, 200), 0);
+}
+
 }  // namespace
 }  // namespace dodge
