@@ -237,17 +237,45 @@ TEST(WorldTest, ASpinningBallTurnsAboutItsAxis) {
 }
 
 TEST(WorldTest, AnObjectBouncesOffTheGround) {
-  World world(test_spec());
-  world.reset(kStart, 0, Vector3d::Zero());
-  world.launch(0, thrown(Vector3d(5, 0, 1), Vector3d::Zero()));
-  double lowest_m = 1, fastest_up_mps = 0;
-  for (int i = 0; i < 2 * kTicksPerSecond; ++i) {
-    world.step(hover(world));
-    lowest_m = std::min(lowest_m, world.snapshot().objects[0].p_W.z());
-    fastest_up_mps = std::max(fastest_up_mps, world.snapshot().objects[0].v_W.z());
+  for (const char* kind : {"ball", "box", "marker", "quadrotor"}) {
+    SCOPED_TRACE(kind);
+    World world(test_spec({{kind, 0.2}}));
+    world.reset(kStart, 0, Vector3d::Zero());
+    world.launch(0, thrown(Vector3d(5, 0, 1), Vector3d(0, 0, -8)));
+    double lowest_m = 1, down_mps = 0, up_mps = 0;
+    for (int i = 0; i < kTicksPerSecond / 4; ++i) {
+      world.step(hover(world));
+      const BodyState& object = world.snapshot().objects[0];
+      lowest_m = std::min(lowest_m, object.p_W.z());
+      down_mps = std::max(down_mps, -object.v_W.z());
+      up_mps = std::max(up_mps, object.v_W.z());
+    }
+    EXPECT_GT(lowest_m, 0.0);
+    EXPECT_GT(up_mps, 0.3 * down_mps);
+    EXPECT_LT(up_mps, 0.8 * down_mps);
   }
-  EXPECT_NEAR(lowest_m, 0.1, 0.05);
-  EXPECT_GT(fastest_up_mps, 0.5);
+}
+
+// Two balls that meet head-on do not pass through each other, and part as balls do.
+TEST(WorldTest, ObjectsThatMeetBounce) {
+  for (const double speed_mps : {2.0, 5.0, 15.0}) {
+    SCOPED_TRACE(speed_mps);
+    World world(test_spec({{"ball", 0.2}, {"ball", 0.2}}));
+    world.reset(kStart, 0, Vector3d::Zero());
+    world.launch(0, thrown(Vector3d(5, 0, 9), Vector3d(speed_mps, 0, 0)));
+    world.launch(1, thrown(Vector3d(5.5, 0, 9), Vector3d(-speed_mps, 0, 0)));
+    double nearest_m = 1;
+    for (int i = 0; i < static_cast<int>(kTicksPerSecond * 0.4 / speed_mps); ++i) {
+      world.step(hover(world));
+      const auto& objects = world.snapshot().objects;
+      nearest_m = std::min(nearest_m, (objects[1].p_W - objects[0].p_W).norm());
+    }
+    const auto& objects = world.snapshot().objects;
+    EXPECT_GT(nearest_m, 0.2 - 0.003 * speed_mps);
+    EXPECT_NEAR(objects[0].v_W.x(), -objects[1].v_W.x(), 1e-6);
+    EXPECT_GT(objects[1].v_W.x(), 0.4 * speed_mps);
+    EXPECT_LT(objects[1].v_W.x(), 0.7 * speed_mps);
+  }
 }
 
 TEST(WorldTest, ManyObjectsMayLieOnTheGround) {
