@@ -64,13 +64,17 @@ void add_pair(const ThrowOutcome& a, const ThrowOutcome& b, Comparison& sum) {
   (a.success ? sum.lost : sum.gained).push_back({a.number, b.number, a.label, a.what, b.what});
 }
 
+double share_of(const Proportion& p) {
+  return static_cast<double>(p.successes) / static_cast<double>(p.trials);
+}
+
 std::string rate_line(const std::string& name, const Proportion& rate) {
+  if (rate.trials == 0) return name + ": 0 of 0 succeeded\n";
   const Interval interval = wilson(rate.successes, rate.trials);
-  const double share =
-      rate.trials == 0 ? 0 : static_cast<double>(rate.successes) / static_cast<double>(rate.trials);
   return name + formatted(": %lld of %lld succeeded (%.3f, %.3f to %.3f)\n",
                           static_cast<long long>(rate.successes),
-                          static_cast<long long>(rate.trials), share, interval.lo, interval.hi);
+                          static_cast<long long>(rate.trials), share_of(rate), interval.lo,
+                          interval.hi);
 }
 
 std::string left_out(const std::vector<int>& throws, const std::string& why) {
@@ -88,8 +92,22 @@ std::string text_of(const std::vector<AxisValue>& settings) {
   return settings.empty() ? "no grid or sweep" : label(settings);
 }
 
-double share_of(const Proportion& p) {
-  return p.trials == 0 ? 0 : static_cast<double>(p.successes) / static_cast<double>(p.trials);
+std::string difference_text(const Comparison& c) {
+  if (!c.has_rates()) {
+    const std::string none =
+        c.paired ? "no throw could be flown and would have hit in both"
+                 : "one of the two has no throw that could be flown and would have hit";
+    return "No difference can be told: " + none + "\n";
+  }
+  const Interval interval = c.paired ? tango(c.counts) : newcombe(c.first, c.second);
+  const double p = c.paired ? mcnemar(c.counts) : boschloo(c.first, c.second);
+  const std::string text =
+      formatted("Difference: %+.3f (95 %%: %+.3f to %+.3f), p = %.3g, ",
+                share_of(c.second) - share_of(c.first), interval.lo, interval.hi, p);
+  if (!c.paired) return text + "of different throws (Boschloo's test, Newcombe's interval)\n";
+  return text + pairs_text(c.differing) +
+         formatted(": %zu lost, %zu gained (McNemar's test, Tango's interval)\n", c.lost.size(),
+                   c.gained.size());
 }
 
 }  // namespace
@@ -157,16 +175,8 @@ Comparison compare(const std::vector<ThrowOutcome>& first,
 std::string comparison_text(const Comparison& comparison, const std::string& first,
                             const std::string& second) {
   const Comparison& c = comparison;
-  std::string text = rate_line(first, c.first) + rate_line(second, c.second);
-  const double difference = share_of(c.second) - share_of(c.first);
-  const Interval interval = c.paired ? tango(c.counts) : newcombe(c.first, c.second);
-  const double p = c.paired ? mcnemar(c.counts) : boschloo(c.first, c.second);
-  text += formatted("Difference: %+.3f (95 %%: %+.3f to %+.3f), p = %.3g, ", difference,
-                    interval.lo, interval.hi, p);
-  if (!c.paired) return text + "of different throws (Boschloo's test, Newcombe's interval)\n";
-  text += pairs_text(c.differing);
-  text += formatted(": %zu lost, %zu gained (McNemar's test, Tango's interval)\n", c.lost.size(),
-                    c.gained.size());
+  const std::string text =
+      rate_line(first, c.first) + rate_line(second, c.second) + difference_text(c);
   return text + left_out(c.only_first, "only " + first + " has them") +
          left_out(c.only_second, "only " + second + " has them") +
          left_out(c.counts_differ, "in one campaign only they could be flown and would have hit");

@@ -29,6 +29,9 @@ struct Comparison {
   // one campaign has, and those that count in only one (ThrowOutcome::counts).
   std::vector<int> only_first, only_second, counts_differ;
   std::vector<ChangedThrow> lost, gained;  // when paired
+
+  // Without them there is no difference to test, which is not a difference of zero.
+  bool has_rates() const { return first.trials > 0 && second.trials > 0; }
 };
 
 // Throws ScenarioError, which names the campaigns as given, if a cell of the grid or a value of the
@@ -48,8 +51,8 @@ void expect_same_cells(const std::vector<ThrowOutcome>& first,
 // those of other pairs.
 Comparison compare(const std::vector<ThrowOutcome>& first, const std::vector<ThrowOutcome>& second);
 
-// The comparison in words: rates, difference with its interval, p-value. `first` and `second` name
-// the campaigns.
+// The comparison in words: rates and, if both have one, difference with its interval and p-value.
+// `first` and `second` name the campaigns.
 std::string comparison_text(const Comparison& comparison, const std::string& first,
                             const std::string& second);
 

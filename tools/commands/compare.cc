@@ -160,6 +160,7 @@ int compare_campaigns(const CompareArguments& arguments) {
                          arguments.second.string());
   }
   print_difference(arguments.first, arguments.second);
+  std::size_t tests = 0;
   for (const auto& [sweep, outcomes] : first) {
     if (first.size() > 1) std::cout << (sweep > 0 ? "\n" : "") << heading(sweep, outcomes) << ":\n";
     const Comparison comparison = compare(outcomes, second.at(sweep));
@@ -167,11 +168,12 @@ int compare_campaigns(const CompareArguments& arguments) {
       expect_same_cells(outcomes, second.at(sweep), arguments.first.string(),
                         arguments.second.string());
     }
+    tests += comparison.has_rates() ? 1 : 0;
     std::cout << comparison_text(comparison, arguments.first.string(), arguments.second.string());
     print_changes("Lost", comparison.lost);
     print_changes("Gained", comparison.gained);
   }
-  print_number_of_tests(first.size());
+  print_number_of_tests(tests);
   return kOk;
 }
 

@@ -11,6 +11,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::tables_of;
 using testing::throw_that;
 
@@ -172,6 +173,19 @@ TEST(Comparison, StatesRatesDifferenceAndPValue) {
   EXPECT_THAT(text, HasSubstr("after: 1 of 6 succeeded (0.167, "));
   EXPECT_THAT(text, HasSubstr("Difference: -0.833"));
   EXPECT_THAT(text, HasSubstr("p = 0.0625, of the same throws: 5 lost, 0 gained"));
+}
+
+TEST(Comparison, StatesNoRateWhereNoThrowCounts) {
+  Comparison of_misses = compared("mm", "mm");
+  for (const bool paired : {true, false}) {
+    of_misses.paired = paired;
+    const std::string text = comparison_text(of_misses, "before", "after");
+    EXPECT_THAT(text, HasSubstr("before: 0 of 0 succeeded\nafter: 0 of 0 succeeded\n"));
+    EXPECT_THAT(text, HasSubstr(paired ? "and would have hit in both\n" : "one of the two has no"));
+    EXPECT_THAT(text, Not(HasSubstr("p =")));
+  }
+  EXPECT_THAT(comparison_text(compared("mh", "hm"), "before", "after"),
+              HasSubstr("would have hit in both\nLeft out, because in one campaign only"));
 }
 
 }  // namespace
