@@ -29,11 +29,11 @@ struct Outcome {
   Tally tally;
 
   void add(const ThrowResult& result) {
+    if (result.thrown()) tally.add(result);
     if (!result.flown.ok()) return;
     landed.add(result.landed_us.has_value());
     crashed.add(result.flown.crashed);
     if (result.landing_us) landing_s.add(seconds(*result.landing_us));
-    if (result.thrown()) tally.add(result);
   }
 };
 

@@ -41,7 +41,7 @@ TEST(Drift, TellsTheMonitorsLandingsFromCrashesWithoutIt) {
   EXPECT_THAT(table,
               HasSubstr("\n| hover | 0.2 | on | 2 / 2 | 0 / 2 | 3.75 (3.70 to 3.80) | - |\n"));
   EXPECT_THAT(table, HasSubstr("\n| hover | 0.2 | off | 0 / 1 | 1 / 1 | - |"));
-  EXPECT_THAT(table, HasSubstr("\n| balls | 0 | on | 0 / 1 | 0 / 1 | - | 1 / 1 ("));
+  EXPECT_THAT(table, HasSubstr("\n| balls | 0 | on | 0 / 1 | 0 / 1 | - | 1 / 2 ("));
   EXPECT_THAT(table, HasSubstr("\n| balls | 0.5 | on | 1 / 1 | 0 / 1 | 1.90 ("));
 }
 
