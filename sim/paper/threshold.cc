@@ -46,7 +46,7 @@ Perception perception_of(const Results& results) {
   Perception sum;
   for (const ThrowResult* result : results) {
     sum.tally.add(*result);
-    sum.false_alarms.add(result->false_alarm);
+    if (result->flown.ok()) sum.false_alarms.add(result->false_alarm);
     sum.distance_m.add(result->first_detection_distance_m);
     sum.events.add(result->truth_rows);
     sum.throws.emplace_back().add(result->truth_rows);

@@ -79,6 +79,10 @@ TEST(ThresholdClaim, TellsFalseEventsFromMissedOnes) {
   // 1000 events, 200 of a ball; 100 in clusters, 50 of them the ball's.
   a.results[0].truth_rows = {{0, 0, false, {1000, 200, 100, 50}}};
   a.results[1].truth_rows = {{1, 0, true, {1000, 100, 100, 90}}};
+  // Of a flight that failed nobody knows whether it would have had a false alarm.
+  a.results.push_back(a.results[0]);
+  a.results.back().flown.status = "error";
+  a.results.back().truth_rows.clear();
   const PaperTables analysed = threshold_experiment().analyse({a, b});
   const std::string& tables = analysed.markdown;
   EXPECT_THAT(tables, HasSubstr("| 25.0 % (25.0 to 25.0) | 90.0 % (90.0 to 90.0) | "
@@ -87,7 +91,7 @@ TEST(ThresholdClaim, TellsFalseEventsFromMissedOnes) {
   EXPECT_THAT(tables, HasSubstr("| 0.2 |"));
   // One table of numbers for both.
   EXPECT_THAT(analysed.csv, StartsWith("key,value,dodged,would_have_hit,"));
-  EXPECT_THAT(analysed.csv, HasSubstr("\ndodger.time_image.threshold_a_s,0.1,2,2,,0,2,"
+  EXPECT_THAT(analysed.csv, HasSubstr("\ndodger.time_image.threshold_a_s,0.1,2,3,,0,2,"
                                       "0.2500,0.9000,0.5000,0.1000\n"
                                       "dodger.time_image.threshold_b,0.2,2,2,"));
 }
