@@ -113,21 +113,25 @@ double trinomial(std::int64_t lost, std::int64_t gained, std::int64_t n, double 
          binomial_pmf(lost, n - gained, std::min(1.0, p_lost / (1 - p_gained)));
 }
 
+double coverage_of_tango(std::int64_t n, double p_lost, double p_gained) {
+  double coverage = 0;
+  for (std::int64_t lost = 0; lost <= n; ++lost) {
+    for (std::int64_t gained = 0; lost + gained <= n; ++gained) {
+      const double probability = trinomial(lost, gained, n, p_lost, p_gained);
+      if (probability < 1e-9) continue;
+      const Interval interval = tango({n - lost - gained, lost, gained, 0});
+      if (interval.contains(p_gained - p_lost)) coverage += probability;
+    }
+  }
+  return coverage;
+}
+
 TEST(Tango, CoversAsItPromises) {
-  const std::int64_t n = 40;
   double sum = 0, least = 1;
   int rates = 0;
   for (double p_lost = 0.02; p_lost < 0.6; p_lost += 0.04) {
     for (double p_gained = 0.02; p_gained <= std::min(p_lost, 1 - p_lost); p_gained += 0.04) {
-      double coverage = 0;
-      for (std::int64_t lost = 0; lost <= n; ++lost) {
-        for (std::int64_t gained = 0; lost + gained <= n; ++gained) {
-          const double probability = trinomial(lost, gained, n, p_lost, p_gained);
-          if (probability < 1e-9) continue;
-          const Interval interval = tango({n - lost - gained, lost, gained, 0});
-          if (interval.contains(p_gained - p_lost)) coverage += probability;
-        }
-      }
+      const double coverage = coverage_of_tango(40, p_lost, p_gained);
       sum += coverage;
       least = std::min(least, coverage);
       ++rates;
@@ -137,6 +141,8 @@ TEST(Tango, CoversAsItPromises) {
   RecordProperty("least_coverage", std::to_string(least));
   EXPECT_NEAR(sum / rates, 0.951, 0.004);
   EXPECT_GT(least, 0.93);
+  // Between the points of that grid and its border.
+  EXPECT_NEAR(coverage_of_tango(40, 0.202, 0.002), 0.929, 0.001);
 }
 
 // Fagerland, Lydersen and Laake 2014, whose ratio is first / second.
@@ -167,30 +173,33 @@ TEST(BonettPrice, MirrorsAndHasAWidthEverywhere) {
   EXPECT_THROW(bonett_price({0, -1, 0, 7}), std::invalid_argument);
 }
 
+double coverage_of_bonett_price(std::int64_t n, double p_both, double p_lost, double p_gained) {
+  const double ratio = (p_both + p_gained) / (p_both + p_lost);
+  double coverage = 0;
+  for (std::int64_t both = 0; both <= n; ++both) {
+    const double p_of_both = binomial_pmf(both, n, p_both);
+    for (std::int64_t lost = 0; both + lost <= n; ++lost) {
+      for (std::int64_t gained = 0; both + lost + gained <= n; ++gained) {
+        const double probability =
+            p_of_both *
+            trinomial(lost, gained, n - both, p_lost / (1 - p_both), p_gained / (1 - p_both));
+        if (probability < 1e-9) continue;
+        const Interval interval = bonett_price({both, lost, gained, n - both - lost - gained});
+        if (interval.contains(ratio)) coverage += probability;
+      }
+    }
+  }
+  return coverage;
+}
+
 TEST(BonettPrice, CoversAsItPromises) {
-  const std::int64_t n = 40;
   double sum = 0, least = 1;
   int rates = 0;
   for (double p_both = 0.1; p_both < 0.8; p_both += 0.2) {
     for (double p_lost = 0.02; p_lost < 0.9 - p_both; p_lost += 0.1) {
       for (double p_gained = 0.02; p_gained <= p_lost && p_both + p_lost + p_gained < 0.95;
            p_gained += 0.1) {
-        const double ratio = (p_both + p_gained) / (p_both + p_lost);
-        double coverage = 0;
-        for (std::int64_t both = 0; both <= n; ++both) {
-          const double p_of_both = binomial_pmf(both, n, p_both);
-          for (std::int64_t lost = 0; both + lost <= n; ++lost) {
-            for (std::int64_t gained = 0; both + lost + gained <= n; ++gained) {
-              const double probability =
-                  p_of_both *
-                  trinomial(lost, gained, n - both, p_lost / (1 - p_both), p_gained / (1 - p_both));
-              if (probability < 1e-9) continue;
-              const Interval interval =
-                  bonett_price({both, lost, gained, n - both - lost - gained});
-              if (interval.contains(ratio)) coverage += probability;
-            }
-          }
-        }
+        const double coverage = coverage_of_bonett_price(40, p_both, p_lost, p_gained);
         sum += coverage;
         least = std::min(least, coverage);
         ++rates;
@@ -201,6 +210,7 @@ TEST(BonettPrice, CoversAsItPromises) {
   RecordProperty("least_coverage", std::to_string(least));
   EXPECT_NEAR(sum / rates, 0.956, 0.004);
   EXPECT_GT(least, 0.94);
+  EXPECT_NEAR(coverage_of_bonett_price(40, 0.946, 0.05, 0.002), 0.871, 0.001);
 }
 
 // Standardised difference of losses and gains under the most likely rates with lost - gained =
