@@ -136,10 +136,12 @@ class StatisticsLine : public CsvLine {
   }
 };
 
-// Who has a row of its own; the pilot none that flew is not its own reference.
+// Who has a row of its own; a pilot none or an oracle that flew is not its own reference.
 std::vector<Role> named_pilots(const StatisticsTable& table, const StatisticsTable::Row& row) {
   std::vector<Role> pilots = shown_pilots(table);
-  if (row.statistics.flown().pilot == kNoPilot) std::erase(pilots, Role::kNone);
+  std::erase_if(pilots, [&](Role role) {
+    return role != Role::kFlown && row.statistics.by(role).pilot == row.statistics.flown().pilot;
+  });
   return pilots;
 }
 

@@ -88,6 +88,26 @@ TEST(TableFormats, JsonIsValidAndHasNullForTheUnknown) {
   EXPECT_EQ(json[2]["causes"]["seen late"], 1);
 }
 
+TEST(TableFormats, APilotOfTheSweepHasOneRowWhateverFlewBesideIt) {
+  std::vector<ThrowResult> results;
+  for (const char* pilot : {"falanga2020", "oracle", "none"}) {
+    ThrowResult& result = results.emplace_back(ball(0, 0.1, 2, 4));
+    result.sweep = static_cast<int>(results.size()) - 1;
+    result.sweep_values = {{"pilot", pilot}};
+    result.flown = result.oracle = result.none = flown(true);
+  }
+  const StatisticsTable swept = group_by(parts_of(results, "falanga2020"), {});
+  std::vector<std::string> pilots;
+  for (const std::string& row : lines(to_csv(swept))) {
+    pilots.push_back(cells(row)[0] + " " + cells(row)[1]);
+  }
+  EXPECT_THAT(pilots,
+              ::testing::ElementsAre("sweep_pilot pilot", "falanga2020 falanga2020",
+                                     "falanga2020 oracle", "falanga2020 none", "oracle oracle",
+                                     "oracle none", "none none", "none oracle"));
+  EXPECT_EQ(parse_json(to_json(swept))[1]["pilots"].size(), 2u);
+}
+
 // Of two throws that none flew, one would have hit; of a third its flight failed.
 TEST(TableFormats, TheRowOfThePilotNoneSaysHowManyWouldHaveHit) {
   std::vector<ThrowResult> results = {ball(0, 0.1, 2, 4), ball(1, 0.1, 2, 4), ball(2, 0.1, 2, 4)};
