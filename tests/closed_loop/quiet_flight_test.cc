@@ -22,7 +22,8 @@ TEST(QuietFlight, DodgesimDoesNotTakeTheRoomForAnObject) {
   // It would in one of them at least, as in most flights, if it were satisfied with less.
   const std::string less =
       "{cluster: {weight_position_1ppx: 0.6}, escape: {min_speed_mps: 1.5},\n"
-      " association: {gate_sigmas: 0, min_detections: 5}}";
+      " association: {gate_sigmas: 0, min_detections: 5, tentative_timeout_us: 100000},\n"
+      " position: {stereo: {min_share_of_best: 0}}}";
   bool satisfied_with_less = false;
   for (const int flight : {0, 3}) {
     EXPECT_FALSE(evades_the_room("dodgesim", 78, flight, "{}"));
