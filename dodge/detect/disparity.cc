@@ -84,6 +84,7 @@ std::optional<RowShift> find_row_shift(const cv::Mat1f& pattern, const cv::Rect&
   return RowShift{best_shift + offset, best};
 }
 
+// correlation() of some 240 shifts, many of its sums at once; the image's energy slides along.
 double best_correlation(const cv::Mat1f& pattern, const cv::Rect& patch, const cv::Mat1f& image,
                         int min_shift_px, int max_shift_px) {
   const cv::Rect inside = within_both(patch, pattern, image);

@@ -10,8 +10,7 @@
 
 #include "sim/base/error.h"
 #include "tests/complaint.h"
-#include "tests/models.h"
-#include "tests/sim/files/temporary_directory.h"
+#include "tests/sim/world/own_models.h"
 #include "tests/sim/world/test_world.h"
 
 namespace dodgesim {
@@ -23,37 +22,6 @@ using ::testing::HasSubstr;
 std::string message_of(const WorldSpec& spec) {
   return testing::complaint<ScenarioError>([&] { compose_model(spec); });
 }
-
-// A copy of the models in which a test may put files of its own.
-class OwnModels : public ::testing::Test {
- protected:
-  void SetUp() override {
-    directory_ = testing::copy_models(own_.path());
-    spec_ = test_spec({{"own", 0.2}});
-    spec_.models_dir = directory_.string();
-  }
-  void write_object(const std::string& text) {
-    std::ofstream(directory_ / "objects" / "own.xml") << text;
-  }
-
-  static std::string object(const std::string& geom, const std::string& more = "") {
-    return "<mujoco><custom><numeric name='reference_size_m' data='0.1'/>"
-           "<numeric name='mass_exponent' data='3'/><numeric name='drag_coefficient' data='1'/>"
-           "<numeric name='frontal_area_m2' data='0.01'/></custom>" +
-           more +
-           "<worldbody><body name='body'><freejoint/>"
-           "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>" +
-           geom + "</body></worldbody></mujoco>";
-  }
-
-  std::string world_message() const {
-    return testing::complaint<ScenarioError>([&] { World world(spec_); });
-  }
-
-  testing::TemporaryDirectory own_;
-  std::filesystem::path directory_;
-  WorldSpec spec_;
-};
 
 TEST(ComposeTest, BothRoomsCompileWithEveryObject) {
   for (const char* room : {"room", "field"}) {
@@ -273,134 +241,6 @@ TEST_F(OwnModels, AMeshWithoutAScaleIsScaledToo) {
     }
     EXPECT_NEAR(longest_m, 0.2, 1e-6) << scale;  // 0.1 at the reference size of 0.1
   }
-}
-
-TEST_F(OwnModels, AVehicleThatTheMixerWouldTakeForAnotherIsRefused) {
-  spec_.objects.clear();
-  const auto file = directory_ / "vehicles" / "qav_rxl.xml";
-  const std::string good = testing::contents(file);
-  const auto with = [&](const std::string& from, const std::string& to) {
-    std::string text = good;
-    text.replace(text.find(from), from.size(), to);
-    testing::put(file, text);
-    return world_message();
-  };
-  EXPECT_EQ(with("mujoco", "mujoco"), "");
-  const auto a_rotor = HasSubstr("a rotor must be a motor at its site");
-  EXPECT_THAT(with("gear=\"0 0 1", "gear=\"0 0 1.5"), a_rotor);
-  EXPECT_THAT(with("gear=\"0 0 1", "gear=\"0.1 0 1"), a_rotor);
-  EXPECT_THAT(with("0 0  0.012\"", "0 0  0.02\""), a_rotor);
-  EXPECT_THAT(with("ctrlrange=\"0 9.5\"", "ctrlrange=\"0 3\""), a_rotor);
-  EXPECT_THAT(with("ctrlrange=\"0 9.5\"", "ctrlrange=\"5 9.5\""), a_rotor);
-  EXPECT_THAT(
-      with("ctrlrange=\"0 9.5\"", "forcelimited=\"true\" forcerange=\"0 2\" ctrlrange=\"0 9.5\""),
-      a_rotor);
-  EXPECT_THAT(with("<motor name=\"rotor_0\"", "<general gainprm=\"0.5\" name=\"rotor_0\""),
-              a_rotor);
-  EXPECT_THAT(with("<motor name=\"rotor_3\"",
-                   "<general dyntype=\"filter\" dynprm=\"0.04\" name=\"rotor_3\""),
-              a_rotor);
-  EXPECT_THAT(with("<freejoint name=\"vehicle\"/>", ""),
-              HasSubstr("the body must have a free joint"));
-  EXPECT_THAT(with("<motor name=\"rotor_0\"",
-                   "<motor name=\"fifth\" site=\"rotor_0\"/><motor name=\"rotor_0\""),
-              HasSubstr("four actuators, its rotors, not 5"));
-  EXPECT_THAT(with("name=\"rotor_drag_1ps\" data=\"", "name=\"rotor_drag_1ps\" data=\"-"),
-              HasSubstr("rotor_drag_kh_1pm must not be negative"));
-  EXPECT_THAT(with("</worldbody>", "<body><freejoint/><geom size=\"0.1\"/></body></worldbody>"),
-              HasSubstr("must have one joint"));
-  EXPECT_THAT(with("site=\"rotor_0\"", "site=\"rotor_1\""), a_rotor);
-  EXPECT_THAT(with("<site name=\"rotor_1\"", "<site euler=\"20 0 0\" name=\"rotor_1\""), a_rotor);
-  EXPECT_THAT(with("diaginertia=\"0.0033 0.0040 0.0062\"",
-                   "fullinertia=\"0.0033 0.0040 0.0062 0.0003 0 0\""),
-              HasSubstr("principal axes"));
-  EXPECT_THAT(with("xyaxes=\"1 0 0 0 -1 0\"", "euler=\"170 0 0\""), HasSubstr("must look down"));
-}
-
-TEST_F(OwnModels, WhatStaysBehindWhenTheVehicleFliesIsNoPartOfIt) {
-  spec_.objects.clear();
-  const auto file = directory_ / "vehicles" / "qav_rxl.xml";
-  const std::string good = testing::contents(file);
-  for (const std::string part :
-       {"<site name=\"range\"", "<site name=\"rotor_2\"", "<camera name=\"bottom\""}) {
-    std::string text = good;
-    const std::size_t begin = text.find(part), end = text.find("/>", begin) + 2;
-    const std::string tag = text.substr(begin, end - begin);
-    text.erase(begin, end - begin);
-    text.insert(text.find("</worldbody>"), tag);
-    testing::put(file, text);
-    EXPECT_THAT(world_message(), HasSubstr("must be in the body 'vehicle'")) << part;
-  }
-}
-
-// The reference size is 0.1 m.
-TEST_F(OwnModels, AnObjectIsAsLargeAsItsReferenceSizeSays) {
-  const auto with = [&](const std::string& geom) {
-    write_object(object(geom));
-    return world_message();
-  };
-  EXPECT_EQ(with("<geom size='0.05'/>"), "");
-  EXPECT_EQ(with("<geom type='box' size='0.05 0.05 0.05'/>"), "");
-  EXPECT_EQ(with("<geom type='capsule' size='0.01' fromto='0 0 -0.03 0 0 0.06'/>"), "");
-  EXPECT_EQ(with("<geom type='capsule' size='0.01' fromto='0 0 0 0 0 0.09'/>"), "");
-  EXPECT_THAT(with("<geom size='0.15'/>"),
-              HasSubstr("own.xml: with a size of 0.2 m its geoms that collide reach 0.3 m from its "
-                        "centre of mass, but must reach 0.08 to 0.24 m"));
-  EXPECT_THAT(with("<geom size='0.1'/>"),
-              HasSubstr("own.xml: with a size of 0.2 m its geoms that collide are 0.4 m long from "
-                        "end to end"));
-  EXPECT_THAT(with("<geom size='0.035'/>"), HasSubstr("reach 0.07 m"));
-  EXPECT_THAT(with("<geom size='0.05' pos='1 0 0'/>"), HasSubstr("reach 2.1 m"));
-}
-
-// An object with such a cushion would turn round before the vehicle's hull: a miss of a throw that
-// hits.
-TEST_F(OwnModels, NothingPushesBeforeItIsTouched) {
-  const auto with = [&](const std::string& margin) {
-    write_object(
-        object("<geom size='0.05' group='1' contype='4' conaffinity='7' " + margin + "/>"));
-    return world_message();
-  };
-  EXPECT_THAT(
-      with("margin='0.05'"),
-      HasSubstr("own.xml: a geom that can collide has a margin of 0.05 m and a gap of 0 m"));
-  EXPECT_THAT(with("margin='0.05' gap='0.04'"), HasSubstr("a gap of 0.04 m"));
-  EXPECT_EQ(with("margin='0.05' gap='0.05'"), "");
-  EXPECT_EQ(with(""), "");
-
-  const auto refused = [&](const std::string& file, const std::string& geom) {
-    std::string text = testing::contents(directory_ / file);
-    const std::string good = text;
-    text.replace(text.find(geom), geom.size(), geom + " margin=\"0.01\"");
-    testing::put(directory_ / file, text);
-    EXPECT_THAT(world_message(), HasSubstr(file + ": a geom that can collide has a margin"));
-    testing::put(directory_ / file, good);
-  };
-  refused("vehicles/qav_rxl.xml", "<geom name=\"hull\"");
-  refused("rooms/field.xml", "<geom name=\"ground\"");
-}
-
-TEST_F(OwnModels, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
-  const std::string good = object("<geom size='0.05' group='1'/>");
-  const auto with = [&](const std::string& from, const std::string& to) {
-    std::string text = good;
-    text.replace(text.find(from), from.size(), to);
-    write_object(text);
-    return world_message();
-  };
-  EXPECT_THAT(with("name='body'", "name='other'"), HasSubstr("no body named 'body'"));
-  EXPECT_THAT(with("<freejoint/>", "<joint type='hinge'/>"), HasSubstr("free joint"));
-  EXPECT_THAT(with("<freejoint/>", ""), HasSubstr("own.xml: the body must have a free joint"));
-  for (const char* of_joint : {"damping", "armature", "frictionloss"}) {
-    EXPECT_THAT(with("<freejoint/>", std::string("<joint type='free' ") + of_joint + "='0.1'/>"),
-                HasSubstr("must have no damping, armature"));
-  }
-  EXPECT_THAT(with("inertial pos='0 0 0'", "inertial pos='0 0.1 0'"), HasSubstr("centre of mass"));
-  EXPECT_THAT(with("<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>", ""),
-              HasSubstr("must have an <inertial>"));
-  EXPECT_THAT(with("</body>", "<body><geom size='0.1'/></body></body>"),
-              HasSubstr("no body within it"));
-  EXPECT_THAT(with("drag_coefficient", "drag"), HasSubstr("drag_coefficient"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "sim/base/error.h"
 #include "tests/sim/world/test_world.h"
@@ -237,7 +238,9 @@ TEST(WorldTest, ASpinningBallTurnsAboutItsAxis) {
 }
 
 TEST(WorldTest, AnObjectBouncesOffTheGround) {
-  for (const char* kind : {"ball", "box", "marker", "quadrotor"}) {
+  using Case = std::pair<const char*, double>;  // with the height at which it touches
+  for (const auto& [kind, touching_m] :
+       {Case("ball", 0.1), {"box", 0.05}, {"marker", 0.1}, {"quadrotor", 0.0131}}) {
     SCOPED_TRACE(kind);
     World world(test_spec({{kind, 0.2}}));
     world.reset(kStart, 0, Vector3d::Zero());
@@ -250,9 +253,8 @@ TEST(WorldTest, AnObjectBouncesOffTheGround) {
       down_mps = std::max(down_mps, -object.v_W.z());
       up_mps = std::max(up_mps, object.v_W.z());
     }
-    EXPECT_GT(lowest_m, 0.0);
-    EXPECT_GT(up_mps, 0.3 * down_mps);
-    EXPECT_LT(up_mps, 0.8 * down_mps);
+    EXPECT_NEAR(touching_m - lowest_m, 0.0008 * down_mps, 0.0002 * down_mps);
+    EXPECT_NEAR(up_mps, 0.55 * down_mps, 0.05 * down_mps);
   }
 }
 
@@ -271,10 +273,9 @@ TEST(WorldTest, ObjectsThatMeetBounce) {
       nearest_m = std::min(nearest_m, (objects[1].p_W - objects[0].p_W).norm());
     }
     const auto& objects = world.snapshot().objects;
-    EXPECT_GT(nearest_m, 0.2 - 0.003 * speed_mps);
+    EXPECT_NEAR(0.2 - nearest_m, 0.0008 * 2 * speed_mps, 0.0001 * 2 * speed_mps);
     EXPECT_NEAR(objects[0].v_W.x(), -objects[1].v_W.x(), 1e-6);
-    EXPECT_GT(objects[1].v_W.x(), 0.4 * speed_mps);
-    EXPECT_LT(objects[1].v_W.x(), 0.7 * speed_mps);
+    EXPECT_NEAR(objects[1].v_W.x(), 0.55 * speed_mps, 0.05 * speed_mps);
   }
 }
 
