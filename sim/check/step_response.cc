@@ -14,7 +14,7 @@ namespace dodgesim {
 namespace {
 
 constexpr int kStepWidth = 80, kStepHeight = 60;
-constexpr double kStep = 2;  // of the luminance
+constexpr double kStep = 2;  // up or down, of the luminance
 constexpr double kLevelsLux[] = {1, 10, 100, 1000, 10000};
 constexpr TimeUs kBeforeStepUs = 1000;
 constexpr double kFilmS = 0.5;      // after the step
@@ -37,9 +37,14 @@ double response(const EventCameraSpec& spec, double luminance) {
   return std::log(knee) + (luminance - spec.linear_below) / knee;
 }
 
-double step_of(const EventCameraSpec& spec, double lux) {
-  const double before = lux / spec.illuminance_lux;
-  return response(spec, kStep * before) - response(spec, before);
+// Of the response; positive in either direction.
+double height(const LightStep& step, const EventCameraSpec& spec) {
+  return std::abs(response(spec, step.after_lux / spec.illuminance_lux) -
+                  response(spec, step.before_lux / spec.illuminance_lux));
+}
+
+double threshold_for(const LightStep& step, const EventCameraSpec& spec) {
+  return step.up() ? spec.contrast_threshold_on : spec.contrast_threshold_off;
 }
 
 double spread(const std::vector<double>& values) {
@@ -51,20 +56,19 @@ int jitter_quantiles(const EventCameraSpec& spec) {
 }
 
 // Latencies of equally likely pixels: of their thresholds, and of the jitter.
-std::vector<double> expected_latencies_us(const EventCameraSpec& spec, double lux) {
-  const double step = step_of(spec, lux);
-  const double lit_lux = kStep * lux;
-  const double a = spec.photoreceptor_hz > 0
-                       ? 2 * std::numbers::pi *
-                             (spec.photoreceptor_dark_hz + spec.photoreceptor_hz * lit_lux / 1000)
-                       : 0;
+std::vector<double> expected_latencies_us(const EventCameraSpec& spec, const LightStep& step) {
+  const double a =
+      spec.photoreceptor_hz > 0
+          ? 2 * std::numbers::pi *
+                (spec.photoreceptor_dark_hz + spec.photoreceptor_hz * step.after_lux / 1000)
+          : 0;
   const double b = 2 * std::numbers::pi * spec.follower_hz;
   std::vector<double> latencies;
   for (int i = 0; i < kThresholdQuantiles; ++i) {
     const double normal = normal_quantile((i + 0.5) / kThresholdQuantiles);
     const double threshold =
-        std::max(spec.threshold_min, spec.contrast_threshold_on + spec.mismatch_sigma * normal);
-    const double late_us = 1e6 * step_time_s(threshold / step, a, b);
+        std::max(spec.threshold_min, threshold_for(step, spec) + spec.mismatch_sigma * normal);
+    const double late_us = 1e6 * step_time_s(threshold / height(step, spec), a, b);
     if (!std::isfinite(late_us) || late_us > 1e6 * kFilmS) continue;
     for (int j = 0; j < jitter_quantiles(spec); ++j) {
       const double jitter = spec.jitter_us * normal_quantile((j + 0.5) / jitter_quantiles(spec));
@@ -74,47 +78,50 @@ std::vector<double> expected_latencies_us(const EventCameraSpec& spec, double lu
   return latencies;
 }
 
-bool applies(const EventCameraSpec& spec, double lux) {
-  return step_of(spec, lux) > spec.contrast_threshold_on + 3 * spec.mismatch_sigma;
+bool applies(const EventCameraSpec& spec, const LightStep& step) {
+  return height(step, spec) > threshold_for(step, spec) + 3 * spec.mismatch_sigma;
 }
 
-StepAnswer measure_level(const EventCameraSpec& spec, double lux, std::uint64_t seed) {
+StepAnswer measure(const EventCameraSpec& spec, const LightStep& step, std::uint64_t seed) {
   EventCamera camera(spec, kStepWidth, kStepHeight, seed, 0, "check", true);
-  const double luminance = lux / spec.illuminance_lux;
-  const Scene step =
-      even_scene([=](TimeUs t_us) { return t_us > kBeforeStepUs ? kStep * luminance : luminance; });
+  const Scene scene = even_scene([&](TimeUs t_us) {
+    return (t_us > kBeforeStepUs ? step.after_lux : step.before_lux) / spec.illuminance_lux;
+  });
   std::vector<TimeUs> times = {0, kBeforeStepUs};
   const double longest_us = 1e6 * kFilmS;
   for (int i = 0; i <= kStepPictures; ++i) {
     const double later_us = std::pow(longest_us, static_cast<double>(i) / kStepPictures);
     times.push_back(std::max(times.back() + 1, kBeforeStepUs + static_cast<TimeUs>(later_us)));
   }
-  StepAnswer answer{lux};
+  StepAnswer answer{step};
   std::vector<bool> seen(static_cast<std::size_t>(kStepWidth) * kStepHeight);
-  for (const Event& event : record(camera, step, times).events) {
+  for (const Event& event : record(camera, scene, times).events) {
     const auto pixel = std::size_t{event.y} * kStepWidth + event.x;
-    if (event.polarity < 0 || seen[pixel]) continue;
+    if ((event.polarity > 0) != step.up() || seen[pixel]) continue;
     seen[pixel] = true;
     answer.latencies_us.push_back(static_cast<double>(event.t_us - kBeforeStepUs));
   }
   return answer;
 }
 
-// Why nothing can be said of a level; empty if something can.
-std::string why_not(const EventCameraSpec& spec, double lux, const std::vector<double>& late_us) {
-  if (!applies(spec, lux)) return "the step is below some thresholds";
+// Why nothing can be said of a step; empty if something can.
+std::string why_not(const EventCameraSpec& spec, const LightStep& step,
+                    const std::vector<double>& late_us) {
+  if (!applies(spec, step)) return "the step is below some thresholds";
   if (spec.dead_pixel_fraction >= 1) return "all pixels are dead";
   const std::size_t all =
       std::size_t{kThresholdQuantiles} * static_cast<std::size_t>(jitter_quantiles(spec));
   return late_us.size() < all / 2 ? "most pixels are slower than the film" : "";
 }
 
-// Adds a level's checks, and its point to the plot.
-void judge_level(const StepAnswer& answer, const EventCameraSpec& expected, Check& check,
-                 Series& measured) {
-  const std::string name = "step." + quantity_text(answer.lux, 0, "") + "_lux";
-  const auto expected_us = expected_latencies_us(expected, answer.lux);
-  if (const std::string why = why_not(expected, answer.lux, expected_us); !why.empty()) {
+// Adds a step's checks, and its point to the plot.
+void judge_step(const StepAnswer& answer, const EventCameraSpec& expected, Check& check,
+                Series& measured) {
+  const LightStep& step = answer.step;
+  const std::string name = std::string(step.up() ? "step.up." : "step.down.") +
+                           quantity_text(step.before_lux, 0, "") + "_lux";
+  const auto expected_us = expected_latencies_us(expected, step);
+  if (const std::string why = why_not(expected, step, expected_us); !why.empty()) {
     return check.off(name, why);
   }
   const double median_us = quantile(answer.latencies_us, 0.5);
@@ -131,8 +138,20 @@ void judge_level(const StepAnswer& answer, const EventCameraSpec& expected, Chec
                kStepRelativeLimit * late_us + kAbsoluteLimitUs + kMedianSigma * chance_us, "us", 1);
   check.within(name + ".spread", spread(answer.latencies_us), spread_us,
                kSpreadLimit * spread_us + kAbsoluteLimitUs + kSpreadSigma * chance_us, "us", 1);
-  measured.add(answer.lux, median_us);
+  measured.add(step.before_lux, median_us);
   measured.spread.push_back(spread(answer.latencies_us));
+}
+
+Series closed_form(const EventCameraSpec& expected, bool up) {
+  Series curve{up ? "up, closed form" : "down, closed form", Series::Kind::kLine, up ? 1 : 3};
+  constexpr int kPoints = 50;
+  for (int i = 0; i < kPoints; ++i) {
+    const double lux = std::pow(10, 4.0 * i / (kPoints - 1));  // 1 to 10000
+    const LightStep step{lux, up ? kStep * lux : lux / kStep};
+    if (!applies(expected, step)) continue;
+    curve.add(lux, quantile(expected_latencies_us(expected, step), 0.5));
+  }
+  return curve;
 }
 
 }  // namespace
@@ -160,32 +179,37 @@ std::vector<StepAnswer> measure_step_response(const EventCameraSpec& camera, std
   // One event of each pixel: of several, the jitter would decide which comes first.
   spec.refractory_us = static_cast<TimeUs>(2e6 * kFilmS);
   std::vector<StepAnswer> answers;
-  for (const double lux : kLevelsLux) answers.push_back(measure_level(spec, lux, seed));
+  for (const double factor : {kStep, 1 / kStep}) {
+    for (const double lux : kLevelsLux) {
+      answers.push_back(measure(spec, {lux, factor * lux}, seed));
+    }
+  }
   return answers;
 }
 
 Check judge(const std::vector<StepAnswer>& answers, const EventCameraSpec& expected) {
   Check check{
       "Step response",
-      "The light doubles at once, at several levels. The first ON events come after the "
-      "pixel's latency and the time that its bandwidth, which grows with the light, takes "
-      "to pass the threshold: for one low-pass -tau ln(1 - C/step). Median and spread "
+      "The light doubles or halves at once, at several levels. The first ON or OFF events come "
+      "after the pixel's latency and the time that its bandwidth, which is that of the new light, "
+      "takes to pass the threshold: for one low-pass -tau ln(1 - C/step). Median and spread "
       "(half of what lies between the quantiles 0.16 and 0.84: mismatch and jitter) "
       "against that closed form, to 2 % without the latency and three standard deviations of "
       "the median. Noise, the readout's limit and further events are off."};
-  Series measured{"measured, with spread", Series::Kind::kPoints, 0};
-  Series curve{"closed form", Series::Kind::kLine, 1};
-  for (const StepAnswer& answer : answers) judge_level(answer, expected, check, measured);
-  constexpr int kPoints = 50;
-  for (int i = 0; i < kPoints; ++i) {
-    const double lux = std::pow(10, 4.0 * i / (kPoints - 1));  // 1 to 10000
-    if (!applies(expected, lux)) continue;
-    curve.add(lux, quantile(expected_latencies_us(expected, lux), 0.5));
+  Plot plot{"First event after the light has doubled or halved",
+            {"illuminance before the step [lux]", 0.7, 15000, true},
+            {"latency [us]", 0, 0, false},
+            {}};
+  for (const bool up : {true, false}) {
+    const std::string name = up ? "up" : "down";
+    Series measured{name + ", measured, with spread", Series::Kind::kPoints, up ? 0 : 2};
+    for (const StepAnswer& answer : answers) {
+      if (answer.step.up() == up) judge_step(answer, expected, check, measured);
+    }
+    plot.series.push_back(closed_form(expected, up));
+    plot.series.push_back(measured);
   }
-  check.plots.push_back({"First event after the light has doubled",
-                         {"illuminance before the step [lux]", 0.7, 15000, true},
-                         {"latency [us]", 0, 0, false},
-                         {curve, measured}});
+  check.plots.push_back(plot);
   return check;
 }
 

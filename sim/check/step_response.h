@@ -9,8 +9,15 @@
 
 namespace dodgesim {
 
+struct LightStep {
+  double before_lux = 0;
+  double after_lux = 0;  // twice or half as much
+
+  bool up() const { return after_lux > before_lux; }
+};
+
 struct StepAnswer {
-  double lux = 0;                         // before the step; twice that after it
+  LightStep step;
   std::vector<double> latencies_us = {};  // of the first events of the pixels that fired
 };
 

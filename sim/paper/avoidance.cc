@@ -35,7 +35,7 @@ constexpr const char* kAvoidanceProtocol = R"(How the protocol is read:
   their ratio (95 %, Bonett and Price) may exceed 1. Throws with a flight that failed are left
   out.
 - Intervals: 95 %, Wilson. p: exact McNemar test on the throws that one of the two pilots dodged
-  and the other did not.
+  and the other did not, of each row by itself: it is not corrected for how many rows there are.
 )";
 
 // A name in front of rows, and the throws in them; an empty name stands for all throws of a set.

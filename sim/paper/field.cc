@@ -41,7 +41,8 @@ constexpr const char* kFieldProtocol = R"(How to read it:
 
 - The oracle is told of the true object within the range, and avoids it by the variant. All variants
   meet the same throws. Dodged / would have hit (95 %, Wilson).
-- *p*: exact McNemar test against the first row, over all speeds.
+- *p*: exact McNemar test against the first row, over all speeds, of each row by itself: it is not
+  corrected for how many rows there are.
 - Over the open field, so that no wall ends an escape, and until 0.6 s after the ball's arrival.
 - *Decay*: falanga2020 with its cameras, believing from 3 m on. The repulsive constant falls by
   exp(-lambda dt) while the object is not detected, that is, between its detections, too.

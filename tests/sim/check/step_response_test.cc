@@ -14,18 +14,27 @@ TEST(StepResponseCheck, FailsForAnotherBandwidth) {
   EventCameraSpec broken;
   broken.photoreceptor_hz *= 0.9;
   const Names failed = failures(judge(measure_step_response(broken, 1), EventCameraSpec()));
-  EXPECT_TRUE(std::count(failed.begin(), failed.end(), "step.10_lux.median"));
-  EXPECT_TRUE(std::count(failed.begin(), failed.end(), "step.100_lux.median"));
+  EXPECT_TRUE(std::count(failed.begin(), failed.end(), "step.up.10_lux.median"));
+  EXPECT_TRUE(std::count(failed.begin(), failed.end(), "step.up.100_lux.median"));
+  EXPECT_TRUE(std::count(failed.begin(), failed.end(), "step.down.100_lux.median"));
   broken = EventCameraSpec();
   broken.follower_hz = 20000;
   EXPECT_FALSE(failures(judge(measure_step_response(broken, 1), EventCameraSpec())).empty());
+}
+
+TEST(StepResponseCheck, TellsTheThresholdsOfTheTwoDirectionsApart) {
+  EventCameraSpec broken;
+  broken.contrast_threshold_off = 0.22;
+  const Names failed = failures(judge(measure_step_response(broken, 1), EventCameraSpec()));
+  EXPECT_TRUE(std::count(failed.begin(), failed.end(), "step.down.100_lux.median"));
+  EXPECT_FALSE(std::count(failed.begin(), failed.end(), "step.up.100_lux.median"));
 }
 
 TEST(StepResponseCheck, FailsForAnotherJitterAndLatency) {
   EventCameraSpec broken;
   broken.jitter_us = 13;
   const Names failed = failures(judge(measure_step_response(broken, 1), EventCameraSpec()));
-  EXPECT_TRUE(std::count(failed.begin(), failed.end(), "step.10000_lux.spread"));
+  EXPECT_TRUE(std::count(failed.begin(), failed.end(), "step.up.10000_lux.spread"));
   broken = EventCameraSpec();
   broken.latency_us = 105;
   EXPECT_FALSE(failures(judge(measure_step_response(broken, 1), EventCameraSpec())).empty());
