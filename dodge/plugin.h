@@ -29,7 +29,10 @@ namespace dodge {
 // - It looks at a detection's t_us and centre_W: those within 0.5 m of the true object's centre
 //   (more for objects larger than 30 cm) count (scenarios/README.md, first_detection_us). Of the
 //   other fields it writes obstacle_id, size_m, depth_m and depth_sigma_m to detections.csv and
-//   draws some. Nobody reads obstacles(), which may be empty.
+//   draws some. obstacles() may be empty: only `dodgesim detect` reads it.
+// - A flight fails if a command or a detection speaks of an instant after now_us, or a detection of
+//   one before 0; if a number of theirs is not finite or beyond a million; or if a detection's
+//   size_m or depth_sigma_m is negative.
 // - Every process flies many throws: what a plug-in changes of it (std::locale::global(), signals,
 //   open files) meets those after it, too.
 using MakePilot = std::unique_ptr<Pilot>(const Config& config, const std::string& parameters);

@@ -66,8 +66,8 @@ struct DelaySpec {
       "One cycle of the pilot, from its newest data to its command (3.5 ms in the paper's Table "
       "3).");
     v("perception_us", perception_us, 0, 1000000,
-      "Later than that by this: a slow perception that is pipelined, so that the pilot's cycles "
-      "stay as frequent. Not part of the paper's chain, but for experiments with latency.");
+      "Added to compute_us, but the pilot's cycles stay as frequent: a slow perception that is "
+      "pipelined. Not part of the paper's chain, but for experiments with latency.");
     v("command_us", command_us, 0, 100000,
       "Serial link from the computer to the flight controller (3.0 ms measured by the authors). "
       "A command to evade takes it at once, others with the next state estimate.");

@@ -242,8 +242,7 @@ class Pool {
     for (std::size_t i = workers_.size(); i-- > 0;) {
       if (WallClock::now() - workers_[i].begin < limit || has_result(workers_[i])) continue;
       end(workers_[i]);
-      lose(i, formatted("The throw took longer than the %g s of computing time of the limit.",
-                        tasks_.limits.wall_s));
+      lose(i, formatted("The throw took longer than the limit of %g s.", tasks_.limits.wall_s));
     }
   }
 

@@ -55,6 +55,17 @@ int jitter_quantiles(const EventCameraSpec& spec) {
   return spec.jitter_us > 0 ? kJitterQuantiles : 1;
 }
 
+// The pixel's latency with equally likely jitters.
+std::vector<double> pixel_latencies_us(const EventCameraSpec& spec) {
+  std::vector<double> latencies_us;
+  const int count = jitter_quantiles(spec);
+  for (int i = 0; i < count; ++i) {
+    const double jitter_us = spec.jitter_us * normal_quantile((i + 0.5) / count);
+    latencies_us.push_back(std::max(0.0, static_cast<double>(spec.latency_us) + jitter_us));
+  }
+  return latencies_us;
+}
+
 // Latencies of equally likely pixels: of their thresholds, and of the jitter.
 std::vector<double> expected_latencies_us(const EventCameraSpec& spec, const LightStep& step) {
   const double a =
@@ -63,6 +74,7 @@ std::vector<double> expected_latencies_us(const EventCameraSpec& spec, const Lig
                 (spec.photoreceptor_dark_hz + spec.photoreceptor_hz * step.after_lux / 1000)
           : 0;
   const double b = 2 * std::numbers::pi * spec.follower_hz;
+  const std::vector<double> pixels_us = pixel_latencies_us(spec);
   std::vector<double> latencies;
   for (int i = 0; i < kThresholdQuantiles; ++i) {
     const double normal = normal_quantile((i + 0.5) / kThresholdQuantiles);
@@ -70,10 +82,7 @@ std::vector<double> expected_latencies_us(const EventCameraSpec& spec, const Lig
         std::max(spec.threshold_min, threshold_for(step, spec) + spec.mismatch_sigma * normal);
     const double late_us = 1e6 * step_time_s(threshold / height(step, spec), a, b);
     if (!std::isfinite(late_us) || late_us > 1e6 * kFilmS) continue;
-    for (int j = 0; j < jitter_quantiles(spec); ++j) {
-      const double jitter = spec.jitter_us * normal_quantile((j + 0.5) / jitter_quantiles(spec));
-      latencies.push_back(late_us + std::max(0.0, static_cast<double>(spec.latency_us) + jitter));
-    }
+    for (const double pixel_us : pixels_us) latencies.push_back(late_us + pixel_us);
   }
   return latencies;
 }

@@ -236,8 +236,8 @@ struct Scenario {
     v.text("plugin_parameters", plugin_parameters,
            "Text that is handed to the pilot plugin as it is.");
     v("fly_oracle", fly_oracle,
-      "Fly every throw with the pilot oracle too, which bounds what perception can cost; in a room "
-      "only with oracle.range_cap_m.");
+      "Fly every throw with the pilot oracle too, which shows what perception costs; in a room "
+      "set oracle.range_cap_m, or it flees into the walls.");
     v.model("room", room, "rooms", "The world around the vehicle.");
     v.model("vehicle", vehicle, "vehicles", "The quadrotor.");
     v("vehicle_overrides", vehicle_overrides, "What is different from the vehicle's model.");

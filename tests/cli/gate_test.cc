@@ -230,6 +230,49 @@ TEST_F(GateCommandTest, ComparePairsTheThrowsOfASweepWhateverTheRepeats) {
                 "same sweep.\n");
 }
 
+TEST_F(GateCommandTest, ComparesTheValuesOfASweepThrowByThrow) {
+  write("field.yaml",
+        "seed: 3\nrepeats: 3\nroom: field\nfly_oracle: false\nafter_s: 0.1\n"
+        "throw: {launch_s: 0.1}\n");
+  const std::string scenario = path("field.yaml") + " --out ";
+  ASSERT_EQ(dodgesim("sweep " + scenario + path("both") + " --over pilot=none,oracle").exit_code,
+            0);
+  const Outcome both = dodgesim("compare " + path("both"));
+  EXPECT_EQ(both.exit_code, 0) << both.output;
+  EXPECT_THAT(both.output,
+              AllOf(HasSubstr("Sweep value 0 (pilot none): 0 of 3 succeeded"),
+                    HasSubstr("Sweep value 1 (pilot oracle): 3 of 3 succeeded"),
+                    HasSubstr("of the same throws: 0 lost, 3 gained"),
+                    HasSubstr("throw 0, then 3 (0.2 m ball, 6 m/s from 3 m): hit, then dodged")));
+  EXPECT_THAT(dodgesim("compare " + path("both") + " --against 1").output,
+              HasSubstr("3 lost, 0 gained"));
+
+  // The same as of two campaigns.
+  for (const std::string pilot : {"none", "oracle"}) {
+    ASSERT_EQ(dodgesim("run " + scenario + path(pilot) + " --set pilot=" + pilot).exit_code, 0);
+  }
+  const std::string apart = dodgesim("compare " + path("none") + " " + path("oracle")).output;
+  const std::size_t difference = both.output.find("Difference: ");
+  ASSERT_NE(difference, std::string::npos);
+  EXPECT_THAT(apart, HasSubstr(both.output.substr(
+                         difference, both.output.find('\n', difference) - difference)));
+}
+
+TEST_F(GateCommandTest, CompareOfOneCampaignNeedsTwoSweepValues) {
+  ASSERT_EQ(dodgesim("run " + path("s.yaml") + " --out " + path("plain")).exit_code, 0);
+  const Outcome plain = dodgesim("compare " + path("plain"));
+  EXPECT_EQ(plain.exit_code, 2);
+  EXPECT_EQ(plain.output, path("plain") +
+                              " has no sweep, or only its first value: name a second campaign to "
+                              "compare it with.\n");
+  ASSERT_EQ(dodgesim("sweep " + path("s.yaml") + " --over delays.compute_us=0,3500 --out " +
+                     path("swept"))
+                .exit_code,
+            0);
+  EXPECT_EQ(dodgesim("compare " + path("swept") + " --against 2").output,
+            "--against 2: " + path("swept") + " has 2 sweep values (number 0, 1).\n");
+}
+
 TEST_F(GateCommandTest, ComparePairsThrowsOfOneSeedAndSaysWhatDiffers) {
   write("one.yaml",
         "seed: 3\nrepeats: 3\npilot: none\nfly_oracle: false\nafter_s: 0.1\n"

@@ -51,7 +51,7 @@ void add_campaign_options(CLI::App& command, const std::string& by_default,
       ->excludes(force);
   command
       .add_option("--time-limit", options.limits.wall_s,
-                  "Seconds of computing after which a throw is given up; 0: never")
+                  "Seconds, by the clock on the wall, after which a throw is\ngiven up; 0: never")
       ->check(number_between(0, 1e6))
       ->capture_default_str();
   command

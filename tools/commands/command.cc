@@ -129,7 +129,7 @@ std::string truth_text(const EventTruthSums& sums) {
            std::to_string(counts.object_events) + " that an object made";
   };
   return "Events before the vehicle evades: " + line(sums.before) +
-         "\nEvents while it evades: " + line(sums.after) +
+         "\nEvents from then on: " + line(sums.after) +
          "\n(An event counts once for each of the pilot's windows that it is in.)";
 }
 

@@ -1,4 +1,4 @@
-// dodgesim compare: two campaigns side by side.
+// dodgesim compare: two campaigns, or the values of a sweep, side by side.
 #include <algorithm>
 #include <fstream>
 #include <iostream>
@@ -24,7 +24,9 @@ namespace dodgesim {
 namespace {
 
 struct CompareArguments {
-  std::filesystem::path first, second;
+  std::filesystem::path first;
+  std::filesystem::path second;  // empty: the first one's sweep values are compared
+  int against = 0;               // this sweep value
 };
 
 void print_changes(const std::string& heading, const std::vector<ChangedThrow>& changes) {
@@ -130,6 +132,18 @@ std::string heading(int sweep, const std::vector<ThrowOutcome>& outcomes) {
          (common.empty() ? "" : " (" + label(common) + ")");
 }
 
+// Two parts side by side. Whether there is anything to test.
+bool print_comparison(const std::vector<ThrowOutcome>& first,
+                      const std::vector<ThrowOutcome>& second, const std::string& first_name,
+                      const std::string& second_name) {
+  const Comparison comparison = compare(first, second);
+  if (!comparison.paired) expect_same_cells(first, second, first_name, second_name);
+  std::cout << comparison_text(comparison, first_name, second_name);
+  print_changes("Lost", comparison.lost);
+  print_changes("Gained", comparison.gained);
+  return comparison.has_rates();
+}
+
 // Each p is right by itself; the smallest of many is small by chance (Bonferroni's bound).
 void print_number_of_tests(std::size_t tests) {
   constexpr double kLevel = 0.05;
@@ -163,15 +177,37 @@ int compare_campaigns(const CompareArguments& arguments) {
   std::size_t tests = 0;
   for (const auto& [sweep, outcomes] : first) {
     if (first.size() > 1) std::cout << (sweep > 0 ? "\n" : "") << heading(sweep, outcomes) << ":\n";
-    const Comparison comparison = compare(outcomes, second.at(sweep));
-    if (!comparison.paired) {
-      expect_same_cells(outcomes, second.at(sweep), arguments.first.string(),
-                        arguments.second.string());
+    if (print_comparison(outcomes, second.at(sweep), arguments.first.string(),
+                         arguments.second.string())) {
+      ++tests;
     }
-    tests += comparison.has_rates() ? 1 : 0;
-    std::cout << comparison_text(comparison, arguments.first.string(), arguments.second.string());
-    print_changes("Lost", comparison.lost);
-    print_changes("Gained", comparison.gained);
+  }
+  print_number_of_tests(tests);
+  return kOk;
+}
+
+// Each value of a campaign's sweep against one of them: they fly the same throws.
+int compare_sweep(const CompareArguments& arguments) {
+  const auto parts = parts_of(arguments.first);
+  if (parts.size() < 2) {
+    throw ScenarioError(arguments.first.string() + " has " + sweep_text(parts) +
+                        ": name a second campaign to compare it with.");
+  }
+  if (!parts.contains(arguments.against)) {
+    throw ScenarioError("--against " + std::to_string(arguments.against) + ": " +
+                        arguments.first.string() + " has " + sweep_text(parts) + ".");
+  }
+  const std::vector<ThrowOutcome>& reference = parts.at(arguments.against);
+  const std::string reference_name = heading(arguments.against, reference);
+  const char* between = "";
+  std::size_t tests = 0;
+  for (auto [sweep, others] : parts) {
+    if (sweep == arguments.against) continue;
+    const std::string name = heading(sweep, others);
+    // Pairs have one number within one sweep value.
+    for (ThrowOutcome& outcome : others) outcome.sweep = arguments.against;
+    std::cout << std::exchange(between, "\n");
+    if (print_comparison(reference, others, reference_name, name)) ++tests;
   }
   print_number_of_tests(tests);
   return kOk;
@@ -181,14 +217,21 @@ int compare_campaigns(const CompareArguments& arguments) {
 
 void add_compare_command(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* command =
-      program.add_subcommand("compare", "Compare the success rates of two campaigns");
+  CLI::App* command = program.add_subcommand(
+      "compare", "Compare the success rates of two campaigns, or of the values of a sweep");
   command->add_option("first", arguments->first, "What run --out wrote")
       ->required()
       ->type_name("DIR1");
-  command->add_option("second", arguments->second, "What another run --out wrote")
-      ->required()
-      ->type_name("DIR2");
+  CLI::Option* second = command->add_option(
+      "second", arguments->second,
+      "What another run --out wrote; without it the values of DIR1's sweep are\ncompared");
+  second->type_name("DIR2");
+  command
+      ->add_option("--against", arguments->against,
+                   "Number of the sweep value that the others are compared with")
+      ->type_name("INT")
+      ->capture_default_str()
+      ->excludes(second);
   command->footer(
       "Success is to dodge a throw that would have hit or, where nobody throws, neither to evade "
       "nor\n"
@@ -203,10 +246,13 @@ void add_compare_command(CLI::App& program, int& exit_code) {
       "Example:\n"
       "  dodgesim run s.yaml --out paper\n"
       "  dodgesim run s.yaml --out told --set pilot=oracle\n"
-      "  dodgesim compare paper told");
+      "  dodgesim compare paper told\n"
+      "  dodgesim sweep s.yaml --out late --over delays.compute_us=3500,30000,60000\n"
+      "  dodgesim compare late");
   command->callback([arguments, &exit_code] {
     try {
-      exit_code = compare_campaigns(*arguments);
+      exit_code =
+          arguments->second.empty() ? compare_sweep(*arguments) : compare_campaigns(*arguments);
     } catch (const MissingThrows& error) {
       std::cerr << error.what() << "\n";
       exit_code = kIncomplete;

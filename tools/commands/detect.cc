@@ -32,7 +32,7 @@ constexpr const char* kDetectFooter =
 What it commands moves nobody, and its goal is to stay where it is.
 
 EVENTS: .h5 (DSEC, RVT; or t, x, y, p at the root, as records CD/events or as a table events), .npy
-  or .txt as `emulate` and `replay --record` write them; .txt of the rpg data sets, with t in
+  or .txt as `emulate` and `replay --events` write them; .txt of the rpg data sets, with t in
   seconds; .csv whose first line names the columns t_us, x, y and p. They must be in order of time,
   but for 10 ms. The pilot drops those that come later; up to 16 in a row with stamps far ahead of
   the next are passed over.

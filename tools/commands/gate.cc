@@ -297,8 +297,9 @@ void add_gate_command(CLI::App& program, const std::string& command_line, int& e
   add_options(*command, *arguments);
   command->footer(
       "Compares throw by throw. Exit code 1: the success rate fell by more than the margin with\n"
-      "the confidence, a throw could not be flown or, on a machine of the baseline's kind, would\n"
-      "have hit in only one of the two, or bytes changed that must not. Prints the throws that\n"
+      "the confidence, or the throws are too few ever to show that and no bytes are compared; a\n"
+      "throw could not be flown; or, on a machine of the baseline's kind, one would have hit in\n"
+      "only one of the two, or bytes changed that must not. Prints the throws that\n"
       "changed, and how to look at them. The throws are the baseline's: other repeats or another\n"
       "seed (--set seed=8) make another baseline, with --update.\n\n"
       "Examples:\n"

@@ -188,7 +188,7 @@ TEST_F(ResumeTest, AThrowThatHangsIsGivenUp) {
     return fly(index);
   });
   EXPECT_EQ(summary.errors, 1);
-  EXPECT_THAT(summary.results[5].flown.error, HasSubstr("took longer than the 2 s"));
+  EXPECT_THAT(summary.results[5].flown.error, HasSubstr("took longer than the limit of 2 s"));
   EXPECT_THAT(summary.table, HasSubstr("Dodged: 7 / 12")) << "11 flew, and the lost one counts";
 }
 

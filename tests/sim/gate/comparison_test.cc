@@ -73,9 +73,10 @@ TEST(Comparison, LeavesOutWhatWouldHaveHitInOneCampaignOnly) {
   const Comparison c = compared("ddm", "dmd");
   EXPECT_EQ(c.counts.total(), 1);
   EXPECT_THAT(c.counts_differ, ElementsAre(1, 2));
-  EXPECT_THAT(comparison_text(c, "a", "b"),
-              HasSubstr("Left out, because in one campaign only they could be flown and would have "
-                        "hit: throws 1, 2"));
+  EXPECT_THAT(
+      comparison_text(c, "a", "b"),
+      HasSubstr("Left out, because in one of the two only they could be flown and would have "
+                "hit: throws 1, 2"));
 }
 
 TEST(Comparison, LeavesOutWhatNobodyCouldFlyInOneCampaign) {
@@ -185,7 +186,7 @@ TEST(Comparison, StatesNoRateWhereNoThrowCounts) {
     EXPECT_THAT(text, Not(HasSubstr("p =")));
   }
   EXPECT_THAT(comparison_text(compared("mh", "hm"), "before", "after"),
-              HasSubstr("would have hit in both\nLeft out, because in one campaign only"));
+              HasSubstr("would have hit in both\nLeft out, because in one of the two only"));
 }
 
 }  // namespace
