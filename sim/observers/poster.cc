@@ -81,13 +81,14 @@ void Poster::on_dodger_cycle(TimeUs /*now_us*/, const dodge::Dodger& dodger) {
   cv::hconcat(std::vector<cv::Mat3b>{seen, stages[0], stages[2], stages[4]}, strip_);
 }
 
-void Poster::save(const std::string& path) const {
+void Poster::save(OutputFile& file) const {
   if (scene_.empty()) {
     throw ScenarioError("There is no picture to make: nothing was thrown.");
   }
   cv::Mat picture = scene_;
   if (!strip_.empty()) cv::vconcat(scene_, strip_, picture);
-  write_file(path, png_of(picture));
+  file.write(png_of(picture));
+  file.commit();
 }
 
 }  // namespace dodgesim

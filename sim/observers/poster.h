@@ -5,10 +5,10 @@
 
 #include <memory>
 #include <opencv2/core.hpp>
-#include <string>
 #include <vector>
 
 #include "sim/camera/camera.h"
+#include "sim/files/output_file.h"
 #include "sim/observers/chase_camera.h"
 #include "sim/observers/dodger_observer.h"
 #include "sim/render/scene_pictures.h"
@@ -23,9 +23,9 @@ class Poster : public DodgerObserver {
   void on_first_detection() override { detected_ = true; }
   void on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) override;
 
-  // Throws IoError if the file cannot be written, ScenarioError if nothing was thrown. Of a pilot
-  // that is no dodge::Dodger there are the flight paths only.
-  void save(const std::string& path) const;
+  // Writes and commits the file. Throws IoError if that fails, ScenarioError if nothing was thrown.
+  // Of a pilot that is no dodge::Dodger there are the flight paths only.
+  void save(OutputFile& file) const;
 
  private:
   void draw_scene(const World& world, const PictureView& view);

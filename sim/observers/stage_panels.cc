@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <opencv2/imgproc.hpp>
 
 #include "sim/base/formatted.h"
@@ -89,6 +90,12 @@ cv::Mat3b stage_picture(const dodge::Dodger& pilot, TimeUs t_us) {
 
 StageFilm::StageFilm(std::string directory) : directory_(std::move(directory)) {
   make_directory(directory_);
+  std::vector<std::filesystem::path> earlier;
+  for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("stages_") && name.ends_with("_us.png")) earlier.push_back(entry.path());
+  }
+  for (const std::filesystem::path& file : earlier) std::filesystem::remove(file);
 }
 
 void StageFilm::on_tick(const World& world) { object_in_flight_ = world.snapshot().any_launched(); }

@@ -5,7 +5,6 @@
 
 #include "sim/config/camera_calibration.h"
 #include "sim/files/csv.h"
-#include "sim/files/directory.h"
 #include "sim/flight/setup.h"
 #include "sim/observers/event_recorder.h"
 #include "sim/recordings/sensor_log.h"
@@ -40,17 +39,13 @@ TrueBody true_body(const BodyState& body) {
 }  // namespace
 
 VehicleLog::VehicleLog(const std::filesystem::path& directory, const Scenario& scenario)
-    : directory_(make_directory(directory)),
+    : directory_(directory),
+      made_(directory),
       scenario_(scenario),
       imu_(directory / "imu.csv"),
       states_(directory / "state.csv"),
       ranges_(directory / "range.csv"),
       truth_(directory / "truth.csv") {
-  write_file(directory / "scenario.yaml", to_yaml(scenario));
-  for (const char* camera : kCameraNames) {
-    for (const char* end : {".h5", ".yaml"})
-      std::filesystem::remove(directory / (camera + std::string(end)));
-  }
   imu_.write(imu_header());
   states_.write(state_header());
   ranges_.write(range_header());
@@ -69,7 +64,7 @@ void VehicleLog::open_cameras(const VehicleParameters& vehicle) {
     const std::string path = (directory_ / kCameraNames.at(i)).string();
     cameras_.push_back(
         make_event_writer(path + ".h5", {camera.width, camera.height, 0, kLongestFlightUs, true}));
-    write_file(path + ".yaml", to_yaml(camera, config.p_BR));
+    calibrations_.push_back(to_yaml(camera, config.p_BR));
   }
 }
 
@@ -102,7 +97,16 @@ void VehicleLog::write_truth() {
 }
 
 void VehicleLog::finish() {
-  for (const auto& camera : cameras_) camera->finish();
+  for (std::size_t i = 0; i < kCameraNames.size(); ++i) {
+    const std::string path = (directory_ / kCameraNames[i]).string();
+    if (i < cameras_.size()) {
+      cameras_[i]->finish();
+      write_file(path + ".yaml", calibrations_[i]);
+    } else {  // an earlier recording had it
+      for (const char* end : {".h5", ".yaml"}) std::filesystem::remove(path + end);
+    }
+  }
+  write_file(directory_ / "scenario.yaml", to_yaml(scenario_));
   for (OutputFile* file : {&imu_, &states_, &ranges_, &truth_}) file->commit();
 }
 

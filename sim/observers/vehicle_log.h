@@ -15,9 +15,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "sim/config/scenario.h"
+#include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 #include "sim/flight/flight_observer.h"
 #include "sim/recordings/event_writer.h"
@@ -26,8 +28,8 @@ namespace dodgesim {
 
 class VehicleLog : public FlightObserver {
  public:
-  // All functions throw IoError; without finish() no file of readings appears. An
-  // earlier recording in the directory gives way.
+  // All functions throw IoError; without finish() no file appears, and an earlier recording in the
+  // directory stays. With it, that gives way.
   VehicleLog(const std::filesystem::path& directory, const Scenario& scenario);
 
   bool wants_causes() const override { return true; }
@@ -43,8 +45,10 @@ class VehicleLog : public FlightObserver {
   void write_truth();
 
   std::filesystem::path directory_;
+  NewDirectory made_;
   Scenario scenario_;
   std::vector<std::unique_ptr<EventWriter>> cameras_;
+  std::vector<std::string> calibrations_;  // by camera
   OutputFile imu_, states_, ranges_, truth_;
   Snapshot now_;
   bool truth_begun_ = false;

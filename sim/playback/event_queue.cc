@@ -42,6 +42,8 @@ bool EventQueue::is_stray() const {
   const TimeUs t_us = read_[at_].t_us;
   if (newest_us_ && t_us <= *newest_us_ + kSortedUs) return false;
   const TimeUs first_us = newest_us_ ? *newest_us_ - kSortedUs : std::numeric_limits<TimeUs>::min();
+  const bool last = ended_ && read_.size() - at_ <= kAhead;
+  if (last && newest_us_ && t_us > *newest_us_ + kLongestGapUs) return true;
   const auto begin = read_.begin() + static_cast<std::ptrdiff_t>(at_) + 1;
   const auto end = begin + std::min<std::ptrdiff_t>(kAhead, read_.end() - begin);
   const auto between = std::count_if(begin, end, [&](const Event& event) {

@@ -2,8 +2,9 @@
 //
 // A stray is an event whose stamp was damaged and lies ahead of those around it: it is more than
 // kSortedUs ahead of all before it, and most of the next kAhead events lie between the two. Whoever
-// waits for its time would hold up all that stand behind it. A clock that is put back or on makes
-// no strays.
+// waits for its time would hold up all that stand behind it. So is one of the last kAhead events
+// that is more than kLongestGapUs ahead of all before it. A clock that is put back or on makes no
+// strays.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,7 @@ class EventQueue {
  public:
   static constexpr TimeUs kSortedUs = 10000;  // events may stand that much too late in their file
   static constexpr std::size_t kAhead = 32;   // enough for a burst of 16
+  static constexpr TimeUs kLongestGapUs = 600'000'000;  // that is played
 
   explicit EventQueue(std::unique_ptr<EventReader> reader) : reader_(std::move(reader)) { look(); }
 

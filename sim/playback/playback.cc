@@ -11,8 +11,8 @@ namespace dodgesim {
 
 namespace {
 
-constexpr std::size_t kMostHeld = 10'000'000;  // in 14 ms; no camera is as fast
-constexpr TimeUs kLongestGapUs = 600'000'000;  // a longer one is a clock that jumps
+constexpr std::size_t kMostHeld = 10'000'000;                // in 14 ms; no camera is as fast
+constexpr TimeUs kLongestGapUs = EventQueue::kLongestGapUs;  // a longer one is a clock that jumps
 
 // Hands over the readings up to now_us, of which the first `sent` have been.
 template <class Reading, class Send>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <optional>
 #include <vector>
 
 #include "sim/files/npy_reader.h"
@@ -18,11 +17,22 @@ namespace {
 
 constexpr std::size_t kPortion = 1 << 14;  // events
 
+// Whether one of the first events has a fraction in place of whole microseconds.
+bool in_seconds(const std::string& path) {
+  TextColumns file(path);
+  const Column t = {"t", 0};
+  for (std::size_t i = 0; i < kPortion && file.next(); ++i) {
+    const double stamp = file.number(t);
+    if (stamp != std::floor(stamp)) return true;
+  }
+  return false;
+}
+
 // Lines of text, .txt and .csv.
 class TextReader : public EventReader {
  public:
   TextReader(const std::string& path, const ImageSize& image, bool names_columns)
-      : image_(image), names_columns_(names_columns), file_(path) {
+      : image_(image), in_seconds_(!names_columns && in_seconds(path)), file_(path) {
     if (!names_columns) return;
     t_.name = "t_us";
     file_.read_names({"t_us", "x", "y", "p"});
@@ -42,19 +52,16 @@ class TextReader : public EventReader {
 
  private:
   std::int64_t time_us() {
-    if (!in_seconds_)
-      in_seconds_ = !names_columns_ && file_.text(t_).find('.') != std::string::npos;
-    if (!*in_seconds_) return file_.integer(t_);
+    if (!in_seconds_) return file_.integer(t_);
     const double t_s = file_.number(t_);
     if (std::abs(t_s) < 1e12) return std::llround(t_s * 1e6);
-    file_.refuse(t_, "a number of seconds, as in the lines before");
+    file_.refuse(t_, "nearer to 0, as events of this file are in seconds");
   }
 
   ImageSize image_;
-  bool names_columns_;
+  bool in_seconds_;
   TextColumns file_;
   Column t_ = {"t", 0}, x_ = {"x", 1}, y_ = {"y", 2}, p_ = {"p", 3};
-  std::optional<bool> in_seconds_;  // not known before the first event
   std::vector<Event> events_;
 };
 

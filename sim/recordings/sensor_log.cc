@@ -1,6 +1,8 @@
 #include "sim/recordings/sensor_log.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -17,24 +19,38 @@ namespace {
 
 constexpr std::array<const char*, 3> kRates = {"wx", "wy", "wz"}, kForces = {"ax", "ay", "az"};
 
-// Calls read() for every line and sees to it that time goes on.
+// Calls read() for every line, which may return nothing, and sees to it that time goes on.
 template <class Reading, class Read>
 std::vector<Reading> read_log(TextColumns& file, Read read) {
   const Column t_us = file.column("t_us");
   std::vector<Reading> log;
+  std::optional<TimeUs> last_us;
   while (file.next()) {
     const TimeUs stamp = file.integer(t_us);
     if (stamp < -kLastUs || stamp > kLastUs) file.refuse(t_us, "nearer to 0");
-    if (!log.empty() && stamp <= log.back().t_us) {
+    if (last_us && stamp <= *last_us) {
       throw ScenarioError(file.place() + ": t_us is " + to_text(stamp) +
-                          ", but must be later than in the row before, " +
-                          to_text(log.back().t_us) + ".");
+                          ", but must be later than in the row before, " + to_text(*last_us) + ".");
     }
-    log.push_back(read());
-    log.back().t_us = stamp;
+    last_us = stamp;
+    std::optional<Reading> reading = read();
+    if (!reading) continue;
+    reading->t_us = stamp;
+    log.push_back(*reading);
   }
-  if (log.empty()) throw ScenarioError(file.path() + " has no reading.");
   return log;
+}
+
+template <class Reading>
+void expect_any(const std::vector<Reading>& log, const TextColumns& file) {
+  if (log.empty()) throw ScenarioError(file.path() + " has no reading.");
+}
+
+// "inf" and "nan", by which drivers say that nothing is in range.
+bool is_no_number(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (text.starts_with('+') || text.starts_with('-')) text.erase(0, 1);
+  return text == "inf" || text == "infinity" || text == "nan";
 }
 
 // No vehicle is as far or as fast, in whatever units; sums of such numbers stay finite.
@@ -103,7 +119,9 @@ std::vector<ImuReading> read_imu_log(const std::string& path) {
   file.read_names({"t_us", "wx", "wy", "wz"});
   const VectorColumns w(file, kRates);
   const auto f = if_any(file, kForces);
-  return read_log<ImuReading>(file, [&] { return ImuReading{0, w.read(), read(f)}; });
+  auto log = read_log<ImuReading>(file, [&] { return ImuReading{0, w.read(), read(f)}; });
+  expect_any(log, file);
+  return log;
 }
 
 std::vector<StateReading> read_state_log(const std::string& path) {
@@ -116,6 +134,7 @@ std::vector<StateReading> read_state_log(const std::string& path) {
   auto states = read_log<StateReading>(file, [&] {
     return StateReading{0, p.read(), rotation(file, number(file, qw), q.read()), v.read(), read(w)};
   });
+  expect_any(states, file);
   if (!w) fill_in_rates(states);
   return states;
 }
@@ -124,7 +143,10 @@ std::vector<RangeReading> read_range_log(const std::string& path) {
   TextColumns file(path);
   file.read_names({"t_us", "range_m"});
   const Column range_m = file.column("range_m");
-  return read_log<RangeReading>(file, [&] { return RangeReading{0, number(file, range_m)}; });
+  return read_log<RangeReading>(file, [&]() -> std::optional<RangeReading> {
+    if (is_no_number(std::string(file.text(range_m)))) return std::nullopt;
+    return RangeReading{0, number(file, range_m)};
+  });
 }
 
 std::string imu_header() { return "t_us,wx,wy,wz,ax,ay,az\n"; }

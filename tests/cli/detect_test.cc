@@ -78,6 +78,17 @@ TEST_F(DetectTest, FindsInARecordedFlightWhatThePilotFoundInIt) {
   EXPECT_GT(table("found/clusters.csv").rows(), 10u);
   EXPECT_GT(table("found/obstacles.csv").rows(), 3u);
 
+  // A replay that fails, here before its flight, leaves an earlier recording as it was.
+  const std::string log = contents("rec/imu.csv");
+  const Outcome nowhere = dodgesim("replay " + path("campaign") + " --throw 0 --record " +
+                                   path("rec") + " --picture " + path("nowhere/p.png"));
+  EXPECT_EQ(nowhere.exit_code, 4);
+  EXPECT_THAT(nowhere.output, HasSubstr("nowhere/p.png"));
+  EXPECT_EQ(contents("rec/imu.csv"), log);
+  for (const char* file : {"rec/top.h5", "rec/bottom.h5", "rec/scenario.yaml", "rec/top.yaml"}) {
+    EXPECT_TRUE(fs::exists(root_ / file)) << file;
+  }
+
   // Other keys, other detections.
   EXPECT_EQ(detect(all + " --set dodger.position.max_range_m=0.7").exit_code, 0);
   EXPECT_LT(table("found/detections.csv").rows(), table("campaign/detections.csv").rows());
@@ -98,6 +109,10 @@ TEST_F(DetectTest, FindsWithOneCameraAndItsImuInWhichDirectionTheBallIs) {
       "seed: 5\nthrow: {distance_m: 2.5, speed_mps: 5, launch_s: 0.1, launch_height_m: 2.4, "
       "bearing_deg: 15}\nafter_s: 0.1\ndodger: {position: {depth: mono}}\n");
   EXPECT_FALSE(fs::exists(path("rec/bottom.h5")));
+  const Outcome bottom = dodgesim("replay " + path("campaign") + " --throw 0 --camera bottom " +
+                                  "--events " + path("bottom.npy"));
+  EXPECT_EQ(bottom.exit_code, 2);
+  EXPECT_THAT(bottom.output, HasSubstr("there are no events of the camera bottom"));
   const Outcome outcome = detect(path("rec/top.h5") + " --calibration " + path("rec/top.yaml") +
                                  " --imu " + path("rec/imu.csv"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
@@ -132,6 +147,17 @@ TEST_F(DetectTest, WritesAVideoOfThePilotsStages) {
   EXPECT_GT(fs::file_size(path("v.mp4")), 1000u);
   EXPECT_THAT(outcome.output, AllOf(HasSubstr("has no intrinsics: 80 degrees over 64 columns"),
                                     HasSubstr("the camera is taken not to turn")));
+
+  // One that fails after its first pictures leaves the earlier video as it was.
+  const std::string video = contents("v.mp4");
+  std::string events = "t_us,x,y,p\n";
+  for (int i = 0; i < 20000; ++i) events += std::to_string(i) + ",5,5,1\n";
+  write("e.csv", events + "20000,700,6,0\n");
+  EXPECT_EQ(detect(path("e.csv") + " --calibration " + path("c.yaml") + " --video " + path("v.mp4"))
+                .exit_code,
+            2);
+  EXPECT_EQ(contents("v.mp4"), video);
+  EXPECT_FALSE(fs::exists(root_ / "v.mp4.partial"));
 }
 
 TEST_F(DetectTest, RunsThePilotOfAUser) {

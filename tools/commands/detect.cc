@@ -14,6 +14,7 @@
 #include "sim/config/camera_calibration.h"
 #include "sim/config/pilot.h"
 #include "sim/files/mp4_file.h"
+#include "sim/files/staged_file.h"
 #include "sim/files/text_table.h"
 #include "sim/observers/stage_panels.h"
 #include "sim/playback/detection_files.h"
@@ -200,19 +201,23 @@ std::unique_ptr<dodge::Pilot> make_pilot(const Scenario& scenario, const dodge::
 class StageVideo {
  public:
   StageVideo(const DetectArguments& arguments, TimeUs period_us)
-      : path_(arguments.video), rate_hz_(1 / (seconds(period_us) * arguments.slow)) {}
+      : place_(std::make_unique<StagedFile>(arguments.video)),
+        rate_hz_(1 / (seconds(period_us) * arguments.slow)) {}
 
   void add(const dodge::Dodger& pilot, TimeUs now_us) {
     const cv::Mat3b picture = stage_picture(pilot, now_us);
-    if (!file_)
-      file_ = std::make_unique<Mp4File>(path_, path_, picture.cols, picture.rows, rate_hz_);
+    if (!file_) {
+      file_ = std::make_unique<Mp4File>(place_->partial(), place_->path().string(), picture.cols,
+                                        picture.rows, rate_hz_);
+    }
     file_->write(picture.data);
   }
 
-  void close() { file_->close(); }
+  void close() { file_->close(); }     // the video is whole, under its temporary name
+  void commit() { place_->commit(); }  // after close()
 
  private:
-  std::string path_;
+  std::unique_ptr<StagedFile> place_;
   double rate_hz_;
   std::unique_ptr<Mp4File> file_;
 };
@@ -249,7 +254,9 @@ void detect(const DetectArguments& arguments) {
     sums.add(files.add(playback.now_us(), playback.pilot(), playback.command()), playback);
     if (video) video->add(*dodger, playback.now_us());
   }
+  if (video) video->close();
   files.finish();
+  if (video) video->commit();
   progress.finish();
   sums.report(playback, static_cast<int>(arguments.events.size()), scenario.delays.period_us());
   for (const Coverage& log : logs) {
@@ -257,9 +264,7 @@ void detect(const DetectArguments& arguments) {
   }
   std::printf("%s: cycles.csv, clusters.csv, detections.csv, obstacles.csv\n",
               arguments.out.c_str());
-  if (!video) return;
-  video->close();
-  std::printf("Video: %s\n", arguments.video.c_str());
+  if (video) std::printf("Video: %s\n", arguments.video.c_str());
 }
 
 }  // namespace

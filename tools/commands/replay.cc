@@ -20,6 +20,7 @@
 #include "sim/config/yaml_tree.h"
 #include "sim/files/csv.h"
 #include "sim/files/csv_table.h"
+#include "sim/files/output_file.h"
 #include "sim/flight/fly_throw.h"
 #include "sim/flight/setup.h"
 #include "sim/observers/event_recorder.h"
@@ -168,7 +169,10 @@ class Onlookers {
       mcap_ = std::make_unique<McapRecorder>(arguments.mcap, camera, scenario.delays.pilot_us());
       observers_.add(mcap_.get());
     }
-    if (!arguments.picture.empty()) observers_.add(&poster_);
+    if (!arguments.picture.empty()) {
+      picture_.emplace(arguments.picture);
+      observers_.add(&poster_);
+    }
     if (!arguments.record.empty()) {
       log_ = std::make_unique<VehicleLog>(arguments.record, scenario);
       observers_.add(log_.get());
@@ -195,11 +199,11 @@ class Onlookers {
       std::cout << "Recording for Foxglove or Lichtblick: " << arguments_.mcap << "\n";
     }
     if (result.flown.failed()) {
-      const bool more = film_ || stages_ || events_ || log_ || !arguments_.picture.empty();
+      const bool more = film_ || stages_ || events_ || log_ || picture_;
       if (more) std::cerr << "Of a flight that fails --mcap alone shows something.\n";
       return !more;
     }
-    if (!arguments_.picture.empty()) poster_.save(arguments_.picture);
+    if (picture_) poster_.save(*picture_);
     if (events_) {
       events_->finish();
       EventTruthSums sums;
@@ -233,6 +237,7 @@ class Onlookers {
   std::unique_ptr<McapRecorder> mcap_;
   std::unique_ptr<VehicleLog> log_;
   Poster poster_;
+  std::optional<OutputFile> picture_;  // the poster's
   EventTruth truth_;
   std::unique_ptr<EventRecorder> events_;
 };
@@ -259,6 +264,10 @@ void expect_showable(const Scenario& scenario, const ReplayArguments& arguments)
   if (!perceives(scenario.pilot)) {
     refuse({events, stages, record}, "the pilot of throw " + number + " is " + scenario.pilot +
                                          ", which flies without cameras.");
+  }
+  if (scenario.dodger.position.depth == "mono" && arguments.camera != kCameraNames[0]) {
+    refuse({events}, "with dodger.position.depth mono there are no events of the camera " +
+                         arguments.camera + ".");
   }
   if (!scenario.anyone_throws()) {
     refuse({picture, stages}, "in throw " + number + " nobody throws.");

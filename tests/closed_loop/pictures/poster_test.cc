@@ -55,7 +55,8 @@ class PosterTest : public ::testing::Test {
     poster_.on_tick(world_);
     poster_.on_cycle(0, pilot_);
     const std::string file = (directory_ / "poster.png").string();
-    poster_.save(file);
+    OutputFile output(file);
+    poster_.save(output);
     const cv::Mat picture = testing::decoded(file).at(0);
     return picture.rowRange(600, picture.rows).clone();
   }

@@ -95,6 +95,8 @@ TEST(StageFilm, WritesOnePictureOfTheStagesACycleWhileAnObjectFlies) {
   FlightPlan plan = plan_throw(s, 0);
   plan.end_us = 120000;  // 20 ms after the launch
   const testing::TemporaryDirectory directory;
+  std::filesystem::create_directory(directory / "stages");
+  testing::put(directory / "stages/stages_000999000_us.png", "of an earlier flight");
   StageFilm film((directory / "stages").string());
   fly(s, plan, &film);
   EXPECT_EQ(film.pictures(), 5);  // cycles at 104 to 120 ms

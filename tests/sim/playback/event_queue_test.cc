@@ -58,6 +58,17 @@ TEST(EventQueue, PassesOverStrays) {
   }
 }
 
+TEST(EventQueue, PassesOverWhatIsFarAheadAtTheEnd) {
+  const Stamps before = every(100, 1000, 50);
+  for (const int count : {1, 3, 32}) {
+    EXPECT_EQ(through_queue(before + Stamps(static_cast<std::size_t>(count), 1'000'000'000'000)),
+              Result(before, count));
+  }
+  // More of them are a clock that was put on.
+  const Stamps jump = before + every(1, 1'000'000'000'000, 33);
+  EXPECT_EQ(through_queue(jump), Result(jump, 0));
+}
+
 TEST(EventQueue, KeepsWhatIsNone) {
   EXPECT_EQ(through_queue({}), Result({}, 0));
   EXPECT_EQ(through_queue({5}), Result({5}, 0));

@@ -258,7 +258,7 @@ TEST(Playback, RefusesRecordingsThatCannotBePlayed) {
   other_clock.imu = every<ImuReading>(1000, 0, 100);
   EXPECT_THAT(refusal(std::move(other_clock)), HasSubstr("must have one clock"));
   std::vector<Event> jump = random_events(0, 100, 7);
-  jump.push_back({3'600'000'000, 1, 1, 1});
+  jump.insert(jump.end(), EventQueue::kAhead + 1, {3'600'000'000, 1, 1, 1});
   EXPECT_THAT(refusal(sensors_of({jump})), HasSubstr("ten minutes"));
   RecordedSensors instant;
   instant.cameras.push_back(std::make_unique<OneInstant>());

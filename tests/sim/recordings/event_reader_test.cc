@@ -98,9 +98,21 @@ TEST_P(WrittenRecording, ReadsBackOnTheClockOfItsOffset) {
 TEST_F(Reading, TextMayBeInSecondsAndHaveRemarks) {
   EXPECT_THAT(read(file("e.txt", "# t x y p\n0.000009 59 32 1\n12.5 0 479 0\n")),
               ElementsAre(Event{9, 59, 32, 1}, Event{12500000, 0, 479, -1}));
-  // Which of the two it is, the first line decides.
-  EXPECT_THAT(refusal("f.txt", "9 59 32 1\n12.5 0 479 0\n"),
-              AllOf(HasSubstr("f.txt:2: t is \"12.5\""), HasSubstr("whole number")));
+  // A fraction tells, in whatever line and however it is written.
+  EXPECT_THAT(read(file("f.txt", "9 59 32 1\n12.5 0 479 0\n")),
+              ElementsAre(Event{9000000, 59, 32, 1}, Event{12500000, 0, 479, -1}));
+  EXPECT_THAT(read(file("g.txt", "1e-05 1 2 1\n1.4999999999999999e-05 3 4 0\n")),
+              ElementsAre(Event{10, 1, 2, 1}, Event{15, 3, 4, -1}));
+}
+
+TEST_F(Reading, TextInWholeMicrosecondsMayHaveTheirPoint) {
+  EXPECT_THAT(read(file("e.txt", "6.6e+05 1.25e+02 1.07e+02 1.0\n660001.000 5 190 0.0\n")),
+              ElementsAre(Event{660000, 125, 107, 1}, Event{660001, 5, 190, -1}));
+  // After the first 16,384 events the unit is settled.
+  std::string whole;
+  for (int i = 0; i < 16384; ++i) whole += std::to_string(i) + " 1 2 1\n";
+  EXPECT_THAT(refusal("f.txt", whole + "16384.5 1 2 1\n"),
+              AllOf(HasSubstr("f.txt:16385: t is \"16384.5\""), HasSubstr("whole number")));
 }
 
 TEST_F(Reading, ColumnsOfCsvMayStandInAnyOrder) {

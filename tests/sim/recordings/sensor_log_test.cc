@@ -88,6 +88,16 @@ TEST_F(SensorLog, OfAttitudesAloneHasTheRatesBetweenThem) {
   }
 }
 
+TEST_F(SensorLog, OfARangeSensorMayLackReturns) {
+  const auto ranges = read_range_log(file("t_us,range_m\n1,inf\n2,1.5\n3,NaN\n4,-Inf\n5,2\n"));
+  ASSERT_EQ(ranges.size(), 2u);
+  EXPECT_EQ(ranges[0].t_us, 2);
+  EXPECT_EQ(ranges[1].range_m, 2);
+  EXPECT_TRUE(read_range_log(file(range_header())).empty());  // of a flight high above the ground
+  EXPECT_THAT(complaint<ScenarioError>([&] { read_range_log(file("t_us,range_m\n1,inf\n1,2\n")); }),
+              HasSubstr("log.csv:3: t_us is 1, but must be later"));
+}
+
 TEST_F(SensorLog, RefusesWhatCannotBeWithItsLine) {
   EXPECT_THAT(refusal("t_us,wx,wy,wz\n"), HasSubstr("has no reading"));
   EXPECT_THAT(refusal("t_us,wx,wy,wz\n7,0,0,0\n7,0,0,0\n"),
