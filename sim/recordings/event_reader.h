@@ -5,8 +5,7 @@
 //       (Prophesee) or events, or as the columns t, x, y, p of a table events (v2e).
 // .npy  Records t <i8 [us], x <u2, y <u2, p |i1, as event_writer.h has them.
 // .txt  A line "t x y p" an event: t is in seconds, as in the rpg data sets, if it has a fraction
-// in
-//       one of the first 16,384 events, and otherwise in microseconds.
+//       in one of the first 16,384 events, and otherwise in microseconds.
 // .csv  The same with commas, after a line that names the columns: t_us, x, y and p in any order.
 //
 // Lines of both may be as text_columns.h has them. Columns and fields other than these, such as the
