@@ -38,7 +38,7 @@ double response(const EventCameraSpec& spec, double luminance) {
 }
 
 // Of the response; positive in either direction.
-double height(const LightStep& step, const EventCameraSpec& spec) {
+double height_of(const LightStep& step, const EventCameraSpec& spec) {
   return std::abs(response(spec, step.after_lux / spec.illuminance_lux) -
                   response(spec, step.before_lux / spec.illuminance_lux));
 }
@@ -74,13 +74,14 @@ std::vector<double> expected_latencies_us(const EventCameraSpec& spec, const Lig
                 (spec.photoreceptor_dark_hz + spec.photoreceptor_hz * step.after_lux / 1000)
           : 0;
   const double b = 2 * std::numbers::pi * spec.follower_hz;
+  const double height = height_of(step, spec);
   const std::vector<double> pixels_us = pixel_latencies_us(spec);
   std::vector<double> latencies;
   for (int i = 0; i < kThresholdQuantiles; ++i) {
     const double normal = normal_quantile((i + 0.5) / kThresholdQuantiles);
     const double threshold =
         std::max(spec.threshold_min, threshold_for(step, spec) + spec.mismatch_sigma * normal);
-    const double late_us = 1e6 * step_time_s(threshold / height(step, spec), a, b);
+    const double late_us = 1e6 * step_time_s(threshold / height, a, b);
     if (!std::isfinite(late_us) || late_us > 1e6 * kFilmS) continue;
     for (const double pixel_us : pixels_us) latencies.push_back(late_us + pixel_us);
   }
@@ -88,7 +89,7 @@ std::vector<double> expected_latencies_us(const EventCameraSpec& spec, const Lig
 }
 
 bool applies(const EventCameraSpec& spec, const LightStep& step) {
-  return height(step, spec) > threshold_for(step, spec) + 3 * spec.mismatch_sigma;
+  return height_of(step, spec) > threshold_for(step, spec) + 3 * spec.mismatch_sigma;
 }
 
 StepAnswer measure(const EventCameraSpec& spec, const LightStep& step, std::uint64_t seed) {

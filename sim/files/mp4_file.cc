@@ -10,8 +10,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -94,19 +92,13 @@ std::string last_line(std::FILE* file) {
 
 }  // namespace
 
-Mp4File::Mp4File(const std::string& path, std::string name, int width, int height,
-                 double pictures_per_s)
-    : path_(path),
-      name_(std::move(name)),
+Mp4File::Mp4File(const std::string& path, int width, int height, double pictures_per_s)
+    : place_(path),
       picture_size_(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-  if (!std::ofstream(path)) {
-    throw IoError("The video " + name_ +
-                  " could not be opened for writing: " + std::strerror(errno) + ".");
-  }
   try {
     begin(width, height, pictures_per_s);
   } catch (const IoError&) {
-    discard();
+    stop();
     throw;
   }
 }
@@ -121,13 +113,14 @@ void Mp4File::begin(int width, int height, double pictures_per_s) {
   }
   if (error == 0) {
     pipe_ = ends[0];
-    error = start(ffmpeg_command(path_, width, height, pictures_per_s), ends[1], ::fileno(said_),
-                  ffmpeg_);
+    error = start(ffmpeg_command(place_.partial().string(), width, height, pictures_per_s), ends[1],
+                  ::fileno(said_), ffmpeg_);
     ::close(ends[1]);
   }
   if (error == 0) return;
   ffmpeg_ = -1;
-  throw IoError("The video " + name_ + " could not be begun, for which the program ffmpeg is " +
+  throw IoError("The video " + place_.path().string() +
+                " could not be begun, for which the program ffmpeg is " +
                 "needed: " + std::strerror(error) + ".");
 }
 
@@ -136,8 +129,8 @@ void Mp4File::write(const std::uint8_t* pixels) {
 }
 
 void Mp4File::close() {
-  whole_ = end();
-  if (!whole_) fail();
+  if (!end()) fail();
+  place_.commit();
 }
 
 bool Mp4File::end() {
@@ -152,21 +145,16 @@ bool Mp4File::end() {
 void Mp4File::fail() {
   end();
   const std::string reason = last_line(said_);
-  throw IoError("The video " + name_ + " could not be written by ffmpeg: " +
+  throw IoError("The video " + place_.path().string() + " could not be written by ffmpeg: " +
                 (reason.empty() ? "it was stopped" : reason) + ".");
 }
 
-void Mp4File::discard() {
+void Mp4File::stop() {
   if (ffmpeg_ > 0) ::kill(ffmpeg_, SIGKILL);
   end();
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
   if (said_ != nullptr) std::fclose(std::exchange(said_, nullptr));
 }
 
-Mp4File::~Mp4File() {
-  if (!whole_) discard();
-  if (said_ != nullptr) std::fclose(said_);
-}
+Mp4File::~Mp4File() { stop(); }
 
 }  // namespace dodgesim

@@ -7,16 +7,18 @@
 #include <cstdio>
 #include <string>
 
+#include "sim/files/staged_file.h"
+
 namespace dodgesim {
 
 // MPEG-4 with H.264, which browsers open, written by the program ffmpeg: a library that can do so
 // would load 200 others at every start of dodgesim.
 class Mp4File {
  public:
-  // `name` is what messages call it. Throws IoError if the file cannot be opened for writing or
-  // there is no ffmpeg.
-  Mp4File(const std::string& path, std::string name, int width, int height, double pictures_per_s);
-  ~Mp4File();  // removes the file unless it was closed
+  // Throws IoError if the file cannot be opened for writing, another program is writing it, or
+  // there is no ffmpeg. It gets its name, and takes the place of another, in close().
+  Mp4File(const std::string& path, int width, int height, double pictures_per_s);
+  ~Mp4File();
   Mp4File(const Mp4File&) = delete;
   Mp4File& operator=(const Mp4File&) = delete;
 
@@ -30,14 +32,13 @@ class Mp4File {
   bool end();  // whether ffmpeg was content
   void begin(int width, int height, double pictures_per_s);
   [[noreturn]] void fail();
-  void discard();
+  void stop();
 
-  std::string path_, name_;
+  StagedFile place_;
   std::size_t picture_size_;   // [bytes]
   std::FILE* said_ = nullptr;  // by ffmpeg
   int pipe_ = -1;              // to ffmpeg
   pid_t ffmpeg_ = -1;
-  bool whole_ = false;
 };
 
 }  // namespace dodgesim

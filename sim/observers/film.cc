@@ -33,14 +33,13 @@ void EventPicture::add(std::span<const Event> events) {
 void EventPicture::clear() { image_.setTo(kNoEventColour); }
 
 Film::Film(const std::string& path, const Intrinsics& intrinsics, double slow)
-    : place_(path),
-      picture_every_us_(std::lround(static_cast<double>(kShownEveryUs) / slow / kTickUs) * kTickUs),
+    : picture_every_us_(std::lround(static_cast<double>(kShownEveryUs) / slow / kTickUs) * kTickUs),
       chase_camera_(kSceneDistanceM),
       picture_(kSceneHeight,
                kSceneWidth + intrinsics.width * (kSceneHeight / 2) / intrinsics.height,
                cv::Vec3b(0, 0, 0)),
       // Exactly `slow` times slower, whatever became of the interval in whole ticks.
-      video_(place_.partial().string(), place_.path().string(), picture_.cols, picture_.rows,
+      video_(path, picture_.cols, picture_.rows,
              1e6 / (slow * static_cast<double>(picture_every_us_))) {
   // One by one: copies would share their pixels.
   for (int i = 0; i < 2; ++i) eyes_.push_back({EventPicture(intrinsics.width, intrinsics.height)});
@@ -116,7 +115,6 @@ void Film::finish(const std::string& verdict) {
   write_caption(picture_, verdict, 10, kSceneHeight - 32);
   for (int i = 0; i < kPicturesPerS; ++i) video_.write(picture_.data);
   video_.close();
-  place_.commit();
 }
 
 }  // namespace dodgesim

@@ -8,7 +8,6 @@
 
 #include "sim/camera/camera.h"
 #include "sim/files/mp4_file.h"
-#include "sim/files/staged_file.h"
 #include "sim/flight/flight_observer.h"
 #include "sim/observers/chase_camera.h"
 #include "sim/render/scene_pictures.h"
@@ -35,9 +34,8 @@ class Film : public FlightObserver {
   static constexpr double kSlowest = 160;
 
   // MPEG-4 with H.264, which browsers open, of about 25 pictures a second, `slow` (1 to kSlowest)
-  // times slower than real. Throws IoError if the file cannot be opened for writing or another
-  // program is writing it. The file gets its name, and takes the place of another, when it is
-  // whole.
+  // times slower than real. Throws IoError as Mp4File does. The file gets its name, and takes the
+  // place of another, in finish().
   Film(const std::string& path, const Intrinsics& intrinsics, double slow);
 
   void on_tick(const World& world) override;
@@ -63,7 +61,6 @@ class Film : public FlightObserver {
   void compose(const Snapshot& snapshot);
   void caption(const Snapshot& snapshot);
 
-  StagedFile place_;
   TimeUs picture_every_us_;  // of flight
   std::unique_ptr<ScenePictures> scene_;
   ChaseCamera chase_camera_;

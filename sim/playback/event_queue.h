@@ -20,7 +20,7 @@ class EventQueue {
  public:
   static constexpr TimeUs kSortedUs = 10000;  // events may stand that much too late in their file
   static constexpr std::size_t kAhead = 32;   // enough for a burst of 16
-  static constexpr TimeUs kLongestGapUs = 600'000'000;  // that is played
+  static constexpr TimeUs kLongestGapUs = 600'000'000;  // a longer one is a clock that jumps
 
   explicit EventQueue(std::unique_ptr<EventReader> reader) : reader_(std::move(reader)) { look(); }
 

@@ -11,8 +11,7 @@ namespace dodgesim {
 
 namespace {
 
-constexpr std::size_t kMostHeld = 10'000'000;                // in 14 ms; no camera is as fast
-constexpr TimeUs kLongestGapUs = EventQueue::kLongestGapUs;  // a longer one is a clock that jumps
+constexpr std::size_t kMostHeld = 10'000'000;  // in 14 ms; no camera is as fast
 
 // Hands over the readings up to now_us, of which the first `sent` have been.
 template <class Reading, class Send>
@@ -23,7 +22,7 @@ void send_until(TimeUs now_us, const std::vector<Reading>& log, std::size_t& sen
 template <class Reading>
 void expect_near(TimeUs event_us, const std::vector<Reading>& log, const char* name) {
   if (log.empty()) return;
-  if (log.front().t_us < event_us + kLongestGapUs && log.back().t_us > event_us) return;
+  if (log.front().t_us < event_us + EventQueue::kLongestGapUs && log.back().t_us > event_us) return;
   throw ScenarioError(std::string("The ") + name + " log is from " +
                       std::to_string(log.front().t_us) + " to " + std::to_string(log.back().t_us) +
                       " us, but the first event comes at " + std::to_string(event_us) +
@@ -143,7 +142,9 @@ void Playback::send_events(int camera) {
     computer_.send_events(camera, packet->end_us, packet->events);
   }
   const Event* next = eye.queue.front();
-  if (!eye.held.empty() || next == nullptr || next->t_us <= last_event_us_ + kLongestGapUs) return;
+  if (!eye.held.empty() || next == nullptr ||
+      next->t_us <= last_event_us_ + EventQueue::kLongestGapUs)
+    return;
   throw ScenarioError("Camera " + std::to_string(camera) + " has an event at " +
                       std::to_string(next->t_us) + " us after one at " +
                       std::to_string(last_event_us_) +

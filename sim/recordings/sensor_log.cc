@@ -1,8 +1,6 @@
 #include "sim/recordings/sensor_log.h"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
@@ -44,13 +42,6 @@ std::vector<Reading> read_log(TextColumns& file, Read read) {
 template <class Reading>
 void expect_any(const std::vector<Reading>& log, const TextColumns& file) {
   if (log.empty()) throw ScenarioError(file.path() + " has no reading.");
-}
-
-// "inf" and "nan", by which drivers say that nothing is in range.
-bool is_no_number(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (text.starts_with('+') || text.starts_with('-')) text.erase(0, 1);
-  return text == "inf" || text == "infinity" || text == "nan";
 }
 
 // No vehicle is as far or as fast, in whatever units; sums of such numbers stay finite.
@@ -144,7 +135,8 @@ std::vector<RangeReading> read_range_log(const std::string& path) {
   file.read_names({"t_us", "range_m"});
   const Column range_m = file.column("range_m");
   return read_log<RangeReading>(file, [&]() -> std::optional<RangeReading> {
-    if (is_no_number(std::string(file.text(range_m)))) return std::nullopt;
+    // "inf" and "nan", by which drivers say that nothing is in range.
+    if (number_form(file.text(range_m)) == NumberForm::kNotFinite) return std::nullopt;
     return RangeReading{0, number(file, range_m)};
   });
 }

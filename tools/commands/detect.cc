@@ -14,7 +14,6 @@
 #include "sim/config/camera_calibration.h"
 #include "sim/config/pilot.h"
 #include "sim/files/mp4_file.h"
-#include "sim/files/staged_file.h"
 #include "sim/files/text_table.h"
 #include "sim/observers/stage_panels.h"
 #include "sim/playback/detection_files.h"
@@ -34,9 +33,10 @@ What it commands moves nobody, and its goal is to stay where it is.
 
 EVENTS: .h5 (DSEC, RVT; or t, x, y, p at the root, as records CD/events or as a table events), .npy
   or .txt as `emulate` and `replay --events` write them; .txt of the rpg data sets, with t in
-  seconds; .csv whose first line names the columns t_us, x, y and p. They must be in order of time,
-  but for 10 ms. The pilot drops those that come later; up to 16 in a row with stamps far ahead of
-  the next are passed over.
+  seconds (it has a fraction in one of the first 16,384 events); .csv whose first line names the
+  columns t_us, x, y and p. They must be in order of time, but for 10 ms. The pilot drops those that
+  come later; up to 16 in a row with stamps far ahead of the next are passed over, and so are up to
+  32 at the end that are more than ten minutes ahead.
 CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {model:
   radtan_k1_k2_p1_p2_k3, coeffs: [...]}; p_BC_m and R_BC (rows), the camera's place on the body,
   which by default looks forward; imu_axes, where x, y, z of the IMU point, by default as
@@ -201,23 +201,20 @@ std::unique_ptr<dodge::Pilot> make_pilot(const Scenario& scenario, const dodge::
 class StageVideo {
  public:
   StageVideo(const DetectArguments& arguments, TimeUs period_us)
-      : place_(std::make_unique<StagedFile>(arguments.video)),
-        rate_hz_(1 / (seconds(period_us) * arguments.slow)) {}
+      : path_(arguments.video), rate_hz_(1 / (seconds(period_us) * arguments.slow)) {}
 
   void add(const dodge::Dodger& pilot, TimeUs now_us) {
     const cv::Mat3b picture = stage_picture(pilot, now_us);
     if (!file_) {
-      file_ = std::make_unique<Mp4File>(place_->partial(), place_->path().string(), picture.cols,
-                                        picture.rows, rate_hz_);
+      file_ = std::make_unique<Mp4File>(path_, picture.cols, picture.rows, rate_hz_);
     }
     file_->write(picture.data);
   }
 
-  void close() { file_->close(); }     // the video is whole, under its temporary name
-  void commit() { place_->commit(); }  // after close()
+  void close() { file_->close(); }
 
  private:
-  std::unique_ptr<StagedFile> place_;
+  std::string path_;
   double rate_hz_;
   std::unique_ptr<Mp4File> file_;
 };
@@ -256,7 +253,6 @@ void detect(const DetectArguments& arguments) {
   }
   if (video) video->close();
   files.finish();
-  if (video) video->commit();
   progress.finish();
   sums.report(playback, static_cast<int>(arguments.events.size()), scenario.delays.period_us());
   for (const Coverage& log : logs) {

@@ -28,7 +28,7 @@ class Mp4FileTest : public ::testing::Test {
 TEST_F(Mp4FileTest, ShowsThePicturesInTheirColours) {
   cv::Mat3b picture(47, 61, cv::Vec3b(200, 30, 30));
   picture.colRange(31, 61).setTo(cv::Vec3b(30, 30, 200));
-  Mp4File video(path(), "video", picture.cols, picture.rows, 12.5);
+  Mp4File video(path(), picture.cols, picture.rows, 12.5);
   for (int i = 0; i < 5; ++i) video.write(picture.data);
   video.close();
   EXPECT_EQ(testing::pictures_per_s(path()), 12.5);
@@ -42,12 +42,15 @@ TEST_F(Mp4FileTest, ShowsThePicturesInTheirColours) {
 }
 
 TEST_F(Mp4FileTest, ThatIsNotClosedIsRemoved) {
-  { const Mp4File video(path(), "video", 16, 16, 25); }
-  EXPECT_FALSE(fs::exists(path()));
+  { const Mp4File video(path(), 16, 16, 25); }
+  EXPECT_TRUE(fs::is_empty(directory_.path()));
+  testing::put(path(), "an earlier video");
+  { const Mp4File video(path(), 16, 16, 25); }
+  EXPECT_EQ(testing::contents(path()), "an earlier video");
 }
 
 TEST_F(Mp4FileTest, WithoutAPlaceIsAnIoError) {
-  EXPECT_THROW(Mp4File((directory_ / "no" / "video.mp4").string(), "video", 16, 16, 25), IoError);
+  EXPECT_THROW(Mp4File((directory_ / "no" / "video.mp4").string(), 16, 16, 25), IoError);
 }
 
 // Only these programs are there.
@@ -68,10 +71,10 @@ class Programs {
 
 TEST_F(Mp4FileTest, NeedsFfmpeg) {
   const Programs none(directory_.path().string());
-  EXPECT_THAT([this] { Mp4File(path(), "film", 16, 16, 25); },
+  EXPECT_THAT([this] { Mp4File(path(), 16, 16, 25); },
               ::testing::ThrowsMessage<IoError>(::testing::AllOf(
-                  HasSubstr("The video film"), HasSubstr("the program ffmpeg is needed"))));
-  EXPECT_FALSE(fs::exists(path()));
+                  HasSubstr("The video " + path()), HasSubstr("the program ffmpeg is needed"))));
+  EXPECT_TRUE(fs::is_empty(directory_.path()));
 }
 
 TEST_F(Mp4FileTest, SaysWhatFfmpegSays) {
@@ -80,13 +83,13 @@ TEST_F(Mp4FileTest, SaysWhatFfmpegSays) {
   fs::permissions(directory_ / "ffmpeg", fs::perms::owner_all);
   const Programs broken(directory_.path().string());
   const std::vector<std::uint8_t> picture(3 * 16 * 16);
-  Mp4File video(path(), "film", 16, 16, 25);
+  Mp4File video(path(), 16, 16, 25);
   EXPECT_THAT(
       [&] {
         for (;;) video.write(picture.data());
       },
-      ::testing::ThrowsMessage<IoError>(
-          "The video film could not be written by ffmpeg: no such codec."));
+      ::testing::ThrowsMessage<IoError>("The video " + path() +
+                                        " could not be written by ffmpeg: no such codec."));
   EXPECT_THROW(video.close(), IoError);
 }
 

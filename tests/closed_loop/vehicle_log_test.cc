@@ -1,0 +1,54 @@
+// A flight as the vehicle would record it; what `dodgesim detect` finds in it: tests/cli.
+#include "sim/observers/vehicle_log.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "tests/closed_loop/flights.h"
+#include "tests/sim/files/temporary_directory.h"
+
+namespace dodgesim {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::map<std::string, std::string> files_of(const fs::path& directory) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    files[entry.path().filename().string()] = testing::contents(entry.path());
+  }
+  return files;
+}
+
+// 20 ms of a flight, with stereo or mono, of which the log is finished or not.
+void record(const fs::path& directory, const std::string& depth, bool finished) {
+  const Scenario s =
+      scenario("throw: {launch_s: 0.1}\ndodger: {position: {depth: " + depth + "}}\n");
+  FlightPlan plan = plan_throw(s, 0);
+  plan.end_us = 20000;
+  VehicleLog log(directory, s);
+  fly(s, plan, &log);
+  if (finished) log.finish();
+}
+
+TEST(VehicleLog, AppearsWholeOrNotAtAll) {
+  const testing::TemporaryDirectory root;
+  const fs::path directory = root / "rec";
+  record(directory, "stereo", false);
+  EXPECT_FALSE(fs::exists(directory));
+  record(directory, "stereo", true);
+  const auto stereo = files_of(directory);
+  EXPECT_EQ(stereo.size(), 9u);
+  record(directory, "mono", false);
+  EXPECT_EQ(files_of(directory), stereo);
+  record(directory, "mono", true);  // in place of the earlier one, which had a second camera
+  const auto mono = files_of(directory);
+  EXPECT_EQ(mono.size(), 7u);
+  EXPECT_FALSE(mono.contains("bottom.h5"));
+}
+
+}  // namespace
+}  // namespace dodgesim
