@@ -49,6 +49,7 @@ SlurmdPidFile=$cluster_dir/slurmd.%n.pid
 SlurmdLogFile=$cluster_dir/slurmd.%n.log
 SlurmdParameters=config_overrides
 SlurmdTimeout=10
+SchedulerParameters=sched_interval=2,bf_interval=2
 ReturnToService=2
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
