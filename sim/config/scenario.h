@@ -62,7 +62,10 @@ struct SensorsSpec {
     v("sampling", sampling, "How often the luminance is drawn from which events are made.");
     v("render", render, "How the luminance is drawn.");
     v("keys", keys, "When the room is drawn anew, and how finely.");
-    v("imu", imu, "Gyroscope and accelerometer.");
+    v("imu", imu,
+      "Gyroscope and accelerometer. The flight controller's own gyroscope has the same errors, "
+      "drawn "
+      "for itself, at 4 kHz whatever rate_hz is.");
     v("state_estimate", state_estimate, "Pose and velocity as the vehicle's estimator gives them.");
     v("range", range,
       "The range sensor that looks down, along one ray, at the room and thrown objects.");

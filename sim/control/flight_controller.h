@@ -48,7 +48,8 @@ struct FlightControllerSpec {
     v("motor_time_constant_s", motor_time_constant_s, 0.001, 1,
       "Lag of the motors in the controller's estimate of the torque.");
     v("assured_yaw_torque_nm", assured_yaw_torque_nm, 0, 1,
-      "Yaw torque that saturation leaves to yaw: about a tenth of the greatest.");
+      "Yaw torque that saturation leaves to yaw: about a tenth of the greatest, and never more "
+      "than half of it.");
   }
 };
 

@@ -9,9 +9,7 @@ namespace dodgesim {
 
 Mixer::Mixer(const VehicleParameters& vehicle, double min_thrust_n, double max_thrust_n,
              double assured_yaw_torque_nm)
-    : min_thrust_n_(min_thrust_n),
-      max_thrust_n_(max_thrust_n),
-      assured_yaw_torque_nm_(assured_yaw_torque_nm) {
+    : min_thrust_n_(min_thrust_n), max_thrust_n_(max_thrust_n) {
   if (!(min_thrust_n >= 0 && max_thrust_n > min_thrust_n)) {
     throw std::invalid_argument("A rotor's greatest thrust must exceed its least thrust.");
   }
@@ -28,6 +26,7 @@ Mixer::Mixer(const VehicleParameters& vehicle, double min_thrust_n, double max_t
   if (distribution_.col(0).minCoeff() <= 0) {
     throw std::invalid_argument("The centre of mass must lie between the vehicle's rotors.");
   }
+  assured_yaw_torque_nm_ = std::min(assured_yaw_torque_nm, max_yaw_torque_nm() / 2);
 }
 
 std::array<double, 4> Mixer::rotor_thrusts(const Wrench& wanted) const {
@@ -52,6 +51,13 @@ std::array<double, 4> Mixer::rotor_thrusts(const Wrench& wanted) const {
 Wrench Mixer::wrench(const std::array<double, 4>& rotor_thrust_n) const {
   const Eigen::Vector4d w = allocation_ * Eigen::Vector4d(rotor_thrust_n.data());
   return {w[0], w.tail<3>()};
+}
+
+// What the rotors give one way and the other when they do nothing else.
+double Mixer::max_yaw_torque_nm() const {
+  const auto yaw = allocation_.row(3).array();
+  return std::min((yaw * max_thrust_n_).max(yaw * min_thrust_n_).sum(),
+                  -(yaw * max_thrust_n_).min(yaw * min_thrust_n_).sum());
 }
 
 // The yaw torque nearest to the wanted one that pushes no rotor beyond its limits, but no less than

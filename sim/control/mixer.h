@@ -20,7 +20,8 @@ struct Wrench {
 // enough, roll and pitch shrink together, which keeps their axis (the paper clips each rotor).
 class Mixer {
  public:
-  // assured_yaw_torque_nm: the yaw torque that is given up last. Throws std::invalid_argument when
+  // assured_yaw_torque_nm: the yaw torque that is given up last; half of the greatest if that is
+  // less, as roll and pitch would lose theirs otherwise. Throws std::invalid_argument when
   // the rotors cannot produce all torques, or not min_thrust_n < max_thrust_n.
   Mixer(const VehicleParameters& vehicle, double min_thrust_n, double max_thrust_n,
         double assured_yaw_torque_nm);
@@ -32,6 +33,7 @@ class Mixer {
   Wrench wrench(const std::array<double, 4>& rotor_thrust_n) const;
 
  private:
+  double max_yaw_torque_nm() const;
   double feasible_yaw(const Eigen::Vector4d& without_yaw, double wanted_nm) const;
   double feasible_scale(const Eigen::Vector4d& scaled, const Eigen::Vector4d& fixed) const;
   double feasible_thrust(const Eigen::Vector4d& torques, double wanted_n) const;

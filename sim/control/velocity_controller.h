@@ -98,7 +98,8 @@ struct ControllerSpec {
       "MPC_ACC_DECOUPLE takes gravity's). With 0 a small demand sideways under little thrust turns "
       "the vehicle far: after an escape upward it swings by 60 deg for a second and climbs on.");
     v("drag_compensation", drag_compensation,
-      "Whether the rotor drag at the commanded velocity is fed forward.");
+      "Whether the rotor drag at the commanded velocity is fed forward, and the thrust that the "
+      "rotors gain in level flight taken off.");
   }
 };
 

@@ -29,10 +29,10 @@ BodyState undisturbed_vehicle(const Scenario& scenario, int throw_index, TimeUs 
 }
 
 // A throw from behind a wall is a mistake of the scenario, not a miss.
-void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_W,
-                           const Eigen::Vector3d& launch_p_W) {
+void check_free_way(const World& world, const Eigen::Vector3d& vehicle_p_W,
+                    const Eigen::Vector3d& launch_p_W) {
   const Eigen::Vector3d ray_W = launch_p_W - vehicle_p_W;
-  const std::optional<RayHit> hit = room_along(world, vehicle_p_W, ray_W);
+  const std::optional<RayHit> hit = obstruction_along(world, vehicle_p_W, ray_W);
   if (!hit || hit->distance >= 1) return;
   throw ScenarioError(formatted("The throw starts at (%g, %g, %g) m, behind the room's \"",
                                 launch_p_W.x(), launch_p_W.y(), launch_p_W.z()) +
@@ -45,7 +45,7 @@ void check_launch_in_sight(const World& world, const Eigen::Vector3d& vehicle_p_
 BodyState launch_at(const BodyState& vehicle, const Throw& drawn, const World& world, int i) {
   const Eigen::Vector3d x_W = vehicle.q_W * Eigen::Vector3d::UnitX();
   BodyState launch = solve_throw(drawn, world.object(i), vehicle.p_W, std::atan2(x_W.y(), x_W.x()));
-  check_launch_in_sight(world, vehicle.p_W, launch.p_W);
+  check_free_way(world, vehicle.p_W, launch.p_W);
   return launch;
 }
 

@@ -11,7 +11,8 @@ std::optional<RangeReading> RangeSensor::sample(TimeUs t_us, double true_range_m
   if (!(true_range_m >= spec_.min_range_m && true_range_m <= spec_.max_range_m)) {
     return std::nullopt;
   }
-  const double sigma = std::max(spec_.sigma_m, spec_.sigma_fraction * true_range_m);
+  const bool far = true_range_m > spec_.fraction_from_m;
+  const double sigma = far ? spec_.sigma_fraction * true_range_m : spec_.sigma_m;
   double range = std::max(0.0, true_range_m + sigma * noise);
   if (spec_.resolution_m > 0) range = std::round(range / spec_.resolution_m) * spec_.resolution_m;
   return RangeReading{t_us, range};

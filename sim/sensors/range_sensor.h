@@ -14,6 +14,7 @@ struct RangeSpec {
   int rate_hz = 200;
   double sigma_m = 0.02;
   double sigma_fraction = 0.0075;
+  double fraction_from_m = 14;
   double resolution_m = 0.005;
   double min_range_m = 0.5;
   double max_range_m = 60;
@@ -23,10 +24,12 @@ struct RangeSpec {
     v("rate_hz", rate_hz, 1, 4000,
       "Readings per second; the sensor reaches 240, and the rate must divide 4000.");
     v("sigma_m", sigma_m, 0, 10,
-      "Standard deviation at short range: the stated accuracy of 4 cm read as two sigma.");
+      "Standard deviation of near readings: the stated accuracy of 4 cm read as two sigma.");
     v("sigma_fraction", sigma_fraction, 0, 1,
-      "Standard deviation per metre of distance, where it exceeds sigma_m: the stated accuracy of "
-      "1.5 % read as two sigma.");
+      "Standard deviation of far readings per metre of distance: the stated accuracy of 1.5 % read "
+      "as two sigma.");
+    v("fraction_from_m", fraction_from_m, 0, 1000,
+      "Beyond it sigma_fraction holds, and sigma_m up to it.");
     v("resolution_m", resolution_m, 0, 1, "Step between two readings; 0 for none.");
     v("min_range_m", min_range_m, 0, 1000, "Nearer surfaces give no reading.");
     v("max_range_m", max_range_m, 0, 1000, "Farther surfaces give no reading.");

@@ -40,7 +40,7 @@ struct StateEstimateSpec {
     v("velocity_bias_mps", velocity_bias_mps, 0, 10,
       "Standard deviation of the slowly varying velocity error, per axis (assumed).");
     v("velocity_bias_correlation_s", velocity_bias_correlation_s, 0.001, 10000,
-      "Time over which that error forgets itself: a few periods of the camera-driven updates "
+      "Time over which that error forgets itself: some thirty of the camera-driven updates "
       "(assumed).");
     v("velocity_white_mps", velocity_white_mps, 0, 10,
       "White noise of the velocity, per axis and estimate (assumed).");

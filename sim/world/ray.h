@@ -41,6 +41,21 @@ inline std::optional<RayHit> surface_along(const World& world, const Eigen::Vect
   return first_along(world, p_W, direction_W, kFirstHiddenGroup);
 }
 
+// The nearest part of the room that a thrown object would meet on this way, seen or not (but for
+// geoms with an alpha of 0, which MuJoCo lets rays pass).
+inline std::optional<RayHit> obstruction_along(const World& world, const Eigen::Vector3d& p_W,
+                                               const Eigen::Vector3d& direction_W) {
+  constexpr double kBehind = 1e-6;  // of the length of the direction
+  double passed = 0;
+  while (auto hit = first_along(world, p_W + passed * direction_W, direction_W, mjNGROUP)) {
+    hit->distance += passed;
+    const int body = world.model().geom_bodyid[hit->geom];
+    if (world.model().body_weldid[body] == 0 && world.can_collide(hit->geom)) return hit;
+    passed = hit->distance + kBehind;
+  }
+  return std::nullopt;
+}
+
 // Name of a geom for people; models need not give one.
 inline std::string geom_name(const World& world, int geom) {
   const char* name = mj_id2name(&world.model(), mjOBJ_GEOM, geom);

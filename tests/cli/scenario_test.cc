@@ -343,4 +343,22 @@ TEST_F(ScenarioCommandTest, AVehicleThatCannotFlyIsRefusedBeforeTheCampaign) {
                                      "rotors lift only 1.08"));
 }
 
+TEST_F(ScenarioCommandTest, ThrowsThroughWhatStopsThemAreFoundWhetherOrNotItIsSeen) {
+  copy_models(root_);
+  const std::string field = contents("models/rooms/field.xml");
+  const auto validate = [&](const std::string& net) {
+    const std::string geom =
+        "<geom name='net' type='box' pos='2 0 5' size='0.05 4 4' " + net + "/>";
+    write("models/rooms/field.xml",
+          std::regex_replace(field, std::regex("<worldbody>"), "<worldbody>" + geom));
+    return dodgesim("validate " + path("s.yaml") + " --models " + path("models") +
+                    " --set room=field --set throw.distance_m=4 --set mission.start_m='[0, 0, 2]'");
+  };
+  for (const char* group : {"group='0'", "group='4'"}) {
+    const std::string stops = std::string(group) + " contype='1' conaffinity='6'";
+    EXPECT_THAT(validate(stops).output, HasSubstr("behind the room's \"net\"")) << stops;
+  }
+  EXPECT_EQ(validate("group='0' contype='0' conaffinity='0'").exit_code, 0);
+}
+
 }  // namespace

@@ -139,6 +139,18 @@ TEST(Mixer, YawGivesWayBeforeThrustAndThrustBeforeRollAndPitch) {
   EXPECT_GT(roll_pitch_lost, 200);
 }
 
+// However much is assured: the rotors give 2 kappa (max - min) of yaw at most, and half of it then.
+TEST(Mixer, YawNeverTakesAllOfRollAndPitch) {
+  const VehicleParameters vehicle = nominal_vehicle();
+  const double half_nm = vehicle.kappa_m * (kMaxN - kMinN);
+  const Wrench wanted{10, {2, 1, 0.4}};
+  const Mixer greedy(vehicle, kMinN, kMaxN, 1);
+  const Wrench got = greedy.wrench(greedy.rotor_thrusts(wanted));
+  EXPECT_NEAR(got.torque_nm.z(), half_nm, kTolerance);
+  EXPECT_GT(got.torque_nm.x(), 0.2);
+  EXPECT_NEAR(got.torque_nm.x(), 2 * got.torque_nm.y(), kTolerance);
+}
+
 TEST(Mixer, MirroredWrenchGivesMirroredRotors) {
   const Mixer mixer = nominal_mixer();
   RandomStream random(5, 0, "test");
