@@ -22,9 +22,9 @@ struct HeightMonitorConfig {
     v("enabled", enabled, "Whether the vehicle lands when its height estimate has drifted.");
     v("threshold_m", threshold_m, 0.01, 100.0,
       "Discrepancy between estimated and measured height beyond which the estimate has drifted. "
-      "The paper sets it by hand and does not give it. The range sensor's noise grows with the "
-      "height, but nothing lands in scenarios/quiet_hover.yaml, 2 m high, nor with --set "
-      "room=field --set 'mission.start_m=[-2, 0, 10]'.");
+      "The paper sets it by hand and does not give it. Nothing lands in a hover 2 m high "
+      "(scenarios/quiet_hover.yaml) or 10 m high over the field; above 14 m the sensor's noise "
+      "grows with the height.");
     v("persist_us", persist_us, std::int64_t{0}, std::int64_t{60000000},
       "How long the discrepancy must last without a break: longer than a ball passes below the "
       "vehicle, or an outlier.");

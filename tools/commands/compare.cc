@@ -93,7 +93,7 @@ std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& d
       all, [](const ThrowOutcome& o) { return o.failed && !o.nobody_could_fly; });
   if (failed > 0) {
     std::cerr << "In " << directory.string() << " " << count_text(failed, "throw")
-              << " could not be flown and count as not dodged.\n";
+              << " had a flight that failed: not dodged, if compared.\n";
   }
   std::map<int, std::vector<ThrowOutcome>> parts;
   for (ThrowOutcome& outcome : all) {

@@ -213,6 +213,17 @@ TEST(Tables, ErrorsAreShownWithThrowPilotAndReason) {
                                        "- throw 1, pilot oracle: No context.\n"));
 }
 
+TEST(Tables, SayOfHowManyThrowsNobodyKnowsWhetherTheyWouldHaveHit) {
+  const FlightResult lost = failed("It took too long.");
+  const std::string markdown = tables({throw_with(0, flown(true), lost, flown(false)),
+                                       throw_with(1, flown(false), flown(true), flown(false))})
+                                   .markdown;
+  EXPECT_THAT(markdown, HasSubstr("Dodged: 1 / 2 ("));
+  EXPECT_THAT(markdown, HasSubstr("Whether 1 throw would have hit is not known, as the flight in "
+                                  "which nobody dodges failed: counted as if so, and as not "
+                                  "dodged."));
+}
+
 TEST(Tables, LandingsAreNamedWhenThereAreAny) {
   std::vector<ThrowResult> results;
   for (int i = 0; i < 4; ++i) {
