@@ -60,9 +60,9 @@ constexpr const char* kTable2Protocol = R"(How the protocol is read:
 - *How far the pilot got at best*: of a missed passage or piece, over the pilot's cycles while the
   ball was in view; the throws were flown again for this, with a look at events, clusters and
   matches.
-- Intervals: 95 %, Wilson. Pieces of one passage may be seen or missed together: they count as no
-  more trials than there are passages, with the same share detected, rounded down. A cell is below
-  the paper when its interval is.
+- Intervals: 95 %, Wilson. Pieces of one passage may be seen or missed together: passages of m
+  pieces each count as (sum m)^2 / sum m^2 trials, at most as many as there are passages, with the
+  same share detected. A cell is below the paper when its interval is.
 )";
 
 // Detected and visible.
@@ -124,12 +124,13 @@ Cells count_passages(const std::vector<PassageCase>& cases) {
 // Of the pieces of the passages of one cell.
 Cell count_pieces(const std::vector<TimeInView>& passages) {
   Cell cell;
+  std::vector<std::int64_t> pieces;
   for (const TimeInView& passage : passages) {
+    pieces.push_back(passage.pieces);
     cell.visible += passage.pieces;
     cell.detected += passage.detected_pieces();
   }
-  const auto n = static_cast<std::int64_t>(passages.size());
-  cell.interval = wilson(cell.visible > 0 ? cell.detected * n / cell.visible : 0, n);
+  if (!passages.empty()) cell.interval = wilson_of_clusters(cell.rate(), pieces);
   return cell;
 }
 

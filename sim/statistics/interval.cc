@@ -8,6 +8,19 @@
 
 namespace dodgesim {
 
+namespace {
+
+// Of a share of n trials, which need not be whole.
+Interval wilson_of_share(double p, double n, double z) {
+  const double centre = p + z * z / (2 * n);
+  const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  const double scale = 1 + z * z / n;
+  // At the ends the bounds are exactly 0 and 1, which rounding would miss.
+  return {p == 0 ? 0 : (centre - half) / scale, p == 1 ? 1 : (centre + half) / scale};
+}
+
+}  // namespace
+
 void check_counts(std::int64_t successes, std::int64_t trials) {
   if (successes < 0 || successes > trials) {
     throw std::invalid_argument("Successes must lie between 0 and the number of trials.");
@@ -29,13 +42,22 @@ Interval wilson(std::int64_t successes, std::int64_t trials, double confidence) 
 
 Interval wilson_of_quantile(std::int64_t successes, std::int64_t trials, double z) {
   const auto n = static_cast<double>(trials);
-  const double p = static_cast<double>(successes) / n;
-  const double centre = p + z * z / (2 * n);
-  const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  const double scale = 1 + z * z / n;
-  // At the ends the bounds are exactly 0 and 1, which rounding would miss.
-  return {successes == 0 ? 0 : (centre - half) / scale,
-          successes == trials ? 1 : (centre + half) / scale};
+  return wilson_of_share(static_cast<double>(successes) / n, n, z);
+}
+
+Interval wilson_of_clusters(double share, const std::vector<std::int64_t>& sizes,
+                            double confidence) {
+  if (!(share >= 0 && share <= 1)) throw std::invalid_argument("A share must lie between 0 and 1.");
+  check_confidence(confidence);
+  if (sizes.empty()) return {0, 1};
+  double sum = 0, sum_of_squares = 0;
+  for (const std::int64_t size : sizes) {
+    const auto m = static_cast<double>(size);
+    sum += m;
+    sum_of_squares += m * m;
+  }
+  return wilson_of_share(share, sum * sum / sum_of_squares,
+                         normal_quantile(0.5 + 0.5 * confidence));
 }
 
 Interval clopper_pearson(std::int64_t successes, std::int64_t trials, double confidence) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace dodgesim {
 
@@ -24,6 +25,11 @@ void check_confidence(double confidence);
 Interval wilson(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
 // The same for a quantile z of the normal distribution; trials > 0.
 Interval wilson_of_quantile(std::int64_t successes, std::int64_t trials, double z);
+// The same of a share in [0, 1] of trials that come in clusters of the given sizes (all > 0), each
+// of which may have succeeded or failed together: it is of (sum m)^2 / sum m^2 trials, the
+// effective number under full correlation within a cluster. [0, 1] when there are no clusters.
+Interval wilson_of_clusters(double share, const std::vector<std::int64_t>& sizes,
+                            double confidence = 0.95);
 
 // Exact interval of a proportion (Clopper and Pearson 1934): its coverage is never below the
 // confidence, and mostly above. [0, 1] when there were no trials.

@@ -56,6 +56,32 @@ TEST(Wilson, InvertsTheScoreTest) {
 
 TEST(Wilson, WidensWithConfidence) { EXPECT_LT(wilson(8, 10, 0.99).lo, wilson(8, 10, 0.9).lo); }
 
+TEST(WilsonOfClusters, OfOneTrialEachIsThatOfTrials) {
+  const Interval clusters = wilson_of_clusters(0.7, std::vector<std::int64_t>(10, 1));
+  const Interval trials = wilson(7, 10);
+  EXPECT_NEAR(clusters.lo, trials.lo, 1e-15);
+  EXPECT_NEAR(clusters.hi, trials.hi, 1e-15);
+}
+
+// (4 + 4 + 4 + 12)^2 / (3 * 16 + 144) = 3.
+TEST(WilsonOfClusters, CountsUnequalOnesAsFewer) {
+  const Interval clusters = wilson_of_clusters(2.0 / 3, {4, 4, 4, 12});
+  EXPECT_NEAR(clusters.lo, wilson(2, 3).lo, 1e-15);
+  EXPECT_NEAR(clusters.hi, wilson(2, 3).hi, 1e-15);
+}
+
+TEST(WilsonOfClusters, ContainsItsShare) {
+  for (int i = 0; i <= 1000; ++i) {
+    EXPECT_TRUE(wilson_of_clusters(i / 1000.0, {3, 7, 7, 8}).contains(i / 1000.0)) << i;
+  }
+}
+
+TEST(WilsonOfClusters, NothingIsKnownWithoutAny) {
+  EXPECT_EQ(wilson_of_clusters(0.5, {}).lo, 0);
+  EXPECT_EQ(wilson_of_clusters(0.5, {}).hi, 1);
+  EXPECT_THROW(wilson_of_clusters(1.5, {2}), std::invalid_argument);
+}
+
 double coverage(Interval (*method)(std::int64_t, std::int64_t, double), std::int64_t trials,
                 double p, double confidence) {
   double sum = 0;
