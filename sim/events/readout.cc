@@ -81,35 +81,39 @@ void Readout::push(EventWords& events, TimeUs origin_us, TimeUs t_us, std::vecto
   }
 }
 
+// Moves those that are due by t_us to `words`, whose times count from origin_us.
+void Readout::move_due(std::vector<Later>& waiting, TimeUs origin_us, TimeUs t_us,
+                       EventWords& words) {
+  for (const Later& later : waiting) {
+    if (later.t_us <= t_us) words.push(later.t_us - origin_us, later.rest);
+  }
+  std::erase_if(waiting, [t_us](const Later& later) { return later.t_us <= t_us; });
+}
+
 // Moves events to the arbiter and from there to leaving_, as far as they come until t_us.
 void Readout::arrive(EventWords& events, TimeUs origin_us, TimeUs t_us) {
   arriving_.clear();
-  for (const Later& later : to_arrive_) arriving_.push(later.t_us - origin_us, later.rest);
+  leaving_.clear();
+  move_due(to_arrive_, origin_us, t_us, arriving_);
+  move_due(to_leave_, origin_us, t_us, leaving_);
   for (std::size_t i = 0; i < events.size(); ++i) {
-    const TimeUs since_us = events.since_us(i);
+    const TimeUs made_us = origin_us + events.since_us(i);
     const std::uint64_t rest = events.rest(i);
-    arriving_.push(since_us + late_us(origin_us + since_us - reset_us_, rest), rest);
+    const TimeUs arrival_us = made_us + late_us(made_us - reset_us_, rest);
+    if (arrival_us <= t_us) {
+      arriving_.push(arrival_us - origin_us, rest);
+    } else {
+      to_arrive_.push_back({arrival_us, rest});
+    }
   }
   arriving_.sort();
 
-  leaving_.clear();
-  for (const Later& later : to_leave_) {
-    if (later.t_us <= t_us) leaving_.push(later.t_us - origin_us, later.rest);
-  }
-  std::erase_if(to_leave_, [t_us](const Later& later) { return later.t_us <= t_us; });
-  to_arrive_.clear();
   for (std::size_t i = 0; i < arriving_.size(); ++i) {
     if (service_us_ > 0 && i + kAhead < arriving_.size()) {
       __builtin_prefetch(&waits_until_[pixel(arriving_.event(i + kAhead, origin_us))]);
     }
-    const TimeUs arrival_us = origin_us + arriving_.since_us(i);
-    if (arrival_us > t_us) {
-      to_arrive_.push_back({arrival_us, arriving_.rest(i)});
-      continue;
-    }
     const Event event = arriving_.event(i, origin_us);
-    const auto since_us = static_cast<double>(arrival_us - reset_us_);
-    if (!serve(since_us, pixel(event))) continue;
+    if (!serve(static_cast<double>(event.t_us - reset_us_), pixel(event))) continue;
     const auto served_us = reset_us_ + static_cast<TimeUs>(served_us_);
     const TimeUs stamp_us = rounded_up(served_us, resolution_us_);
     if (stamp_us <= t_us) {

@@ -47,6 +47,8 @@ class Readout {
   };
 
   TimeUs late_us(TimeUs since_reset_us, std::uint64_t rest) const;
+  static void move_due(std::vector<Later>& waiting, TimeUs origin_us, TimeUs t_us,
+                       EventWords& words);
   void arrive(EventWords& events, TimeUs origin_us, TimeUs t_us);
   std::size_t pixel(const Event& event) const { return event.y * width_ + event.x; }
   bool serve(double request_us, std::size_t pixel);
