@@ -71,16 +71,18 @@ struct CalibrationKeys {
   }
 };
 
-// What the calibrator of ROS writes (camera_info), in place of the keys above.
+// What the calibrators of ROS (camera_info) and OpenCV write, in place of the keys above.
 struct CameraInfoKeys {
   struct Matrix {
     int rows = 0, cols = 0;
+    std::string dt;  // OpenCV's type of the numbers; all types are read alike
     std::vector<double> data;
 
     template <class Visitor>
     void visit(Visitor& v) {
       v("rows", rows, 1, 12, "");
       v("cols", cols, 1, 12, "");
+      v.text("dt", dt, "");
       v("data", data, -kFar, kFar, "");
     }
   };
@@ -97,6 +99,13 @@ struct CameraInfoKeys {
     v("distortion_coefficients", distortion_coefficients, "");
   }
 };
+
+// OpenCV's programs tag their matrices, whose keys are those of ROS.
+void drop_tags_of_opencv(YamlNode& map) {
+  for (YamlNode& item : map.items) {
+    if (item.tag == "!!opencv-matrix") item.tag.clear();
+  }
+}
 
 // Keys without a value count as not given.
 void drop_empty(YamlNode& map) {
@@ -254,6 +263,7 @@ CameraCalibration load_camera_calibration(const std::string& path_and_camera) {
   const std::vector<std::string> cameras = cameras_of_chain(root);
   if (!cameras.empty()) return load_of_chain(root, cameras, chosen, context);
   if (!chosen.empty()) throw ScenarioError(path + " holds one camera, and no " + chosen + ".");
+  drop_tags_of_opencv(root);
   drop_empty(root);
   CalibrationKeys keys;
   Reader reader(root, "", context);

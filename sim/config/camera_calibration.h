@@ -16,8 +16,9 @@
 // where a recording comes from, are passed over, unless they look like one of these misspelled.
 //
 // Calibrations of Kalibr and DSEC are read, too: see camera_chain.h. So are those of ROS
-// (camera_info: image_width, image_height, camera_matrix, distortion_model plumb_bob,
-// distortion_coefficients), to which the keys from p_BC_m on may be added.
+// (camera_info) and of OpenCV's programs (image_width, image_height, camera_matrix,
+// distortion_model plumb_bob, distortion_coefficients), to which the keys from p_BC_m on may be
+// added.
 #pragma once
 
 #include <string>

@@ -27,12 +27,14 @@ double share(Count read, Count all) {
 template <class Place>
 Event checked_event(const RawEvent& raw, const ImageSize& image, const Place& place) {
   const auto refuse = [&](const char* name, std::int64_t value, std::int64_t least,
-                          std::int64_t most) {
+                          std::int64_t most, const char* hint = "") {
     throw ScenarioError(place() + ": " + name + " is " + std::to_string(value) +
                         ", but must be from " + std::to_string(least) + " to " +
-                        std::to_string(most) + ".");
+                        std::to_string(most) + "." + hint);
   };
-  if (raw.t_us < 0 || raw.t_us > kLastUs) refuse("t [us]", raw.t_us, 0, kLastUs);
+  if (raw.t_us < 0) refuse("t [us]", raw.t_us, 0, kLastUs);
+  // More than 30,000 years: of today's clocks only those that count nanoseconds show as much.
+  if (raw.t_us > kLastUs) refuse("t [us]", raw.t_us, 0, kLastUs, " Are these nanoseconds?");
   if (raw.x < 0 || raw.x >= image.width) refuse("x", raw.x, 0, image.width - 1);
   if (raw.y < 0 || raw.y >= image.height) refuse("y", raw.y, 0, image.height - 1);
   if (raw.p < -1 || raw.p > 1) refuse("p", raw.p, -1, 1);

@@ -132,6 +132,22 @@ TEST_F(Calibration, OfRosIsRead) {
   EXPECT_THAT(refused(", -0.03]", ", 0, 0, 0, 0]"), HasSubstr("four or five"));
 }
 
+TEST_F(Calibration, OfOpenCvIsRead) {
+  const CameraCalibration read = load(
+      "%YAML:1.0\n---\ncalibration_time: \"Fri Mar 13 10:00:00 2020\"\nimage_width: 346\n"
+      "image_height: 260\naspectRatio: 1.\n# flags: +fix_aspectRatio\nflags: 2\n"
+      "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+      "   data: [ 2.501e+02, 0., 1.602e+02, 0., 251.,\n       120.7, 0., 0., 1. ]\n"
+      "distortion_coefficients: !!opencv-matrix\n   rows: 5\n   cols: 1\n   dt: d\n"
+      "   data: [ -0.37, 0.15, 0.01, 0.02, -3.0e-02 ]\navg_reprojection_error: 2.1e-01\n");
+  EXPECT_EQ(read.camera.width, 346);
+  EXPECT_EQ(read.camera.fx, 250.1);
+  EXPECT_EQ(read.camera.fy, 251);
+  EXPECT_EQ(read.camera.cy, 120.7);
+  EXPECT_EQ(read.camera.k1, -0.37);
+  EXPECT_EQ(read.camera.k3, -0.03);
+}
+
 TEST_F(Calibration, SaysWhatIsMissingOrWrong) {
   EXPECT_THAT(refusal("width: 320\n"), HasSubstr("height is missing"));
   EXPECT_THAT(refusal("width: 0\nheight: 240\n"), HasSubstr("width is 0"));

@@ -131,6 +131,8 @@ TEST_F(Reading, SaysInWhichLineAnEventIsNone) {
   EXPECT_THAT(refusal("e.csv", "t_us,x,y,p\n1,2,-1,1\n"), HasSubstr("y is -1"));
   EXPECT_THAT(refusal("e.csv", "t_us,x,y,p\n1,2,3,2\n"), HasSubstr("p is 2"));
   EXPECT_THAT(refusal("e.csv", "t_us,x,y,p\n-1,2,3,1\n"), HasSubstr("t [us] is -1"));
+  EXPECT_THAT(refusal("e.csv", "t_us,x,y,p\n1700000000000000000,2,3,1\n"),
+              HasSubstr("Are these nanoseconds?"));
   EXPECT_THAT(refusal("e.csv", "t_us,x,y,p\n1,2,3\n"), HasSubstr("e.csv:2: p is missing"));
   EXPECT_THAT(refusal("e.csv", "t_us,x,y,p\n1,2,3,0.1\n"), HasSubstr("p is \"0.1\""));
   EXPECT_THAT(refusal("e.csv", "t,x,y,p\n1,2,3,1\n"), HasSubstr("there is no column t_us"));
