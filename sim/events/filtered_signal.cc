@@ -118,6 +118,14 @@ class FilteredSignal : public PixelSignal {
     return charge(u_, y_, z_, index).z + leak_per_us_ * t_us;
   }
 
+  double settles_in_us(std::size_t index, double rest) const override {
+    if (order_ == 0) return 0;
+    const Charge now = charge(u_, y_, z_, index);
+    const double missing = std::abs(now.u - now.z);
+    if (missing <= rest) return 0;
+    return natural_log(missing / rest) * photoreceptor_.lag_s(light_[index]) / kSecondsPerUs;
+  }
+
   double rebase(std::size_t index, float luminance) override {
     const float u = photoreceptor_.response(luminance);
     const float change = u - u_[index];

@@ -36,6 +36,11 @@ class Photoreceptor {
   // Cut-off [1/s, angular] of the first, or only, low-pass at a luminance.
   double cutoff_rad_s(double luminance) const { return dark_rad_s_ + rad_s_ * luminance; }
 
+  // How far z is behind u that rises evenly at a luminance; of orders 1 and 2.
+  double lag_s(double luminance) const {
+    return 1 / cutoff_rad_s(luminance) + (order_ > 1 ? 1 / follower_rad_s_ : 0);
+  }
+
   // One pixel, t_s after a sample; at dt_s > 0 after it, the response is u1. `luminance` is the
   // light in between.
   Charge at(const Charge& before, double luminance, double u1, double dt_s, double t_s) const;

@@ -30,6 +30,10 @@ constexpr double kHeldUs = 1e-9;
 // Of an OFF and an ON event.
 constexpr std::array<double, 2> kSign = {-1, 1};
 
+// An object that has left makes a pixel's events until S is within this share of the lower
+// threshold from where the scene's light leads it.
+constexpr double kSettledShare = 0.1;
+
 // A bandwidth of second order bends S between samples; it is followed to within this share of the
 // thresholds that are set, before mismatch.
 constexpr double kCurveShare = 0.005;
@@ -106,6 +110,7 @@ PixelArray::PixelArray(const EventCameraSpec& spec, int width, int height,
                   : make_filtered_signal(spec, pixels_.size(), leak_per_s, tolerance);
   if (keep_causes) {
     shown_.resize(pixels_.size());
+    settled_us_.resize(pixels_.size());
     leaking_us_.resize(pixels_.size());
   }
 }
@@ -130,7 +135,8 @@ void PixelArray::reset(TimeUs t_us, const Picture& picture, const Noise& noise) 
     if (!leaking_us_.empty()) leaking_us_[i] = leaked > 0 ? -leaked / leak_per_us_ : 0;
   }
   set_all_bounds();
-  show({0, 0, static_cast<int>(width_), static_cast<int>(row_keeps_times_.size())}, picture);
+  std::fill(shown_.begin(), shown_.end(), kCauseScene);
+  show({0, 0, static_cast<int>(width_), static_cast<int>(row_keeps_times_.size())}, picture, 0);
 }
 
 void PixelArray::sample(TimeUs t_us, const Rect& region, const Picture& picture,
@@ -148,7 +154,7 @@ void PixelArray::sample(TimeUs t_us, const Rect& region, const Picture& picture,
     solve_crossings(now_us);
     run_all(now_us, picture, state);
   }
-  show(region, picture);
+  show(region, picture, now_us);
   const auto height = static_cast<int>(row_keeps_times_.size());
   if (region.x0 == 0 && region.y0 == 0 && region.x1 == static_cast<int>(width_) &&
       region.y1 == height) {
@@ -360,23 +366,41 @@ void PixelArray::rebase(const Picture& picture) {
     pixels_[i].reference += signal_->rebase(i, checked(picture.luminance[i]));
   }
   set_all_bounds();
-  show({0, 0, static_cast<int>(width_), static_cast<int>(row_keeps_times_.size())}, picture);
+  show({0, 0, static_cast<int>(width_), static_cast<int>(row_keeps_times_.size())}, picture,
+       last_us_);
 }
 
-void PixelArray::show(const Rect& region, const Picture& picture) {
+void PixelArray::show(const Rect& region, const Picture& picture, double t_us) {
   if (shown_.empty()) return;
   if (picture.cause == nullptr) {
     throw std::invalid_argument("A picture must say what its pixels show.");
   }
   for (int y = region.y0; y < region.y1; ++y) {
     const std::size_t first = static_cast<std::size_t>(y) * width_;
-    std::copy(picture.cause + first + region.x0, picture.cause + first + region.x1,
-              shown_.begin() + static_cast<std::ptrdiff_t>(first) + region.x0);
+    const std::size_t end = first + static_cast<std::size_t>(region.x1);
+    for (std::size_t i = first + static_cast<std::size_t>(region.x0); i < end; ++i) {
+      show(i, picture.cause[i], t_us);
+    }
   }
 }
 
-// A pixel that an object enters or leaves between two samples fires because of the object; of two
-// objects, because of the one that enters.
+void PixelArray::show(std::size_t index, Cause now, double t_us) {
+  Cause& shown = shown_[index];
+  double& settled_us = settled_us_[index];
+  if (now != kCauseScene) {
+    shown = now;
+    settled_us = kNever;
+  } else if (shown != kCauseScene) {
+    const auto& [off, on] = pixels_[index].change;
+    const double rest = kSettledShare * std::min(-off, on);
+    if (settled_us == kNever) settled_us = t_us + signal_->settles_in_us(index, rest);
+    if (settled_us <= t_us) shown = kCauseScene;
+  }
+}
+
+// A pixel that an object enters or leaves between two samples fires because of the object, and does
+// so until its bandwidth lets go of the object's light; of two objects, because of the one that
+// enters.
 Cause PixelArray::cause_at(std::size_t index, const Picture& picture) const {
   if (shown_.empty()) return kCauseScene;
   const Cause now = picture.cause[index];

@@ -115,7 +115,8 @@ class PixelArray {
   void emit(std::size_t index, TimeUs t_us, bool on, Cause cause, Run& run);
   SignalBounds bounds_of(std::size_t index) const;
   void set_all_bounds();
-  void show(const Rect& region, const Picture& picture);
+  void show(const Rect& region, const Picture& picture, double t_us);
+  void show(std::size_t index, Cause now, double t_us);
   Cause cause_at(std::size_t index, const Picture& picture) const;
 
   std::size_t width_;
@@ -132,7 +133,8 @@ class PixelArray {
   std::vector<double> sampled_us_;
 
   // Only with causes.
-  std::vector<Cause> shown_;        // by each pixel's last sample
+  std::vector<Cause> shown_;        // by each pixel's last sample, or an object shortly before it
+  std::vector<double> settled_us_;  // until when, if the object has left; kNever: it is there
   std::vector<double> leaking_us_;  // since when: the pixel's last event
 
   // Scratch of one call.

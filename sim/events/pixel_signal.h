@@ -72,6 +72,9 @@ class PixelSignal {
 
   // S at the pixel's last sample, of the instant t_us.
   virtual double value(std::size_t index, double t_us) const = 0;
+  // How long the pixel's last light must last for S, leak aside, to come to within `rest` of where
+  // that leads.
+  virtual double settles_in_us(std::size_t /*index*/, double /*rest*/) const { return 0; }
   // Another luminance at that instant. Returns by how much S has changed.
   virtual double rebase(std::size_t index, float luminance) = 0;
 };

@@ -115,6 +115,37 @@ TEST(Cause, OfWhatAnObjectEntersOrLeavesIsTheObject) {
   EXPECT_GT(static_cast<double>(told.size()) - of_object, 1000);
 }
 
+TEST(Cause, OfTheLightThatASlowPixelStillLetsGoOfIsTheObjectThatHasLeft) {
+  // The scene around the bar is still: without the bar there would be no event at all.
+  const auto still = [](int x, int, TimeUs t) { return in_bar(x, t) ? 2.0 : 0.2; };
+  const auto shown = [](int x, int, TimeUs t) {
+    return in_bar(x, t) ? kCauseFirstObject : kCauseScene;
+  };
+  for (const double follower_hz : {0.0, 200.0}) {
+    EventCameraSpec spec = event_camera_preset("ideal");
+    spec.photoreceptor_hz = 100;
+    spec.photoreceptor_dark_hz = 50;
+    spec.follower_hz = follower_hz;
+    const auto by_cause = counts(emulate(spec, every(500, 40000), still, shown));
+    ASSERT_EQ(by_cause.size(), 1u);
+    EXPECT_GT(by_cause.at(kCauseFirstObject), 5 * kPixels);
+  }
+}
+
+TEST(Cause, IsTheSceneAgainOnceASlowPixelHasLetGoOfTheObjectsLight) {
+  // The object is gone from 10 ms on; time constants of 1 to 2 ms. The scene brightens from 50 ms
+  // on.
+  const auto light = [](int, int, TimeUs t) {
+    return t < 10000 ? 2.0 : 0.2 * std::exp(50 * std::max(0.0, seconds(t) - 0.05));
+  };
+  const auto shown = [](int, int, TimeUs t) { return t < 10000 ? kCauseFirstObject : kCauseScene; };
+  EventCameraSpec spec = event_camera_preset("ideal");
+  spec.photoreceptor_hz = 100;
+  for (const Told& t : emulate(spec, every(500, 90000), light, shown)) {
+    EXPECT_EQ(t.cause, t.event.t_us < 50000 ? kCauseFirstObject : kCauseScene);
+  }
+}
+
 TEST(Cause, IsKeptByRegionsToo) {
   EventCamera camera(event_camera_preset("ideal"), 4, 1, 1, 0, "top", true);
   const std::vector<float> dark = {1, 1, 1, 1}, bright = {1, 3, 3, 3};
