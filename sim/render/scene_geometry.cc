@@ -61,17 +61,18 @@ int find_or_add_texture(const mjModel& m, int id, const Vector3d& tint, SceneGeo
   return static_cast<int>(scene.textures.size()) - 1;
 }
 
-// MuJoCo's texture coordinates: on shapes scaled from unit size (`size`; meshes keep theirs).
+// MuJoCo's texture coordinates: on shapes scaled from unit size (`size`; meshes keep theirs, and
+// under a cube planes, too).
 void set_texture_mapping(const mjModel& m, int geom, const Vector3d& size, Surface& surface,
                          bool cube) {
   const int material = m.geom_matid[geom];
   const bool uniform = m.mat_texuniform[material] != 0;
-  const bool mesh = m.geom_type[geom] == mjGEOM_MESH;
+  const bool keeps = m.geom_type[geom] == mjGEOM_MESH || m.geom_type[geom] == mjGEOM_PLANE;
   Vector3d scale = Vector3d::Ones();
   for (int axis = 0; axis < 3; ++axis) {
     if (size[axis] <= 0) continue;  // an unbounded axis of a plane repeats by length
     if (cube) {
-      scale[axis] = mesh ? (uniform ? size[axis] : 1.0) : (uniform ? 1.0 : 1.0 / size[axis]);
+      scale[axis] = keeps ? (uniform ? size[axis] : 1.0) : (uniform ? 1.0 : 1.0 / size[axis]);
     } else {
       scale[axis] = uniform ? 1.0 : 1.0 / size[axis];
     }
@@ -178,7 +179,7 @@ void add_geom(const mjModel& m, int geom, int object, const Eigen::Isometry3d& p
         faces.faces.push_back(rectangle(size, pose));
         faces.rectangles.push_back(faces.faces.back());
       } else {
-        scene.infinite_planes.push_back({pose, surface});
+        scene.infinite_planes.push_back({pose, size, surface});
       }
       return;
     case mjGEOM_MESH:

@@ -71,9 +71,11 @@ struct MovingTriangles {
   TriangleBatch batch;
 };
 
-// Plane without borders; the renderer moves its tessellation along with the camera.
+// Plane without borders, or a strip with borders across one axis alone; the renderer moves its
+// tessellation along with the camera.
 struct InfinitePlane {
   Eigen::Isometry3d pose;  // in W
+  Eigen::Vector3d half_m;  // half extents along x and y; 0: without borders
   Surface surface;
 };
 

@@ -3,6 +3,8 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <algorithm>
+
 namespace dodgesim {
 
 namespace {
@@ -26,12 +28,18 @@ void set_vector(int location, const Eigen::Vector3d& v) {
 
 // Quads that stand for an unbounded plane around the camera's foot: small ones nearby, where float
 // positions must be exact, and large ones out to the horizon.
-std::vector<Vertex> tessellate_unbounded(const Surface& surface, double far_m) {
-  constexpr double kInnerM = 30.0;
-  const std::array<double, 4> grid = {-far_m, -kInnerM, kInnerM, far_m};
+std::vector<Vertex> tessellate_unbounded(const InfinitePlane& plane, double far_m) {
+  const Surface& surface = plane.surface;
+  const auto place = [&](int axis, std::size_t i) {
+    constexpr double kInnerM = 30.0;
+    const double half_m = plane.half_m[axis];
+    const double outer_m = half_m > 0 ? half_m : far_m;
+    return std::array{-outer_m, -std::min(kInnerM, outer_m), std::min(kInnerM, outer_m),
+                      outer_m}[i];
+  };
   std::vector<Vertex> vertices;
   const auto corner = [&](std::size_t i, std::size_t j) {
-    const Eigen::Vector3d p(grid[i], grid[j], 0.0);
+    const Eigen::Vector3d p(place(0, i), place(1, j), 0.0);
     vertices.push_back({p.cast<float>(), Eigen::Vector3f::UnitZ(),
                         p.cwiseProduct(surface.texture_scale).cast<float>(),
                         static_cast<float>(surface.albedo),
@@ -76,7 +84,7 @@ TrianglePainter::TrianglePainter(const SceneGeometry& scene, const SceneTextures
     make_program_for(programs, moving.batch.texture);
   }
   for (const InfinitePlane& plane : scene.infinite_planes) {
-    unbounded_buffers_.push_back(upload_vertices(tessellate_unbounded(plane.surface, far_m)));
+    unbounded_buffers_.push_back(upload_vertices(tessellate_unbounded(plane, far_m)));
     make_program_for(programs, plane.surface.texture);
   }
   sky_program_ = make_sky_program(programs, textures.kind_of(scene.sky_texture),
@@ -153,6 +161,7 @@ void TrianglePainter::draw_unbounded(const Shot& shot) {
     const InfinitePlane& plane = scene_.infinite_planes[i];
     Eigen::Vector3d foot = plane.pose.inverse() * shot.X_WC.translation();
     foot.z() = 0.0;
+    foot = (plane.half_m.array() > 0).select(0.0, foot);  // borders stay where they are
     // Textures repeat: whole periods are left out, so that floats suffice anywhere.
     Eigen::Vector3d shift =
         foot.cwiseProduct(plane.surface.texture_scale) + plane.surface.texture_offset;

@@ -219,7 +219,12 @@ INSTANTIATE_TEST_SUITE_P(
         "", "<geom type='plane' size='1.5 1 .1' pos='2 .1 0' zaxis='-1 .2 .3' material='flat'/>",
         "<geom type='plane' size='1.5 1 .1' pos='2 .1 0' zaxis='-1 .2 .3' "
         "material='flat_uniform'/>",
+        "<geom type='plane' size='1.5 1 .1' pos='2 .1 0' zaxis='-1 .2 .3' material='sides'/>",
+        "<geom type='plane' size='1.5 .7 .1' pos='2 .1 0' zaxis='-1 .2 .3' "
+        "material='sides_uniform'/>",
         "<geom type='plane' size='0 0 .1' pos='0 0 -1' material='flat'/>",
+        "<geom type='plane' size='0 1.5 .1' pos='1 .2 -1' material='flat'/>",
+        "<geom type='plane' size='.6 0 .1' pos='2 .1 -1' euler='0 0 20' material='flat'/>",
         "<geom type='box' size='.5 .7 .4' pos='2 0 0' euler='20 30 40' material='sides'/>",
         "<geom type='box' size='.5 .7 .4' pos='2 0 0' euler='20 30 220' material='sides_uniform'/>",
         "<geom type='box' size='.5 .7 .4' pos='2 0 0' euler='120 30 40' material='cube'/>",
