@@ -28,10 +28,20 @@ void EarlyStop::add(const ThrowResult& result) {
   if (end_ || all_flown()) last_interval_ = find_last_interval();
 }
 
+EarlyStop::SoFar EarlyStop::so_far() const {
+  SoFar sum = {next_, sum_.dodged, sum_.would_have_hit};
+  for (const auto& [number, tally] : waiting_) {
+    ++sum.throws;
+    sum.dodged += tally.dodged;
+    sum.would_have_hit += tally.would_have_hit;
+  }
+  return sum;
+}
+
 SequentialInterval EarlyStop::interval() const {
   if (last_interval_) return {*last_interval_, spec_.confidence};
-  return {confidence_sequence(sum_.dodged, sum_.would_have_hit, spec_.confidence),
-          spec_.confidence};
+  const SoFar sum = so_far();
+  return {confidence_sequence(sum.dodged, sum.would_have_hit, spec_.confidence), spec_.confidence};
 }
 
 // Which throws would have hit does not depend on the pilot: nobody dodges there.
@@ -42,17 +52,17 @@ Interval EarlyStop::find_last_interval() const {
 }
 
 std::string EarlyStop::text() const {
-  const int dodged = sum_.dodged, trials = sum_.would_have_hit;
+  const auto [throws, dodged, trials] = so_far();
   const Interval interval = this->interval().interval;
   const std::string counts = formatted("%d of %d dodged, %.4g %% interval %.3f to %.3f", dodged,
                                        trials, 100 * spec_.confidence, interval.lo, interval.hi);
   const std::string asked = formatted("asked for: +- %g).", spec_.half_width);
   if (end_ || !all_flown()) {
-    return formatted("%s after %d throws: ", end_ ? "Ended by stop" : "Not ended by stop", next_) +
+    return formatted("%s after %d throws: ", end_ ? "Ended by stop" : "Not ended by stop", throws) +
            counts + " (valid though the results decided when to stop; " + asked;
   }
   const double rate = trials > 0 ? static_cast<double>(dodged) / trials : 0.5;
-  return formatted("All %d throws flown: ", next_) + counts +
+  return formatted("All %d throws flown: ", throws) + counts +
          formatted(" (valid though the results could have stopped it; known to +- %.3f, ",
                    std::max(interval.hi - rate, rate - interval.lo)) +
          asked;

@@ -25,7 +25,8 @@ class EarlyStop {
   std::optional<int> end() const { return end_; }
 
   // Of the success rate over the throws so far or, after the end, over those before it. It holds
-  // although the campaign chose when to stop; of a campaign under way it is much wider.
+  // although the campaign chose when to stop; of a campaign under way it is much wider. Throws that
+  // came before an earlier one count here: tables count them, too.
   SequentialInterval interval() const;
 
   // Of the throws so far or, after the end, of those before it: dodged of those that would have
@@ -33,6 +34,12 @@ class EarlyStop {
   std::string text() const;
 
  private:
+  // What interval() and text() speak of.
+  struct SoFar {
+    int throws = 0, dodged = 0, would_have_hit = 0;
+  };
+  SoFar so_far() const;
+
   bool all_flown() const { return next_ == planned_; }
   Interval find_last_interval() const;
 

@@ -1,7 +1,10 @@
 // The key stop of a campaign that is flown, interrupted and read back.
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "sim/base/error.h"
+#include "sim/campaign/journal.h"
 #include "sim/campaign/load_campaign.h"
 #include "sim/campaign/merge.h"
 #include "sim/files/input_file.h"
@@ -93,6 +96,26 @@ TEST_F(EarlyStopCampaignTest, GoesOnWhereItWasInterrupted) {
   }
   const CampaignSummary again = run_campaign(scenario_, part, fly_nth());
   EXPECT_EQ(again.flown, 0) << "nothing is left to fly";
+}
+
+TEST_F(EarlyStopCampaignTest, WithADamagedRecordStatesTheIntervalOfTheThrowsThatAreThere) {
+  run_campaign(scenario_, options("out", 1), fly_nth());
+  const auto journal = root_ / "out/results.bin";
+  const JournalRecord record = read_journal(journal).throws.at(2);
+  std::fstream file(journal, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(static_cast<std::streamoff>(record.offset));
+  file.put('\xff').put('\xff');
+  file.close();
+  const LoadedCampaign campaign = load_campaign(root_ / "out");
+  EXPECT_TRUE(campaign.damaged);
+  const Rate rate = statistics_of(parts_of(campaign).front()).flown().tally.success();
+  const Interval expected = confidence_sequence(rate.count, rate.of);
+  EXPECT_GT(rate.of, 2);
+  EXPECT_EQ(rate.interval().lo, expected.lo);
+  EXPECT_EQ(rate.interval().hi, expected.hi);
+  EXPECT_THAT(campaign.stop->text(), HasSubstr("after " + std::to_string(campaign.results.size()) +
+                                               " throws: " + std::to_string(rate.count) + " of " +
+                                               std::to_string(rate.of)));
 }
 
 TEST_F(EarlyStopCampaignTest, HasNoShards) {

@@ -52,6 +52,19 @@ TEST(EarlyStop, StatesAWiderIntervalWhenItHasNotCome) {
   EXPECT_THAT(stop.text(), HasSubstr("Not ended by stop after 20 throws: 14 of 18 dodged"));
 }
 
+// Of the throws that tables count, whichever are missing.
+TEST(EarlyStop, UnderWayCountsAllThrowsThatAreThere) {
+  EarlyStop gap(stopping(0.1, 1000));
+  for (int i = 0; i < 21; ++i) {
+    if (i != 3) gap.add(nth_throw(i));
+  }
+  EXPECT_FALSE(gap.end());
+  EXPECT_THAT(gap.text(), HasSubstr("Not ended by stop after 20 throws: 13 of 17 dodged"));
+  const Interval interval = gap.interval().interval, expected = confidence_sequence(13, 17);
+  EXPECT_EQ(interval.lo, expected.lo);
+  EXPECT_EQ(interval.hi, expected.hi);
+}
+
 // The rule's own interval, though not every throw would have hit: not that of a campaign under way.
 TEST(EarlyStop, WhereAllThrowsAreFlownTheIntervalIsTheRules) {
   EarlyStop stop(stopping(0.05, 60));
