@@ -17,6 +17,15 @@ bool same_throw(const ThrowResult& a, const ThrowResult& b) {
   return same_draw && (!a.none.ok() || !b.none.ok() || a.none.hit == b.none.hit);
 }
 
+// Whether the throw would have hit is no matter of the pilot: who knows it tells the other.
+void share_judgement(ThrowResult& a, ThrowResult& b) {
+  if (!a.none.ok()) {
+    a.none = b.none;
+  } else if (!b.none.ok()) {
+    b.none = a.none;
+  }
+}
+
 void count(const ThrowResult& result, Tally& tally, std::map<std::string, int>& causes) {
   tally.add(result);
   if (!result.cause.empty()) ++causes[result.cause];
@@ -42,12 +51,20 @@ void for_each_throw(const LoadedCampaign& first_flew, const LoadedCampaign& seco
 
 void PilotPair::add(const LoadedCampaign& first_flew, const LoadedCampaign& second_flew,
                     const std::function<bool(const ThrowResult&)>& belongs) {
-  for_each_throw(first_flew, second_flew, [&](const ThrowResult& a, const ThrowResult& b) {
+  for_each_throw(first_flew, second_flew, [&](ThrowResult a, ThrowResult b) {
     if (!belongs(a)) return;
+    share_judgement(a, b);
+    if (a.nobody_could_fly() != b.nobody_could_fly()) {
+      // No rate of the one may have it, so none of the other does.
+      ++first.errors;
+      ++second.errors;
+      return;
+    }
     count(a, first, first_causes);
     count(b, second, second_causes);
     oracle.add(a, &ThrowResult::oracle);
-    if (a.none.hit || b.none.hit) paired.add(a.dodged(), b.dodged());
+    const bool might_have_hit = !a.none.ok() || a.none.hit;
+    if (might_have_hit && !a.nobody_could_fly()) paired.add(a.dodged(), b.dodged());
   });
 }
 

@@ -16,7 +16,7 @@ namespace dodgesim {
 void for_each_throw(const LoadedCampaign& first_flew, const LoadedCampaign& second_flew,
                     const std::function<void(const ThrowResult&, const ThrowResult&)>& both);
 
-// Counts over the throws that would have hit.
+// Counts over the throws that would have hit: tallies and pairs are of the same ones.
 struct PilotPair {
   Tally first, second, oracle;  // the oracle with the first pilot's avoidance
   PairedCounts paired;          // dodged by the first and by the second
