@@ -172,6 +172,13 @@ TEST_F(GateCommandTest, ReplacesNothingButAnEarlierVerdict) {
     EXPECT_EQ(file ? contents(path(name)) : "", before);
   }
   EXPECT_FALSE(fs::exists(path("out")));
+  fs::create_directory(path("out"));
+  write("out/junit.xml", "<report of=\"somebody else\"/>\n");
+  const Outcome by_default = gate();
+  EXPECT_EQ(by_default.exit_code, 4);
+  EXPECT_THAT(by_default.output, HasSubstr("junit.xml exists, and is no JUnit report"));
+  EXPECT_EQ(contents("out/junit.xml"), "<report of=\"somebody else\"/>\n");
+  fs::remove_all(path("out"));
   EXPECT_EQ(gate("--junit " + path("empty.xml")).exit_code, 0);
   fs::remove_all(path("out"));
   EXPECT_EQ(gate("--junit " + path("empty.xml")).exit_code, 0) << "an earlier verdict";

@@ -207,21 +207,30 @@ std::optional<Baseline> find_baseline(const GateArguments& arguments) {
   }
 }
 
-// Only an earlier report may be replaced.
-void expect_report_or_nothing(const fs::path& junit) {
-  if (!fs::is_directory(fs::absolute(junit).parent_path())) {
-    throw IoError("--junit " + junit.string() + " cannot be written: there is no such folder.");
-  }
+// Only an earlier report may be replaced. `shown` is the path as the user knows it.
+void expect_report_or_nothing(const fs::path& junit, const std::string& shown) {
   if (!fs::exists(junit)) return;
   if (fs::is_regular_file(junit)) {
     const std::string text = read_file(junit);
     if (text.empty() || is_junit(text)) return;
   }
-  throw IoError("--junit " + junit.string() + " exists, and is no JUnit report to be replaced.");
+  throw IoError(shown + " exists, and is no JUnit report to be replaced.");
 }
 
 fs::path junit_path(const GateArguments& arguments) {
   return arguments.junit.empty() ? arguments.options.out / "junit.xml" : arguments.junit;
+}
+
+void expect_place_for_report(const GateArguments& arguments) {
+  const fs::path& junit = arguments.junit;
+  const fs::path path = junit_path(arguments);
+  if (junit.empty()) return expect_report_or_nothing(path, path.string());
+  const fs::path folder = fs::absolute(junit).parent_path();
+  expect_writable("--junit", junit, folder);
+  if (!fs::is_directory(folder)) {
+    throw IoError("--junit " + junit.string() + " cannot be written: there is no such folder.");
+  }
+  expect_report_or_nothing(path, "--junit " + path.string());
 }
 
 int gate(const GateArguments& arguments) {
@@ -229,10 +238,7 @@ int gate(const GateArguments& arguments) {
                                                       parse_settings("--set", arguments.set)),
                                         arguments.plugin);
   expect_gateable(scenario, arguments);
-  if (!arguments.junit.empty()) {
-    expect_writable("--junit", arguments.junit, fs::absolute(arguments.junit).parent_path());
-    expect_report_or_nothing(arguments.junit);
-  }
+  expect_place_for_report(arguments);
   // A gate that ends without a verdict must not leave an earlier one behind.
   std::error_code not_there;
   fs::remove(junit_path(arguments), not_there);
