@@ -15,6 +15,7 @@ using dodgesim::testing::CommandTest;
 using dodgesim::testing::copy_models;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -39,12 +40,12 @@ class ReportCommandTest : public CommandTest {
   }
 
   // The page as it stands after its program has run, with what the browser said about it.
-  Outcome browse(const std::string& page) const {
+  Outcome browse(const std::string& page, int width_px = 1200) const {
     return dodgesim::testing::shell(
         "HOME=" + root_.string() +
         " timeout 60 chromium-headless-shell --no-sandbox --disable-gpu --enable-logging=stderr "
-        "--window-size=1200,900 --dump-dom 'file://" +
-        page + "'");
+        "--window-size=" +
+        std::to_string(width_px) + ",900 --dump-dom 'file://" + page + "'");
   }
 };
 
@@ -181,6 +182,25 @@ TEST_F(ReportCommandTest, ASweepHasACurveWithItsBandForEachCellOfTheGrid) {
   EXPECT_THAT(twice.output, HasSubstr("--by names speed_mps twice."));
 }
 
+TEST_F(ReportCommandTest, FitsANarrowScreenAndCanBeReadThere) {
+  const Outcome run = dodgesim(
+      "run " + path("s.yaml") + " -j 1 --throws 1 --out " + path("wide") +
+      " --set pilot=none --set 'name=some_name_that_is_as_long_as_those_of_files_may_well_be'"
+      " --set 'grid={throw.size_m: [0.2], throw.speed_mps: [4, 4.5, 5, 5.5, 6, 6.5, 7, 7.5]}'");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  write("measured.html",
+        contents("wide/report.html") +
+            "<script>const heat = document.querySelector('.heat');"
+            "document.body.dataset.fits ="
+            " document.documentElement.scrollWidth <= innerWidth;"
+            "document.body.dataset.readable ="
+            " heat.getBoundingClientRect().width > 0.7 * heat.viewBox.baseVal.width"
+            "</script>");
+  const std::string dom = browse(path("measured.html"), 400).output;
+  EXPECT_THAT(dom, HasSubstr("data-fits=\"true\""));
+  EXPECT_THAT(dom, HasSubstr("data-readable=\"true\""));
+}
+
 // Text of the page between two others, without its marks.
 std::string text_between(const std::string& dom, const std::string& start, const std::string& end) {
   const std::size_t from = dom.find(start);
@@ -203,6 +223,8 @@ TEST_F(ReportCommandTest, RatesAreNamedByWhatThePilotIsForNotByItsName) {
   EXPECT_THAT(of_none, Not(HasSubstr(":CONSOLE:"))) << of_none.substr(0, 4000);
   EXPECT_THAT(text_between(of_none, "id=\"figures\"", "</header>"),
               ::testing::ContainsRegex("dodged by none.*would have hit.*detected"));
+  EXPECT_THAT(text_between(of_none, "id=\"causes\"", "</section>"),
+              AllOf(HasSubstr("so no cause is told."), Not(HasSubstr("No throw hit"))));
 
   dodgesim("sweep " + path("s.yaml") + " -j 1 --throws 3 --out " + path("pilots") +
            " --set fly_oracle=true --over pilot=none,oracle");

@@ -46,8 +46,9 @@ function heatMap({rows, columns, rates, rowUnit, columnUnit, press}) {
   const [cellW, cellH, left, top] = [104, 62, 92, 30];
   const width = left + cellW * columns.length;
   const height = top + cellH * rows.length;
+  // Smaller, nobody could read it: a narrow screen scrolls.
   const chart = svg('svg', {viewBox: `0 0 ${width} ${height}`, class: 'heat',
-                            style: `max-width:${width}px`});
+                            style: `max-width:${width}px;min-width:${0.75 * width}px`});
   columns.forEach((name, j) => chart.append(svg('text',
       {x: left + cellW * (j + 0.5), y: top - 10, class: 'label', 'text-anchor': 'middle'},
       `${name} ${columnUnit}`)));

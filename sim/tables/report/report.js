@@ -64,7 +64,9 @@ function fillCauses() {
   const rows = data.causes.map((cause, k) => ({
     cause, of: indices().filter((i) => throws.cause[i] === k)})).filter((row) => row.of.length);
   if (!rows.length) {
-    byId('causes').replaceChildren(empty('No throw hit, and nothing crashed.'));
+    byId('causes').replaceChildren(empty(pilotOf(section(), 'flown').name === 'none' ?
+        'The pilot none does nothing about a throw, so no cause is told.' :
+        'No throw hit, and nothing crashed.'));
     return;
   }
   const losses = rows.reduce((sum, row) => sum + row.of.length, 0);
@@ -130,7 +132,7 @@ function fillList() {
   const pages = Math.max(1, Math.ceil(mine.length / kPage));
   state.page = Math.min(state.page, pages - 1);
   const shown = mine.slice(state.page * kPage, (state.page + 1) * kPage);
-  byId('filtered').textContent = `${mine.length} throws`;
+  byId('filtered').textContent = `${mine.length} ${mine.length === 1 ? 'throw' : 'throws'}`;
   byId('page').textContent = `page ${state.page + 1} of ${pages}`;
   byId('before').disabled = state.page === 0;
   byId('after').disabled = state.page + 1 === pages;
