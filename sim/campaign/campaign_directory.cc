@@ -108,7 +108,8 @@ std::optional<JournalIndex> find_journal(const CampaignOptions& options,
   refuse_foreign(out, options.force);
   if (options.force) return std::nullopt;
   if (!fs::exists(journal)) {
-    if (options.resume) return std::nullopt;  // stopped before the first result
+    // Stopped before the first result, unless there are tables of results.
+    if (options.resume && any_result_file(out).empty()) return std::nullopt;
     throw ScenarioError(out.string() + " holds a campaign without " + kJournalFile +
                         "; choose another directory, or add --force to start anew.");
   }

@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "sim/base/child_process.h"
@@ -46,6 +47,10 @@ constexpr int kPollMs = 200;
 // Who kills a worker may be about to kill the campaign, too, as batch systems do process by process
 // when a job must end. So long does it take to believe that a throw was lost.
 constexpr std::chrono::milliseconds kGrace(500);
+
+// A longer time in which the campaign has not looked at its workers is not held against them: it
+// wrote tables, or was stopped (Ctrl-Z, SIGSTOP) and they with it.
+constexpr std::chrono::seconds kLongestLook(1);
 
 template <class Value>
 std::string_view bytes_of(const Value& value) {
@@ -238,9 +243,14 @@ class Pool {
 
   void give_up_late_ones() {
     if (tasks_.limits.wall_s <= 0) return;
+    const WallClock::time_point now = WallClock::now();
+    const WallClock::duration unseen = now - std::exchange(looked_, now);
+    if (unseen > kLongestLook) {
+      for (Worker& worker : workers_) worker.begin += unseen;
+    }
     const std::chrono::duration<double> limit(tasks_.limits.wall_s);
     for (std::size_t i = workers_.size(); i-- > 0;) {
-      if (WallClock::now() - workers_[i].begin < limit || has_result(workers_[i])) continue;
+      if (now - workers_[i].begin < limit || has_result(workers_[i])) continue;
       end(workers_[i]);
       lose(i, formatted("The throw took longer than the limit of %g s.", tasks_.limits.wall_s));
     }
@@ -279,6 +289,7 @@ class Pool {
 
   const WorkerTasks& tasks_;
   std::vector<Worker> workers_;
+  WallClock::time_point looked_ = WallClock::now();  // at whether a throw takes too long
   double first_mb_ = 0, last_mb_ = 0;
   int counted_ = 0;  // workers that have flown a throw
 };

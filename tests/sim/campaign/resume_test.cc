@@ -141,6 +141,15 @@ TEST_F(ResumeTest, WorkersThatAreKilledAlongWithTheCampaignLoseNoThrow) {
   for (const auto& [number, record] : index.throws) EXPECT_FALSE(record.lost) << number;
 }
 
+// Its tables are all that is left of hours of flights: no stopped campaign has any.
+TEST_F(ResumeTest, TablesWhoseJournalIsGoneAreNotFlownOver) {
+  run_campaign(scenario_, options("a"), fly_one_);
+  fs::remove(root_ / "a/results.bin");
+  EXPECT_THAT([&] { run_campaign(scenario_, resuming("a"), fly_one_); },
+              ThrowsMessage<ScenarioError>(HasSubstr("holds a campaign without results.bin")));
+  EXPECT_TRUE(fs::exists(root_ / "a/throws.csv"));
+}
+
 TEST_F(ResumeTest, RefusesToGoOnWithAnotherCampaign) {
   run_campaign(scenario_, options("a"), fly_one_);
   Scenario other = scenario_;
@@ -190,6 +199,32 @@ TEST_F(ResumeTest, AThrowThatHangsIsGivenUp) {
   EXPECT_EQ(summary.errors, 1);
   EXPECT_THAT(summary.results[5].flown.error, HasSubstr("took longer than the limit of 2 s"));
   EXPECT_THAT(summary.table, HasSubstr("Dodged: 7 / 12")) << "11 flew, and the lost one counts";
+}
+
+// As by Ctrl-Z and fg: the clock on the wall goes on, the throw does not.
+TEST_F(ResumeTest, APauseOfAllProcessesCostsNoThrow) {
+  const pid_t campaign = ::fork();
+  if (campaign == 0) {
+    ::setpgid(0, 0);
+    CampaignOptions limited = options("paused");
+    limited.limits.wall_s = 1;
+    const CampaignSummary summary = run_campaign(scenario_, limited, [&](int index) {
+      if (index == 4) {
+        ::kill(0, SIGSTOP);
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      }
+      return fly(index);
+    });
+    ::_exit(summary.errors);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(campaign, &status, WUNTRACED), campaign);
+  ASSERT_TRUE(WIFSTOPPED(status));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  ::kill(-campaign, SIGCONT);
+  ASSERT_EQ(::waitpid(campaign, &status, 0), campaign);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0) << "throws that were given up";
 }
 
 TEST_F(ResumeTest, AThrowThatWasLostIsFlownAgain) {
