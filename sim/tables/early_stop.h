@@ -26,7 +26,8 @@ class EarlyStop {
 
   // Of the success rate over the throws so far or, after the end, over those before it. It holds
   // although the campaign chose when to stop; of a campaign under way it is much wider. Throws that
-  // came before an earlier one count here: tables count them, too.
+  // came before an earlier one count here, because tables count them: while a campaign is under way
+  // as many as it has workers, after damage to its journal all behind the gap.
   SequentialInterval interval() const;
 
   // Of the throws so far or, after the end, of those before it: dodged of those that would have
