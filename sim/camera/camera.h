@@ -33,6 +33,7 @@ double focal_length_px(int width, double horizontal_fov_deg);
 struct Rect {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   bool empty() const { return x0 >= x1 || y0 >= y1; }
+  bool operator==(const Rect&) const = default;
 };
 
 // The pixels of both; may be empty.

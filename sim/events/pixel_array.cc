@@ -30,10 +30,6 @@ constexpr double kHeldUs = 1e-9;
 // Of an OFF and an ON event.
 constexpr std::array<double, 2> kSign = {-1, 1};
 
-// An object that has left makes a pixel's events until S is within this share of the lower
-// threshold from where the scene's light leads it.
-constexpr double kSettledShare = 0.1;
-
 // A bandwidth of second order bends S between samples; it is followed to within this share of the
 // thresholds that are set, before mismatch.
 constexpr double kCurveShare = 0.005;
@@ -108,11 +104,7 @@ PixelArray::PixelArray(const EventCameraSpec& spec, int width, int height,
   const bool exact = spec.photoreceptor_hz <= 0 && spec.follower_hz <= 0 && spec.leak_hz <= 0;
   signal_ = exact ? make_exact_signal(spec, pixels_.size())
                   : make_filtered_signal(spec, pixels_.size(), leak_per_s, tolerance);
-  if (keep_causes) {
-    shown_.resize(pixels_.size());
-    settled_us_.resize(pixels_.size());
-    leaking_us_.resize(pixels_.size());
-  }
+  if (keep_causes) causes_.emplace(thresholds, leak_per_us_);
 }
 
 void PixelArray::reset(TimeUs t_us, const Picture& picture, const Noise& noise) {
@@ -121,6 +113,7 @@ void PixelArray::reset(TimeUs t_us, const Picture& picture, const Noise& noise) 
   reset_us_ = t_us;
   last_us_ = 0;
   std::fill(row_keeps_times_.begin(), row_keeps_times_.end(), 0);
+  if (causes_) causes_->reset();
   for (std::size_t i = 0; i < pixels_.size(); ++i) {
     Pixel& pixel = pixels_[i];
     double leaked = 0;
@@ -132,17 +125,16 @@ void PixelArray::reset(TimeUs t_us, const Picture& picture, const Noise& noise) 
     }
     pixel.reference = signal_->value(i, 0) - leaked;
     pixel.held_until_us = kArmed;
-    if (!leaking_us_.empty()) leaking_us_[i] = leaked > 0 ? -leaked / leak_per_us_ : 0;
+    if (causes_) causes_->leaks_from(i, leaked > 0 ? -leaked / leak_per_us_ : 0);
   }
   set_all_bounds();
-  std::fill(shown_.begin(), shown_.end(), kCauseScene);
-  show({0, 0, static_cast<int>(width_), static_cast<int>(row_keeps_times_.size())}, picture, 0);
+  show(whole(), picture, 0);
 }
 
 void PixelArray::sample(TimeUs t_us, const Rect& region, const Picture& picture,
                         std::span<const NoiseEvent> noise, TimeUs origin_us, EventWords& events) {
   const auto now_us = static_cast<double>(t_us - reset_us_);
-  Run state = {noise, origin_us - reset_us_, &events};
+  Run state = {noise, origin_us - reset_us_, &events, shown_by(picture)};
   std::span<const NoiseEvent> unlisted = noise;
   for (int y = region.y0; y < region.y1;) {
     candidates_.clear();
@@ -152,12 +144,10 @@ void PixelArray::sample(TimeUs t_us, const Rect& region, const Picture& picture,
     }
     signal_->finish(candidates_);
     solve_crossings(now_us);
-    run_all(now_us, picture, state);
+    run_all(now_us, state);
   }
   show(region, picture, now_us);
-  const auto height = static_cast<int>(row_keeps_times_.size());
-  if (region.x0 == 0 && region.y0 == 0 && region.x1 == static_cast<int>(width_) &&
-      region.y1 == height) {
+  if (region == whole()) {
     std::fill(row_keeps_times_.begin(), row_keeps_times_.end(), 0);
     last_us_ = now_us;
   } else {
@@ -229,7 +219,7 @@ void PixelArray::solve_crossings(double t1_us) {
 
 // Most pixels make one event or two or none, at crossings that are known; the others are followed
 // piece by piece.
-void PixelArray::run_all(double t1_us, const Picture& picture, Run& run_state) {
+void PixelArray::run_all(double t1_us, Run& run_state) {
   std::size_t next_second = 0;
   bounds_.clear();
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -239,12 +229,12 @@ void PixelArray::run_all(double t1_us, const Picture& picture, Run& run_state) {
     const std::size_t second = answer == Crossings::kAgain ? next_second++ : 0;
     if (!noisy && answer == Crossings::kNothing) continue;
     run_state.first_us = static_cast<TimeUs>(candidate.t0_us) + 1;
-    bool known = !noisy && take_crossing(candidate, crossings_, i, t1_us, picture, run_state);
+    bool known = !noisy && take_crossing(candidate, crossings_, i, t1_us, run_state);
     if (known && answer == Crossings::kAgain) {
       known = second_.answer(second) != Crossings::kAgain &&
-              take_crossing(candidate, second_, second, t1_us, picture, run_state);
+              take_crossing(candidate, second_, second, t1_us, run_state);
     }
-    if (!known) run(candidate, t1_us, cause_at(candidate.index, picture), run_state);
+    if (!known) run(candidate, t1_us, run_state);
     bounds_.push_back(bounds_of(candidate.index));
   }
   signal_->set_bounds(bounds_);
@@ -253,7 +243,7 @@ void PixelArray::run_all(double t1_us, const Picture& picture, Run& run_state) {
 // The event of a pixel, if it has one, and what the pixel is after it or after the end of its
 // refractory period. False: that is unknown.
 bool PixelArray::take_crossing(const Candidate& candidate, const Crossings& crossings,
-                               std::size_t i, double t1_us, const Picture& picture, Run& run) {
+                               std::size_t i, double t1_us, Run& run) {
   const Crossings::Answer answer = crossings.answer(i);
   if (answer == Crossings::kUnknown) return false;
   if (answer == Crossings::kNothing) return true;
@@ -262,17 +252,16 @@ bool PixelArray::take_crossing(const Candidate& candidate, const Crossings& cros
   pixel.held_until_us = kArmed;
   if (answer == Crossings::kRearmed) return true;
   const double crossing_us = candidate.t0_us + crossings.crossing_us(i);
-  fire(candidate.index, crossing_us, t1_us, crossings.on(i), cause_at(candidate.index, picture),
-       run);
+  fire(candidate.index, crossing_us, t1_us, crossings.on(i), run);
   if (answer != Crossings::kArmed) pixel.held_until_us = crossing_us + refractory_us_;
   return true;
 }
 
-void PixelArray::run(const Candidate& candidate, double t1_us, Cause cause, Run& run) {
+void PixelArray::run(const Candidate& candidate, double t1_us, Run& run) {
   if (candidate.decay_per_us >= 0) {
     for (const SignalPiece& piece : pieces_of(candidate.t0_us, t1_us, candidate.s0, candidate.s1,
                                               candidate.rise_per_us, candidate.decay_per_us)) {
-      run_piece(candidate.index, piece, cause, run);
+      run_piece(candidate.index, piece, run);
     }
     return;
   }
@@ -282,30 +271,30 @@ void PixelArray::run(const Candidate& candidate, double t1_us, Cause cause, Run&
   for (const Knot& knot : knots_) {
     line.t1_us = knot.t_us;
     line.s1 = knot.s;
-    run_piece(candidate.index, line, cause, run);
+    run_piece(candidate.index, line, run);
     line.t0_us = knot.t_us;
     line.s0 = knot.s;
   }
 }
 
-void PixelArray::run_piece(std::size_t index, const SignalPiece& piece, Cause cause, Run& run) {
+void PixelArray::run_piece(std::size_t index, const SignalPiece& piece, Run& run) {
   Pixel& pixel = pixels_[index];
   for (; !run.noise.empty() && run.noise.front().pixel == index; run.noise = run.noise.subspan(1)) {
     const NoiseEvent& event = run.noise.front();
     const auto t_us = static_cast<double>(event.t_us - reset_us_);
     if (t_us > piece.t1_us) break;
-    fire_crossings(index, piece, t_us, cause, run);
+    fire_crossings(index, piece, t_us, run);
     if (pixel.held_until_us != kArmed || pixel.dead()) continue;
     emit(index, event.t_us - reset_us_, event.on, event.cause, run);
     pixel.reference = piece.at(t_us);
     if (refractory_us_ > 0) pixel.held_until_us = t_us + refractory_us_;
   }
-  fire_crossings(index, piece, piece.t1_us, cause, run);
+  fire_crossings(index, piece, piece.t1_us, run);
 }
 
 // Moves the pixel along the piece up to until_us, which must not go back from call to call.
 void PixelArray::fire_crossings(std::size_t index, const SignalPiece& piece, double until_us,
-                                Cause cause, Run& run) {
+                                Run& run) {
   Pixel& pixel = pixels_[index];
   const double s_until = piece.at(until_us);
   const bool on = piece.s1 > piece.s0;
@@ -322,18 +311,15 @@ void PixelArray::fire_crossings(std::size_t index, const SignalPiece& piece, dou
     if (sign * (s_until - level) < 0) return;
     pixel.reference = level;
     const double crossing_us = piece.time_of(level);
-    fire(index, crossing_us, until_us, on, cause, run);
+    fire(index, crossing_us, until_us, on, run);
     if (refractory_us_ > 0) pixel.held_until_us = crossing_us + refractory_us_;
   }
 }
 
-// The event of a crossing, of which the leak is the cause if it made most of the change.
-void PixelArray::fire(std::size_t index, double crossing_us, double until_us, bool on, Cause cause,
-                      Run& run) {
-  if (!leaking_us_.empty() && on &&
-      leak_per_us_ * (crossing_us - leaking_us_[index]) > 0.5 * pixels_[index].threshold_on()) {
-    cause = kCauseLeak;
-  }
+// The event of a crossing.
+void PixelArray::fire(std::size_t index, double crossing_us, double until_us, bool on, Run& run) {
+  Cause cause = kCauseScene;
+  if (causes_) cause = causes_->of_crossing(index, crossing_us, on, run.shown[index]);
   // Rounded to the clock, but no later than what comes next and after the last sample.
   const TimeUs rounded_us = std::min(rounded(crossing_us), static_cast<TimeUs>(until_us));
   emit(index, std::max(rounded_us, run.first_us), on, cause, run);
@@ -342,7 +328,7 @@ void PixelArray::fire(std::size_t index, double crossing_us, double until_us, bo
 void PixelArray::emit(std::size_t index, TimeUs t_us, bool on, Cause cause, Run& run) {
   run.events->push(t_us - run.origin_us, EventWords::address(index % width_, index / width_), on,
                    cause);
-  if (!leaking_us_.empty()) leaking_us_[index] = static_cast<double>(t_us) + refractory_us_;
+  if (causes_) causes_->leaks_from(index, static_cast<double>(t_us) + refractory_us_);
 }
 
 // Of a held pixel none holds.
@@ -366,45 +352,22 @@ void PixelArray::rebase(const Picture& picture) {
     pixels_[i].reference += signal_->rebase(i, checked(picture.luminance[i]));
   }
   set_all_bounds();
-  show({0, 0, static_cast<int>(width_), static_cast<int>(row_keeps_times_.size())}, picture,
-       last_us_);
+  show(whole(), picture, last_us_);
+}
+
+Rect PixelArray::whole() const {
+  return {0, 0, static_cast<int>(width_), static_cast<int>(row_keeps_times_.size())};
+}
+
+const Cause* PixelArray::shown_by(const Picture& picture) const {
+  if (causes_ && picture.cause == nullptr) {
+    throw std::invalid_argument("A picture must say what its pixels show.");
+  }
+  return picture.cause;
 }
 
 void PixelArray::show(const Rect& region, const Picture& picture, double t_us) {
-  if (shown_.empty()) return;
-  if (picture.cause == nullptr) {
-    throw std::invalid_argument("A picture must say what its pixels show.");
-  }
-  for (int y = region.y0; y < region.y1; ++y) {
-    const std::size_t first = static_cast<std::size_t>(y) * width_;
-    const std::size_t end = first + static_cast<std::size_t>(region.x1);
-    for (std::size_t i = first + static_cast<std::size_t>(region.x0); i < end; ++i) {
-      show(i, picture.cause[i], t_us);
-    }
-  }
-}
-
-void PixelArray::show(std::size_t index, Cause now, double t_us) {
-  Cause& shown = shown_[index];
-  double& settled_us = settled_us_[index];
-  if (now != kCauseScene) {
-    shown = now;
-    settled_us = kNever;
-  } else if (shown != kCauseScene) {
-    const auto& [off, on] = pixels_[index].change;
-    const double rest = kSettledShare * std::min(-off, on);
-    if (settled_us == kNever) settled_us = t_us + signal_->settles_in_us(index, rest);
-    if (settled_us <= t_us) shown = kCauseScene;
-  }
-}
-
-// A pixel that an object enters or leaves between two samples fires because of the object, and does
-// so until its bandwidth lets go of the object's light; of two objects, because of the one that
-// enters.
-Cause PixelArray::cause_at(std::size_t index, const Picture& picture) const {
-  if (shown_.empty()) return kCauseScene;
-  const Cause now = picture.cause[index];
-  return now != kCauseScene ? now : shown_[index];
+  if (causes_) causes_->show(region, width_, shown_by(picture), t_us, *signal_);
 }
 
 PixelState PixelArray::state(std::size_t index) const {

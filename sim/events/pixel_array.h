@@ -26,6 +26,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,7 @@
 #include "sim/events/crossings.h"
 #include "sim/events/event_words.h"
 #include "sim/events/noise.h"
+#include "sim/events/pixel_causes.h"
 #include "sim/events/pixel_signal.h"
 #include "sim/events/signal_piece.h"
 #include "sim/events/spec.h"
@@ -97,6 +99,7 @@ class PixelArray {
     std::span<const NoiseEvent> noise;  // not yet used
     TimeUs origin_us;                   // since the reset
     EventWords* events;
+    const Cause* shown;   // by the picture of the new sample; only with causes
     TimeUs first_us = 0;  // earliest stamp of the pixel
   };
 
@@ -104,20 +107,19 @@ class PixelArray {
                   std::span<const NoiseEvent>& noise);
   void keep_times(std::size_t y, const Rect& region, double t_us);
   void solve_crossings(double t1_us);
-  void run_all(double t1_us, const Picture& picture, Run& run);
+  void run_all(double t1_us, Run& run);
   bool take_crossing(const Candidate& candidate, const Crossings& crossings, std::size_t i,
-                     double t1_us, const Picture& picture, Run& run);
-  void run(const Candidate& candidate, double t1_us, Cause cause, Run& run);
-  void run_piece(std::size_t index, const SignalPiece& piece, Cause cause, Run& run);
-  void fire_crossings(std::size_t index, const SignalPiece& piece, double until_us, Cause cause,
-                      Run& run);
-  void fire(std::size_t index, double crossing_us, double until_us, bool on, Cause cause, Run& run);
+                     double t1_us, Run& run);
+  void run(const Candidate& candidate, double t1_us, Run& run);
+  void run_piece(std::size_t index, const SignalPiece& piece, Run& run);
+  void fire_crossings(std::size_t index, const SignalPiece& piece, double until_us, Run& run);
+  void fire(std::size_t index, double crossing_us, double until_us, bool on, Run& run);
   void emit(std::size_t index, TimeUs t_us, bool on, Cause cause, Run& run);
   SignalBounds bounds_of(std::size_t index) const;
   void set_all_bounds();
+  Rect whole() const;
+  const Cause* shown_by(const Picture& picture) const;
   void show(const Rect& region, const Picture& picture, double t_us);
-  void show(std::size_t index, Cause now, double t_us);
-  Cause cause_at(std::size_t index, const Picture& picture) const;
 
   std::size_t width_;
   double refractory_us_;
@@ -132,10 +134,7 @@ class PixelArray {
   std::vector<unsigned char> row_keeps_times_;
   std::vector<double> sampled_us_;
 
-  // Only with causes.
-  std::vector<Cause> shown_;        // by each pixel's last sample, or an object shortly before it
-  std::vector<double> settled_us_;  // until when, if the object has left; kNever: it is there
-  std::vector<double> leaking_us_;  // since when: the pixel's last event
+  std::optional<PixelCauses> causes_;
 
   // Scratch of one call.
   std::vector<unsigned char> may_fire_;  // of a row
