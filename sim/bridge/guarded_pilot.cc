@@ -38,7 +38,7 @@ auto guarded(Call call) -> decltype(call()) {
 
 // What is written of it to detections.csv.
 void check_detection(const dodge::Detection& detection, dodge::TimeUs now_us) {
-  if (detection.t_us > now_us) refuse("gave a detection an instant of the future", now_us);
+  if (detection.t_us > now_us) refuse("gave a detection a time stamp in the future", now_us);
   if (detection.t_us < 0) refuse("gave a detection an instant before the flight", now_us);
   if (!(detection.centre_W.array().abs() <= kFarthestM).all()) {  // false for NaN
     refuse("detected something that is nowhere, or more than a million m away", now_us);
@@ -97,7 +97,7 @@ dodge::VelocityCommand GuardedPilot::update(dodge::TimeUs now_us) {
   if (command.v_W.cwiseAbs().maxCoeff() > kFastestMps) {
     refuse("commanded a velocity beyond a million m/s", now_us);
   }
-  if (command.t_us > now_us) refuse("gave a command an instant of the future", now_us);
+  if (command.t_us > now_us) refuse("gave a command a time stamp in the future", now_us);
   for (const dodge::Detection& detection : detections()) check_detection(detection, now_us);
   return command;
 }

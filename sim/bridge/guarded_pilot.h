@@ -18,7 +18,7 @@ std::string threw_bad_alloc();
 // Passes everything on. What the pilot throws becomes a SimulationError, which costs the flight;
 // std::bad_alloc becomes a MemoryError. A SimulationError, too: a velocity, or a number that is
 // logged of a detection (all but p_W and distance_per_depth), that is no number or out of all
-// proportion; an instant of the future; a detection before the flight began.
+// proportion; a time stamp in the future; a detection before the flight began.
 class GuardedPilot : public dodge::Pilot {
  public:
   explicit GuardedPilot(std::unique_ptr<dodge::Pilot> pilot) : pilot_(std::move(pilot)) {}

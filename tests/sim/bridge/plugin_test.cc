@@ -158,14 +158,14 @@ TEST(GuardedPilot, CommandsOnlyWhatCanBe) {
   EXPECT_THAT([&] { told_to("race")->update(0); },
               ThrowsMessage<SimulationError>(HasSubstr("beyond a million m/s")));
   EXPECT_THAT([&] { told_to("foresee")->update(0); },
-              ThrowsMessage<SimulationError>(HasSubstr("an instant of the future")));
+              ThrowsMessage<SimulationError>(HasSubstr("a time stamp in the future")));
 }
 
 TEST(GuardedPilot, DetectsOnlyWhatCanBe) {
   EXPECT_EQ(told_to("detect all right")->update(310000).t_us, 310000);
   const std::pair<const char*, const char*> faults[] = {
       {"nowhere", "detected something that is nowhere"},
-      {"tomorrow", "gave a detection an instant of the future"},
+      {"tomorrow", "gave a detection a time stamp in the future"},
       {"long ago", "gave a detection an instant before the flight"},
       {"less than nothing", "gave a detection a size_m that is not between 0 and a million m"},
       {"at no depth", "gave a detection a depth_m that is no number"},
