@@ -113,8 +113,7 @@ void blame_vehicle(const Trial& trial, const Check& check) {
   try {
     check();
   } catch (const std::invalid_argument& error) {
-    throw ScenarioError(trial.world.models_dir + "/vehicles/" + trial.world.vehicle +
-                        ".xml: " + error.what());
+    throw ScenarioError(trial.world.path(trial.world.vehicle_file()) + ": " + error.what());
   }
 }
 
@@ -134,18 +133,26 @@ void check_rotors(const World& world, const Trial& trial) {
       trial, [&] { Mixer(world.vehicle(), trial.min_thrust_n, world.vehicle().max_thrust_n, 0); });
 }
 
+// Of all models only rooms can have geoms that are refused: height fields never move.
+SceneGeometry scene_of(const World& world, const Trial& trial) {
+  try {
+    return collect_scene(world.model(), world.object_bodies(), false);
+  } catch (const ScenarioError& error) {
+    throw ScenarioError(trial.world.path(trial.world.room_file()) + ": " + error.what());
+  }
+}
+
 // Whether the event cameras see the objects.
 void check_visible(const World& world, const Trial& trial) {
-  const SceneGeometry scene = collect_scene(world.model(), world.object_bodies(), false);
+  const SceneGeometry scene = scene_of(world, trial);
   std::set<int> visible;
   for (const Primitive& primitive : scene.primitives) visible.insert(primitive.object);
   for (const auto& [object, batch] : scene.moving_triangles) visible.insert(object);
   for (int i = 0; i < world.object_count(); ++i) {
     if (visible.contains(i)) continue;
-    throw ScenarioError(trial.world.models_dir + "/objects/" +
-                        trial.world.objects[static_cast<std::size_t>(i)].kind +
-                        ".xml: No geom of the object can be seen: groups 3 and above and an alpha "
-                        "of 0 are hidden.");
+    throw ScenarioError(trial.world.path(trial.world.objects[static_cast<std::size_t>(i)].file()) +
+                        ": No geom of the object can be seen: groups 3 and above and an alpha of 0 "
+                        "are hidden.");
   }
 }
 
@@ -153,8 +160,8 @@ void check_world(const World& world, const Trial& trial) {
   const double most_n = world.vehicle().max_thrust_n;
   if (trial.min_thrust_n >= most_n) {
     throw ScenarioError("motors.min_thrust_n is " + to_text(trial.min_thrust_n) +
-                        ", but must be less than what a rotor of vehicles/" + trial.world.vehicle +
-                        ".xml gives at most, which is " + to_text(most_n) + " N.");
+                        ", but must be less than what a rotor of " + trial.world.vehicle_file() +
+                        " gives at most, which is " + to_text(most_n) + " N.");
   }
   const double weight_n = world.vehicle().mass_kg * kGravityMps2;
   if (4 * trial.min_thrust_n >= weight_n) {

@@ -46,6 +46,9 @@ void for_each_element(const std::vector<MjcfTag>& tags, Visit visit) {
   }
 }
 
+// Makes bodies and skins of its own, which the event cameras would not see.
+constexpr std::initializer_list<const char*> kUnseen = {"composite", "skin"};
+
 // What stands beside an object's body would stand in the room.
 void expect_one_body(const std::vector<MjcfTag>& tags, const std::string& label) {
   bool has_body = false;
@@ -85,17 +88,18 @@ void expect_one_joint(const std::vector<MjcfTag>& tags, const std::string& label
                       ": The model of a vehicle must have one joint, the free one of its body.");
 }
 
-std::vector<MjcfTag> scaled_object(const std::string& models_dir, const ObjectSpec& spec, int i) {
+std::vector<MjcfTag> scaled_object(const WorldSpec& world, std::size_t i) {
+  const ObjectSpec& spec = world.objects[i];
   check_model_name(spec.kind, "models/objects");
-  const std::string file = "objects/" + spec.kind + ".xml";
-  const std::string label = models_dir + "/" + file;
+  const std::string label = world.path(spec.file());
   if (!(spec.size_m >= 0.01 && spec.size_m <= 1.0)) {
     throw ScenarioError(label + ": the size_m of an object must be between 0.01 and 1 m, not " +
                         std::to_string(spec.size_m) + ".");
   }
-  std::vector<MjcfTag> tags = read_model_file(models_dir, file);
+  std::vector<MjcfTag> tags = read_model_file(world.models_dir, spec.file());
   // Files that bring global settings would change the other models in the world.
   refuse(tags, {"option", "size", "default", "contact"}, "an object", label);
+  refuse(tags, kUnseen, "an object", label);
   expect_one_body(tags, label);
   if (!contains(tags, "inertial", &MjcfTag::name)) {
     throw ScenarioError(label + ": The body of an object must have an <inertial>, which is what " +
@@ -107,7 +111,7 @@ std::vector<MjcfTag> scaled_object(const std::string& models_dir, const ObjectSp
   }
   const double scale = spec.size_m / reference_size_m;
   scale_body(tags, scale, find_numeric(tags, "mass_exponent", label), label);
-  prefix_names(tags, object_prefix(i));
+  prefix_names(tags, object_prefix(static_cast<int>(i)));
   return tags;
 }
 
@@ -176,14 +180,14 @@ MjModelPtr compose_model(const WorldSpec& spec) {
   check_model_name(spec.room, "models/rooms");
   check_model_name(spec.vehicle, "models/vehicles");
   std::vector<Part> parts;
-  const std::pair<std::string, std::string> files[] = {
-      {"rooms/" + spec.room + ".xml", "a room"},
-      {"vehicles/" + spec.vehicle + ".xml", "a vehicle"}};
+  const std::pair<std::string, std::string> files[] = {{spec.room_file(), "a room"},
+                                                       {spec.vehicle_file(), "a vehicle"}};
   for (const auto& [file, what] : files) {
-    const std::string label = spec.models_dir + "/" + file;
+    const std::string label = spec.path(file);
     const std::vector<MjcfTag> tags = read_model_file(spec.models_dir, file);
     // Gravity, air and the time step are known to the throws, the controller and the IMU, too.
     refuse(tags, {"option"}, what, label);
+    refuse(tags, kUnseen, what, label);
     // The pictures of a room are drawn once and shown from many places.
     if (what == "a room") refuse(tags, {"joint", "freejoint"}, what, label);
     if (what == "a vehicle") expect_one_joint(tags, label);
@@ -192,16 +196,14 @@ MjModelPtr compose_model(const WorldSpec& spec) {
   }
   std::size_t contacts = 0;
   for (std::size_t i = 0; i < spec.objects.size(); ++i) {
-    const std::vector<MjcfTag> tags =
-        scaled_object(spec.models_dir, spec.objects[i], static_cast<int>(i));
+    const std::vector<MjcfTag> tags = scaled_object(spec, i);
     contacts += most_contacts(tags);
-    parts.push_back(
-        {spec.models_dir + "/objects/" + spec.objects[i].kind + ".xml", print_mjcf(tags)});
+    parts.push_back({spec.path(spec.objects[i].file()), print_mjcf(tags)});
   }
   std::string xml;
   for (const Part& part : parts) xml += part.xml;
   try {
-    return compile(xml, spec.models_dir, "The models in " + spec.models_dir, contacts);
+    return compile(xml, spec.models_dir, parts[0].label + " with " + parts[1].label, contacts);
   } catch (const ScenarioError&) {
     // Which file is it? Each compiles on its own unless it is the culprit.
     for (const Part& part : parts) compile(part.xml, spec.models_dir, part.label, contacts);

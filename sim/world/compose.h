@@ -9,18 +9,24 @@
 
 namespace dodgesim {
 
-// A kind of object is a file models/objects/<kind>.xml: one body at a reference size.
+// A kind of object is a file of one body at a reference size.
 struct ObjectSpec {
   std::string kind = "ball";
   double size_m = 0.2;  // longest edge or diameter, 0.01 to 1
+
+  std::string file() const { return "objects/" + kind + ".xml"; }  // in the folder of models
 };
 
 struct WorldSpec {
   std::string models_dir = "models";
-  std::string room = "room";        // models/rooms/<room>.xml
-  std::string vehicle = "qav_rxl";  // models/vehicles/<vehicle>.xml
+  std::string room = "room";
+  std::string vehicle = "qav_rxl";
   std::vector<ObjectSpec> objects;
   VehicleOverrides vehicle_overrides = {};
+
+  std::string room_file() const { return "rooms/" + room + ".xml"; }
+  std::string vehicle_file() const { return "vehicles/" + vehicle + ".xml"; }
+  std::string path(const std::string& file) const { return models_dir + "/" + file; }
 };
 
 // Conventions of the model files. Contact bits: room geoms have contype 1 and conaffinity 6, the

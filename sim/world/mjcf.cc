@@ -245,6 +245,10 @@ double find_numeric(const std::vector<MjcfTag>& tags, const std::string& name,
 void prefix_names(std::vector<MjcfTag>& tags, const std::string& prefix) {
   constexpr std::array<const char*, 4> kNames = {"name", "material", "texture", "mesh"};
   for (MjcfTag& tag : tags) {
+    const std::string* file = tag.find("file");
+    if ((tag.name == "mesh" || tag.name == "texture") && file && !tag.find("name")) {
+      tag.attributes.emplace_back("name", std::filesystem::path(*file).stem().string());
+    }
     for (auto& [name, value] : tag.attributes) {
       if (contains(kNames, name)) value = prefix + value;
     }

@@ -41,7 +41,8 @@ std::vector<MjcfTag> read_model_file(const std::string& directory, const std::st
 double find_numeric(const std::vector<MjcfTag>& tags, const std::string& name,
                     const std::string& label);
 
-// Puts `prefix` before every name and reference to a name.
+// Puts `prefix` before every name and reference to a name. A mesh or texture without a name has, as
+// for MuJoCo, that of its file.
 void prefix_names(std::vector<MjcfTag>& tags, const std::string& prefix);
 
 // Scales a body: lengths by `scale`, mass by scale^mass_exponent, inertia by

@@ -17,8 +17,8 @@ namespace {
 constexpr int kTicks = 40;
 
 std::string files_of(const WorldSpec& spec) {
-  std::string files = "rooms/" + spec.room + ".xml, vehicles/" + spec.vehicle + ".xml";
-  for (const ObjectSpec& object : spec.objects) files += ", objects/" + object.kind + ".xml";
+  std::string files = spec.room_file() + ", " + spec.vehicle_file();
+  for (const ObjectSpec& object : spec.objects) files += ", " + object.file();
   return spec.models_dir + " (" + files + ")";
 }
 

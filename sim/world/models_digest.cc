@@ -41,10 +41,10 @@ void add_model(const std::string& directory, const std::string& file, std::uint6
 
 std::uint64_t models_digest(const WorldSpec& spec) {
   std::uint64_t digest = 0;
-  add_model(spec.models_dir, "rooms/" + spec.room + ".xml", digest);
-  add_model(spec.models_dir, "vehicles/" + spec.vehicle + ".xml", digest);
+  add_model(spec.models_dir, spec.room_file(), digest);
+  add_model(spec.models_dir, spec.vehicle_file(), digest);
   for (const ObjectSpec& object : spec.objects) {
-    add_model(spec.models_dir, "objects/" + object.kind + ".xml", digest);
+    add_model(spec.models_dir, object.file(), digest);
   }
   return digest;
 }

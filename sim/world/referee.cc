@@ -38,26 +38,27 @@ Touch touch_of(const World& world) {
 
 }  // namespace
 
-Referee::Referee(const World& world) : hull_(read_body(world, world.vehicle_body())) {
+Referee::Referee(const World& world)
+    : hull_(read_body(world, world.vehicle_body(), world.spec().vehicle_file())) {
   for (int i = 0; i < world.object_count(); ++i) {
-    objects_.push_back(read_body(world, world.object_body(i)));
+    const ObjectSpec& object = world.spec().objects[static_cast<std::size_t>(i)];
+    objects_.push_back(read_body(world, world.object_body(i), object.file()));
   }
   reset();
 }
 
-Referee::Body Referee::read_body(const World& world, int body) {
+Referee::Body Referee::read_body(const World& world, int body, const std::string& file) {
   const mjModel& model = world.model();
-  const std::string label = mj_id2name(&model, mjOBJ_BODY, body);
+  const std::string label = world.spec().path(file) + ": The body";
   Body out;
   out.id = body;
   const int first = model.body_geomadr[body];
   for (int g = first; g < first + model.body_geomnum[body]; ++g) {
     if (!world.can_collide(g)) continue;
-    out.parts.push_back(Convex::from_geom(model, g, "The body " + label));
+    out.parts.push_back(Convex::from_geom(model, g, label));
   }
   out.radius_m = radius_m(out.parts);
-  if (out.parts.empty())
-    throw ScenarioError("The body " + label + " has no geom that can collide.");
+  if (out.parts.empty()) throw ScenarioError(label + " has no geom that can collide.");
   return out;
 }
 

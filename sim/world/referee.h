@@ -68,7 +68,7 @@ class Referee {
     int id = 0;           // in the model
   };
 
-  static Body read_body(const World& world, int body);
+  static Body read_body(const World& world, int body, const std::string& file);
   void observe_contacts(const World& world);
   void observe_object(std::size_t i, const Snapshot& now);
   void observe_room(const World& world, bool landing);

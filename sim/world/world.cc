@@ -17,7 +17,7 @@ constexpr double kParkingM = 1000.0;
 
 }  // namespace
 
-World::World(const WorldSpec& spec) : model_(compose_model(spec)) {
+World::World(const WorldSpec& spec) : spec_(spec), model_(compose_model(spec)) {
   data_.reset(mj_makeData(model_.get()));
   if (!data_) throw SimulationError("MuJoCo cannot allocate its data.");
   contype_.assign(model_->geom_contype, model_->geom_contype + model_->ngeom);
@@ -26,20 +26,20 @@ World::World(const WorldSpec& spec) : model_(compose_model(spec)) {
     const bool moves = model_->body_weldid[model_->geom_bodyid[geom]] != 0;
     if (moves && model_->geom_group[geom] == kRoomGroup) model_->geom_group[geom] = kObjectGroup;
   }
-  const ModelReader vehicle(*model_, spec.models_dir + "/vehicles/" + spec.vehicle + ".xml");
+  const ModelReader vehicle(*model_, spec.path(spec.vehicle_file()));
   vehicle_body_ = vehicle.find(mjOBJ_BODY, "vehicle");
   vehicle.override_vehicle(*model_, *data_, spec.vehicle_overrides);
   vehicle_free_ = vehicle.free_body(vehicle_body_);
   vehicle_ = vehicle.vehicle(spec.vehicle_overrides.mass_scale);
   for (int i = 0; i < static_cast<int>(spec.objects.size()); ++i) {
     const ObjectSpec& of = spec.objects[static_cast<std::size_t>(i)];
-    const ModelReader object(*model_, spec.models_dir + "/objects/" + of.kind + ".xml");
+    const ModelReader object(*model_, spec.path(of.file()));
     object_bodies_.push_back(object.find(mjOBJ_BODY, object_prefix(i) + "body"));
     objects_free_.push_back(object.free_body(object_bodies_.back()));
     objects_.push_back(object.object(object_prefix(i), of.size_m));
   }
   // At last, as the geoms of a body that is not free would seem the room's.
-  ModelReader(*model_, spec.models_dir + "/rooms/" + spec.room + ".xml").check_room();
+  ModelReader(*model_, spec.path(spec.room_file())).check_room();
   snapshot_.objects.resize(objects_.size());
   snapshot_.launched.resize(objects_.size());
   object_a_W_.resize(objects_.size());

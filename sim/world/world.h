@@ -37,6 +37,7 @@ class World {
   // Throws ScenarioError with one sentence that names the file.
   explicit World(const WorldSpec& spec);
 
+  const WorldSpec& spec() const { return spec_; }
   const VehicleParameters& vehicle() const { return vehicle_; }
   const ObjectPhysics& object(int i) const { return objects_.at(static_cast<std::size_t>(i)); }
   int object_count() const { return static_cast<int>(objects_.size()); }
@@ -80,6 +81,7 @@ class World {
   void check_accelerations() const;
   void fill_snapshot();
 
+  WorldSpec spec_;
   MjModelPtr model_;
   MjDataPtr data_;
   std::vector<int> contype_, conaffinity_;  // by geom, as the model files say

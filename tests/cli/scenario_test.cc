@@ -266,7 +266,9 @@ TEST_F(ScenarioCommandTest, RoomsThatNoCameraCanSeeAndRotorsThatAreTooWeakAreUsa
   EXPECT_EQ(validate(" --set room=hilly").exit_code, 0) << "nobody looks at it";
   const Outcome unseen = validate(" --set room=hilly --set pilot=dodgesim");
   EXPECT_EQ(unseen.exit_code, 2);
-  EXPECT_THAT(unseen.output, HasSubstr("a height field, cannot be seen by an event camera"));
+  EXPECT_THAT(unseen.output,
+              AllOf(HasSubstr("rooms/hilly.xml: The geom number 0, a height field, "),
+                    HasSubstr("cannot be seen by an event camera")));
 
   const std::string strong = contents("models/vehicles/qav_rxl.xml");
   write("models/vehicles/qav_rxl.xml",

@@ -117,6 +117,35 @@ TEST_F(OwnModels, RoomsMustStandStill) {
               AllOf(HasSubstr("rooms/own.xml:2: "), HasSubstr("must not use <freejoint>")));
 }
 
+TEST_F(OwnModels, WhatOnlyMujocoWouldDrawIsRefused) {
+  const std::string object_text = object("<geom size='0.05'/>");
+  write_object(object_text);
+  spec_.room = "own";
+  const std::string room =
+      "<mujoco><worldbody><body>\n<geom size='1'/></body></worldbody></mujoco>";
+  testing::put(directory_ / "rooms" / "own.xml", room);
+  EXPECT_EQ(message_of(spec_), "");
+  const std::string vehicle = testing::contents(directory_ / "vehicles" / "qav_rxl.xml");
+  for (const auto& [file, text] :
+       {std::pair("rooms/own.xml", room), std::pair("vehicles/qav_rxl.xml", vehicle),
+        std::pair("objects/own.xml", object_text)}) {
+    std::string grid = text;
+    grid.insert(grid.find("</body>"), "<composite type='grid' count='3 3 1' spacing='0.1'/>");
+    testing::put(directory_ / file, grid);
+    EXPECT_THAT(message_of(spec_), AllOf(HasSubstr(file), HasSubstr("must not use <composite>")));
+    testing::put(directory_ / file, text);
+  }
+}
+
+TEST_F(OwnModels, NamesThatRoomAndVehicleShareAreReportedWithBothFiles) {
+  write_object(object("<geom size='0.05'/>"));
+  spec_.room = "own";
+  testing::put(directory_ / "rooms" / "own.xml",
+               "<mujoco><worldbody><geom name='hull' size='1'/></worldbody></mujoco>");
+  EXPECT_THAT(message_of(spec_), AllOf(HasSubstr("rooms/own.xml with "),
+                                       HasSubstr("vehicles/qav_rxl.xml: "), HasSubstr("hull")));
+}
+
 // Throws, controller and IMU know of gravity, too.
 TEST_F(OwnModels, RoomsAndVehiclesMustNotChangeGravityAndAir) {
   write_object(object("<geom size='0.05'/>"));
@@ -241,6 +270,21 @@ TEST_F(OwnModels, AMeshWithoutAScaleIsScaledToo) {
     }
     EXPECT_NEAR(longest_m, 0.2, 1e-6) << scale;  // 0.1 at the reference size of 0.1
   }
+}
+
+TEST_F(OwnModels, AMeshAndATextureMayHaveTheNamesOfTheirFiles) {
+  std::filesystem::create_directories(directory_ / "meshes");
+  testing::put(directory_ / "meshes" / "rock.obj",
+               "v 0.05 0 0\nv -0.05 0 0\nv 0 0.05 0\nv 0 0 0.05\n"
+               "f 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n");
+  write_object(object("<geom type='mesh' mesh='rock' material='grey'/>",
+                      "<asset><mesh file='meshes/rock.obj'/>"
+                      "<texture type='2d' file='textures/floor.png'/>"
+                      "<material name='grey' texture='floor'/></asset>"));
+  spec_.objects.push_back(spec_.objects[0]);  // the names of both are kept apart
+  const World world(spec_);
+  EXPECT_EQ(world.model().nmesh, 2);
+  EXPECT_GE(mj_name2id(&world.model(), mjOBJ_MESH, "object1/rock"), 0);
 }
 
 }  // namespace

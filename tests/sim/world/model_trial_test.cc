@@ -165,5 +165,10 @@ TEST_F(ModelTrial, TakesNoMoreMemoryThanAllowed) {
   EXPECT_THAT(complaint(limits), AllOf(HasSubstr("own"), ::testing::EndsWith(".")));
 }
 
+TEST_F(ModelTrial, ABodyThatNothingCanTouchIsReportedWithItsFile) {
+  write_object("<geom size='0.05' group='1' contype='0' conaffinity='0'/>");
+  EXPECT_THAT(complaint(), HasSubstr("objects/own.xml: The body has no geom that can collide"));
+}
+
 }  // namespace
 }  // namespace dodgesim
