@@ -1,7 +1,6 @@
 #include "sim/render/edge_smoother.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
+#include "sim/render/gl.h"
 
 #include <algorithm>
 
@@ -42,29 +41,29 @@ void EdgeSmoother::draw(const Eigen::Isometry3d& X_WC, const Rect& region, const
                      static_cast<float>(edge.bulge_m)});
   }
   if (seen_.empty()) return;
-  glBindBuffer(GL_ARRAY_BUFFER, buffer_.buffer.name());
-  glBufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(seen_.size() * sizeof(seen_[0])),
-                  seen_.data());
-  glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_2D, target.depth.name());
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, target.luminance_copy.name());
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, region.x0, region.y0, region.x0, region.y0,
-                      region.x1 - region.x0, region.y1 - region.y0);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.without_depth.name());
-  glDisable(GL_DEPTH_TEST);
-  glEnable(GL_BLEND);
-  glUseProgram(program_.name);
+  gl::BindBuffer(GL_ARRAY_BUFFER, buffer_.buffer.name());
+  gl::BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(seen_.size() * sizeof(seen_[0])),
+                    seen_.data());
+  gl::ActiveTexture(GL_TEXTURE1);
+  gl::BindTexture(GL_TEXTURE_2D, target.depth.name());
+  gl::ActiveTexture(GL_TEXTURE0);
+  gl::BindTexture(GL_TEXTURE_2D, target.luminance_copy.name());
+  gl::ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl::CopyTexSubImage2D(GL_TEXTURE_2D, 0, region.x0, region.y0, region.x0, region.y0,
+                        region.x1 - region.x0, region.y1 - region.y0);
+  gl::BindFramebuffer(GL_FRAMEBUFFER, target.without_depth.name());
+  gl::Disable(GL_DEPTH_TEST);
+  gl::Enable(GL_BLEND);
+  gl::UseProgram(program_.name);
   set_camera(program_, intrinsics_);
-  glUniform2f(program_.image, static_cast<float>(intrinsics_.width),
-              static_cast<float>(intrinsics_.height));
+  gl::Uniform2f(program_.image, static_cast<float>(intrinsics_.width),
+                static_cast<float>(intrinsics_.height));
   const Eigen::Matrix4f X_CW_float = X_CW.matrix().cast<float>();
-  glUniformMatrix4fv(program_.X_CW, 1, GL_FALSE, X_CW_float.data());
-  glBindVertexArray(buffer_.array.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(seen_.size()));
-  glDisable(GL_BLEND);
-  glEnable(GL_DEPTH_TEST);
+  gl::UniformMatrix4fv(program_.X_CW, 1, GL_FALSE, X_CW_float.data());
+  gl::BindVertexArray(buffer_.array.name());
+  gl::DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<int>(seen_.size()));
+  gl::Disable(GL_BLEND);
+  gl::Enable(GL_DEPTH_TEST);
 }
 
 }  // namespace dodgesim

@@ -1,7 +1,6 @@
 #include "sim/render/gl_objects.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
+#include "sim/render/gl.h"
 
 namespace dodgesim {
 
@@ -9,16 +8,16 @@ unsigned make_gl_object(GlKind kind) {
   GLuint name = 0;
   switch (kind) {
     case GlKind::kTexture:
-      glGenTextures(1, &name);
+      gl::GenTextures(1, &name);
       break;
     case GlKind::kBuffer:
-      glGenBuffers(1, &name);
+      gl::GenBuffers(1, &name);
       break;
     case GlKind::kVertexArray:
-      glGenVertexArrays(1, &name);
+      gl::GenVertexArrays(1, &name);
       break;
     case GlKind::kFramebuffer:
-      glGenFramebuffers(1, &name);
+      gl::GenFramebuffers(1, &name);
       break;
   }
   return name;
@@ -27,13 +26,13 @@ unsigned make_gl_object(GlKind kind) {
 void delete_gl_object(GlKind kind, unsigned name) {
   switch (kind) {
     case GlKind::kTexture:
-      return glDeleteTextures(1, &name);
+      return gl::DeleteTextures(1, &name);
     case GlKind::kBuffer:
-      return glDeleteBuffers(1, &name);
+      return gl::DeleteBuffers(1, &name);
     case GlKind::kVertexArray:
-      return glDeleteVertexArrays(1, &name);
+      return gl::DeleteVertexArrays(1, &name);
     case GlKind::kFramebuffer:
-      return glDeleteFramebuffers(1, &name);
+      return gl::DeleteFramebuffers(1, &name);
   }
 }
 

@@ -1,33 +1,31 @@
 #include "sim/render/gl_scene.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <string>
 
 #include "sim/base/error.h"
+#include "sim/render/gl.h"
 
 namespace dodgesim {
 
 namespace {
 
 void set_floats(GLuint program, const std::string& name, std::initializer_list<double> values) {
-  const GLint location = glGetUniformLocation(program, name.c_str());
+  const GLint location = gl::GetUniformLocation(program, name.c_str());
   if (location < 0) return;  // the compiler has removed what has no effect
   float v[4];
   std::size_t n = 0;
   for (const double value : values) v[n++] = static_cast<float>(value);
   switch (n) {
     case 1:
-      return glUniform1fv(location, 1, v);
+      return gl::Uniform1fv(location, 1, v);
     case 2:
-      return glUniform2fv(location, 1, v);
+      return gl::Uniform2fv(location, 1, v);
     case 3:
-      return glUniform3fv(location, 1, v);
+      return gl::Uniform3fv(location, 1, v);
     default:
-      return glUniform4fv(location, 1, v);
+      return gl::Uniform4fv(location, 1, v);
   }
 }
 
@@ -60,7 +58,7 @@ void set_lights(GLuint program, const SceneGeometry& scene) {
 }
 
 GlProgram locate(GLuint name) {
-  const auto at = [name](const char* uniform) { return glGetUniformLocation(name, uniform); };
+  const auto at = [name](const char* uniform) { return gl::GetUniformLocation(name, uniform); };
   GlProgram p;
   p.name = name;
   p.lod_bias = at("u_lod_bias");
@@ -77,28 +75,28 @@ GlProgram locate(GLuint name) {
 
 void allocate(const GlTexture& image, GLint format, GLenum layout, GLenum type, int width,
               int height) {
-  glBindTexture(GL_TEXTURE_2D, image.name());
-  glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, layout, type, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  gl::BindTexture(GL_TEXTURE_2D, image.name());
+  gl::TexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, layout, type, nullptr);
+  gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
 // Without depth or ids when null.
 void attach(const GlFramebuffer& framebuffer, const GlTexture& luminance, const GlTexture* depth,
             const GlTexture* ids) {
   const auto attach_one = [](GLenum where, const GlTexture& image) {
-    glFramebufferTexture2D(GL_FRAMEBUFFER, where, GL_TEXTURE_2D, image.name(), 0);
+    gl::FramebufferTexture2D(GL_FRAMEBUFFER, where, GL_TEXTURE_2D, image.name(), 0);
   };
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   attach_one(GL_COLOR_ATTACHMENT0, luminance);
   if (depth) attach_one(GL_DEPTH_ATTACHMENT, *depth);
   if (ids) attach_one(GL_COLOR_ATTACHMENT1, *ids);
   const GLenum buffers[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-  glDrawBuffers(ids ? 2 : 1, buffers);
+  gl::DrawBuffers(ids ? 2 : 1, buffers);
 }
 
 void expect_drawable(int width, int height) {
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+  if (gl::CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
   throw SimulationError("OpenGL cannot draw into a floating-point image of " +
                         std::to_string(width) + " x " + std::to_string(height) +
                         " px; sensors.camera and sensors.keys (supersampling, margin_px) say how "
@@ -113,14 +111,14 @@ const void* buffer_offset(std::size_t bytes) {
 GlTexture upload_texture(const LuminanceTexture& texture) {
   GlTexture uploaded;
   const GLenum target = texture.cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D;
-  glBindTexture(target, uploaded.name());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);  // the texture's own width
+  gl::BindTexture(target, uploaded.name());
+  gl::PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  gl::PixelStorei(GL_UNPACK_ROW_LENGTH, 0);  // the texture's own width
   const GLint wrap = texture.cube ? GL_CLAMP_TO_EDGE : GL_REPEAT;
-  glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
-  glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
-  glTexParameteri(target, GL_TEXTURE_WRAP_R, wrap);
-  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl::TexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
+  gl::TexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
+  gl::TexParameteri(target, GL_TEXTURE_WRAP_R, wrap);
+  gl::TexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   // 16 bits hold grey texels of 8 bits exactly (photographs to 1/65535), and llvmpipe filters them
   // in float, unlike 8 bits. A bright tint may take texels beyond 1.
   const float brightest = *std::max_element(texture.texels.begin(), texture.texels.end());
@@ -131,10 +129,10 @@ GlTexture upload_texture(const LuminanceTexture& texture) {
   for (int face = 0; face < faces; ++face) {
     const GLenum image =
         texture.cube ? GL_TEXTURE_CUBE_MAP_POSITIVE_X + static_cast<GLenum>(face) : GL_TEXTURE_2D;
-    glTexImage2D(image, 0, format, texture.width, texture.height, 0, GL_RED, GL_FLOAT,
-                 texture.texels.data() + static_cast<std::size_t>(face) * face_texels);
+    gl::TexImage2D(image, 0, format, texture.width, texture.height, 0, GL_RED, GL_FLOAT,
+                   texture.texels.data() + static_cast<std::size_t>(face) * face_texels);
   }
-  glGenerateMipmap(target);
+  gl::GenerateMipmap(target);
   return uploaded;
 }
 
@@ -163,23 +161,23 @@ void SceneTextures::bind(int texture, bool finest_only) const {
   if (texture < 0) return;
   const Texture& bound = textures_[static_cast<std::size_t>(texture)];
   const GLenum target = bound.kind == TextureKind::kCube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D;
-  glBindTexture(target, bound.texture.name());
+  gl::BindTexture(target, bound.texture.name());
   const GLint mipmapped = trilinear_ ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST;
-  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, finest_only ? GL_LINEAR : mipmapped);
+  gl::TexParameteri(target, GL_TEXTURE_MIN_FILTER, finest_only ? GL_LINEAR : mipmapped);
 }
 
 void set_camera(const GlProgram& program, const Intrinsics& intrinsics) {
-  glUniform3f(program.camera, static_cast<float>(intrinsics.f), static_cast<float>(intrinsics.cx()),
-              static_cast<float>(intrinsics.cy()));
+  gl::Uniform3f(program.camera, static_cast<float>(intrinsics.f),
+                static_cast<float>(intrinsics.cx()), static_cast<float>(intrinsics.cy()));
 }
 
 VertexBuffer upload_vertices(const std::vector<Vertex>& vertices) {
   VertexBuffer vertex_buffer;
   vertex_buffer.count = static_cast<int>(vertices.size());
-  glBindVertexArray(vertex_buffer.array.name());
-  glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer.buffer.name());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
-               vertices.data(), GL_STATIC_DRAW);
+  gl::BindVertexArray(vertex_buffer.array.name());
+  gl::BindBuffer(GL_ARRAY_BUFFER, vertex_buffer.buffer.name());
+  gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
+                 vertices.data(), GL_STATIC_DRAW);
   const struct {
     GLint components;
     std::size_t offset;
@@ -188,9 +186,9 @@ VertexBuffer upload_vertices(const std::vector<Vertex>& vertices) {
                     {3, offsetof(Vertex, texture)},
                     {2, offsetof(Vertex, albedo)}};
   for (GLuint i = 0; i < 4; ++i) {
-    glEnableVertexAttribArray(i);
-    glVertexAttribPointer(i, attributes[i].components, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                          buffer_offset(attributes[i].offset));
+    gl::EnableVertexAttribArray(i);
+    gl::VertexAttribPointer(i, attributes[i].components, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                            buffer_offset(attributes[i].offset));
   }
   return vertex_buffer;
 }
@@ -199,24 +197,24 @@ GlProgram make_triangle_program(ProgramCache& programs, TextureKind texture,
                                 const SceneGeometry& scene) {
   const GLuint name = programs.program(triangle_vertex_shader(count_lights(scene)),
                                        triangle_fragment_shader(texture, count_lights(scene)));
-  glUseProgram(name);
+  gl::UseProgram(name);
   set_lights(name, scene);
   return locate(name);
 }
 
 GlProgram make_sky_program(ProgramCache& programs, TextureKind texture, double luminance) {
   const GLuint name = programs.program(sky_vertex_shader(), sky_fragment_shader(texture));
-  glUseProgram(name);
+  gl::UseProgram(name);
   set_floats(name, "u_sky_luminance", {luminance});
   return locate(name);
 }
 
 VertexBuffer make_edge_buffer(std::size_t capacity) {
   VertexBuffer buffer;
-  glBindVertexArray(buffer.array.name());
-  glBindBuffer(GL_ARRAY_BUFFER, buffer.buffer.name());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity * sizeof(EdgeInstance)), nullptr,
-               GL_STREAM_DRAW);
+  gl::BindVertexArray(buffer.array.name());
+  gl::BindBuffer(GL_ARRAY_BUFFER, buffer.buffer.name());
+  gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(capacity * sizeof(EdgeInstance)), nullptr,
+                 GL_STREAM_DRAW);
   const struct {
     GLint components;
     std::size_t offset;
@@ -224,21 +222,21 @@ VertexBuffer make_edge_buffer(std::size_t capacity) {
                     {3, offsetof(EdgeInstance, b)},
                     {2, offsetof(EdgeInstance, inside)}};
   for (GLuint i = 0; i < 3; ++i) {
-    glEnableVertexAttribArray(i);
-    glVertexAttribPointer(i, attributes[i].components, GL_FLOAT, GL_FALSE, sizeof(EdgeInstance),
-                          buffer_offset(attributes[i].offset));
-    glVertexAttribDivisor(i, 1);
+    gl::EnableVertexAttribArray(i);
+    gl::VertexAttribPointer(i, attributes[i].components, GL_FLOAT, GL_FALSE, sizeof(EdgeInstance),
+                            buffer_offset(attributes[i].offset));
+    gl::VertexAttribDivisor(i, 1);
   }
   return buffer;
 }
 
 GlProgram make_edge_program(ProgramCache& programs, const DepthRange& depth) {
   const GLuint name = programs.program(edge_vertex_shader(), edge_fragment_shader());
-  glUseProgram(name);
+  gl::UseProgram(name);
   set_floats(name, "u_near", {depth.near_m});
   set_floats(name, "u_depth", {depth.offset(), depth.slope()});
-  glUniform1i(glGetUniformLocation(name, "u_luminance"), 0);
-  glUniform1i(glGetUniformLocation(name, "u_depth_image"), 1);
+  gl::Uniform1i(gl::GetUniformLocation(name, "u_luminance"), 0);
+  gl::Uniform1i(gl::GetUniformLocation(name, "u_depth_image"), 1);
   return locate(name);
 }
 

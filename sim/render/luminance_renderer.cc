@@ -1,13 +1,11 @@
 #include "sim/render/luminance_renderer.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
-
 #include <algorithm>
 #include <optional>
 
 #include "sim/render/context_lease.h"
 #include "sim/render/edge_smoother.h"
+#include "sim/render/gl.h"
 #include "sim/render/gl_scene.h"
 #include "sim/render/mesh_painter.h"
 #include "sim/render/primitive_painter.h"
@@ -36,26 +34,26 @@ std::ptrdiff_t offset_of(const Rect& region, const Intrinsics& image) {
 
 // Of the framebuffer that is bound.
 void read_depth(const Rect& region, const Intrinsics& image, float* depth) {
-  glReadPixels(region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0,
-               GL_DEPTH_COMPONENT, GL_FLOAT, depth + offset_of(region, image));
+  gl::ReadPixels(region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0,
+                 GL_DEPTH_COMPONENT, GL_FLOAT, depth + offset_of(region, image));
 }
 
 void set_scissor(const Rect& region) {
-  glScissor(region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0);
+  gl::Scissor(region.x0, region.y0, region.x1 - region.x0, region.y1 - region.y0);
 }
 
 // All that is not set before each use, whatever another renderer has left.
 void set_state() {
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LEQUAL);
-  glDepthMask(GL_TRUE);
-  glEnable(GL_SCISSOR_TEST);
-  glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-  glDisable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  glActiveTexture(GL_TEXTURE0);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl::Enable(GL_DEPTH_TEST);
+  gl::DepthFunc(GL_LEQUAL);
+  gl::DepthMask(GL_TRUE);
+  gl::Enable(GL_SCISSOR_TEST);
+  gl::Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  gl::Disable(GL_BLEND);
+  gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl::ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl::ActiveTexture(GL_TEXTURE0);
+  gl::PixelStorei(GL_PACK_ALIGNMENT, 1);
 }
 
 template <class Part>
@@ -131,10 +129,10 @@ LuminanceRenderer::Impl::Canvas& LuminanceRenderer::Impl::canvas(const Intrinsic
 }
 
 void LuminanceRenderer::Impl::bind(const Canvas& canvas, bool with_ids) {
-  glBindFramebuffer(GL_FRAMEBUFFER,
-                    (with_ids ? canvas.target.with_ids : canvas.target.without_ids).name());
-  glViewport(0, 0, canvas.intrinsics.width, canvas.intrinsics.height);
-  glPixelStorei(GL_PACK_ROW_LENGTH, canvas.intrinsics.width);
+  gl::BindFramebuffer(GL_FRAMEBUFFER,
+                      (with_ids ? canvas.target.with_ids : canvas.target.without_ids).name());
+  gl::Viewport(0, 0, canvas.intrinsics.width, canvas.intrinsics.height);
+  gl::PixelStorei(GL_PACK_ROW_LENGTH, canvas.intrinsics.width);
 }
 
 // With smoothed edges.
@@ -147,7 +145,7 @@ void LuminanceRenderer::Impl::draw_static_triangles(Canvas& canvas, const Shot& 
   wide.region = widened(shot.region, kSmoothingPx, shot.intrinsics);
   bind(canvas, with_ids);
   set_scissor(wide.region);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  gl::Clear(GL_DEPTH_BUFFER_BIT);
   triangles_.draw_static(wide);
   canvas.edges->draw(wide.X_WC, wide.region, canvas.target);
   bind(canvas, with_ids);
@@ -231,7 +229,7 @@ void LuminanceRenderer::Impl::draw_static_depth(const Shot& shot, const PaintedP
   lease_.context().make_current();
   bind(canvas(intrinsics_), true);
   set_scissor(shot.region);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  gl::Clear(GL_DEPTH_BUFFER_BIT);
   triangles_.draw_static(shot);
   read_depth(shot.region, intrinsics_, picture.depth);
   primitives_.paint_static(shot, {nullptr, picture.depth, nullptr});
@@ -241,12 +239,12 @@ void LuminanceRenderer::Impl::read(const Canvas& canvas, const Rect& region,
                                    const PaintedPicture& picture) {
   const int width = region.x1 - region.x0, height = region.y1 - region.y0;
   const std::ptrdiff_t first = offset_of(region, canvas.intrinsics);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(region.x0, region.y0, width, height, GL_RED, GL_FLOAT, picture.luminance + first);
+  gl::ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl::ReadPixels(region.x0, region.y0, width, height, GL_RED, GL_FLOAT, picture.luminance + first);
   read_depth(region, canvas.intrinsics, picture.depth);
   if (!picture.id) return;
-  glReadBuffer(GL_COLOR_ATTACHMENT1);
-  glReadPixels(region.x0, region.y0, width, height, GL_RED_INTEGER, GL_INT, picture.id + first);
+  gl::ReadBuffer(GL_COLOR_ATTACHMENT1);
+  gl::ReadPixels(region.x0, region.y0, width, height, GL_RED_INTEGER, GL_INT, picture.id + first);
 }
 
 LuminanceRenderer::LuminanceRenderer(const mjModel& model, const std::vector<int>& object_bodies,

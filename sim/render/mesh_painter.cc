@@ -1,7 +1,6 @@
 #include "sim/render/mesh_painter.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
+#include "sim/render/gl.h"
 
 namespace dodgesim {
 namespace {
@@ -37,23 +36,23 @@ void MeshPainter::paint(const Shot& shot, const Snapshot& snapshot, const Painte
 void MeshPainter::draw(const Shot& shot, const Snapshot& snapshot, const Rect& tile,
                        const Rect& pixels) {
   // llvmpipe rounds otherwise where it writes depth and no ids; who asks for ids must not matter.
-  glBindFramebuffer(GL_FRAMEBUFFER, target_.with_ids.name());
-  glViewport(-tile.x0 * kSamples, -tile.y0 * kSamples, shot.intrinsics.width * kSamples,
-             shot.intrinsics.height * kSamples);
+  gl::BindFramebuffer(GL_FRAMEBUFFER, target_.with_ids.name());
+  gl::Viewport(-tile.x0 * kSamples, -tile.y0 * kSamples, shot.intrinsics.width * kSamples,
+               shot.intrinsics.height * kSamples);
   const int left = (pixels.x0 - tile.x0) * kSamples, top = (pixels.y0 - tile.y0) * kSamples;
   const int width = (pixels.x1 - pixels.x0) * kSamples;
   const int height = (pixels.y1 - pixels.y0) * kSamples;
-  glScissor(left, top, width, height);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  gl::Scissor(left, top, width, height);
+  gl::Clear(GL_DEPTH_BUFFER_BIT);
   constexpr GLint kNothing[4] = {0, 0, 0, 0};
-  glClearBufferiv(GL_COLOR, 1, kNothing);
+  gl::ClearBufferiv(GL_COLOR, 1, kNothing);
   triangles_.draw_objects(shot, snapshot);
-  glPixelStorei(GL_PACK_ROW_LENGTH, width);
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  glReadPixels(left, top, width, height, GL_RED, GL_FLOAT, luminance_.data());
-  glReadPixels(left, top, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depth_.data());
-  glReadBuffer(GL_COLOR_ATTACHMENT1);
-  glReadPixels(left, top, width, height, GL_RED_INTEGER, GL_INT, id_.data());
+  gl::PixelStorei(GL_PACK_ROW_LENGTH, width);
+  gl::ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl::ReadPixels(left, top, width, height, GL_RED, GL_FLOAT, luminance_.data());
+  gl::ReadPixels(left, top, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depth_.data());
+  gl::ReadBuffer(GL_COLOR_ATTACHMENT1);
+  gl::ReadPixels(left, top, width, height, GL_RED_INTEGER, GL_INT, id_.data());
 }
 
 void MeshPainter::blend(const Shot& shot, const Rect& pixels, const PaintedPicture& picture) const {

@@ -1,11 +1,10 @@
 #include "sim/render/osmesa_context.h"
 
-#include <GL/osmesa.h>
-
 #include <cstdlib>
 
 #include "sim/base/child_process.h"
 #include "sim/base/error.h"
+#include "sim/render/gl.h"
 
 namespace dodgesim {
 
@@ -14,7 +13,7 @@ namespace {
 OSMesaContext create(GlProfile profile) {
   constexpr int kDepthBits = 24, kStencilBits = 8;
   if (profile == GlProfile::kCompatibility) {
-    return OSMesaCreateContextExt(OSMESA_RGBA, kDepthBits, kStencilBits, 0, nullptr);
+    return osmesa::CreateContextExt(OSMESA_RGBA, kDepthBits, kStencilBits, 0, nullptr);
   }
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
@@ -26,11 +25,11 @@ OSMesaContext create(GlProfile profile) {
                             3,
                             0,
                             0};
-  return OSMesaCreateContextAttribs(attributes, nullptr);
+  return osmesa::CreateContextAttribs(attributes, nullptr);
 }
 
 std::string gl_string(GLenum name) {
-  const GLubyte* text = glGetString(name);
+  const GLubyte* text = gl::GetString(name);
   return text ? reinterpret_cast<const char*>(text) : "unknown";
 }
 
@@ -48,18 +47,18 @@ OsmesaContext::OsmesaContext(GlProfile profile, int width, int height)
   try {
     make_current();
   } catch (...) {
-    OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
+    osmesa::DestroyContext(static_cast<OSMesaContext>(context_));
     throw;
   }
   renderer_ = gl_string(GL_RENDERER);
 }
 
-OsmesaContext::~OsmesaContext() { OSMesaDestroyContext(static_cast<OSMesaContext>(context_)); }
+OsmesaContext::~OsmesaContext() { osmesa::DestroyContext(static_cast<OSMesaContext>(context_)); }
 
 void OsmesaContext::make_current() {
   auto* context = static_cast<OSMesaContext>(context_);
-  if (OSMesaGetCurrentContext() == context) return;
-  if (!OSMesaMakeCurrent(context, framebuffer_.data(), GL_UNSIGNED_BYTE, width_, height_)) {
+  if (osmesa::GetCurrentContext() == context) return;
+  if (!osmesa::MakeCurrent(context, framebuffer_.data(), GL_UNSIGNED_BYTE, width_, height_)) {
     throw SimulationError("OSMesa cannot make its OpenGL context current for an image of " +
                           std::to_string(width_) + " x " + std::to_string(height_) + " px.");
   }

@@ -1,15 +1,13 @@
 #include "sim/render/program_cache.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
-
 #include "sim/base/error.h"
+#include "sim/render/gl.h"
 
 namespace dodgesim {
 
 namespace {
 
-// `good`: what OpenGL says of it; `log`: glGetShaderInfoLog or glGetProgramInfoLog.
+// `good`: what OpenGL says of it; `log`: gl::GetShaderInfoLog or gl::GetProgramInfoLog.
 template <class Log>
 void check(GLint good, GLuint object, const Log& log, const std::string& step) {
   if (good) return;
@@ -19,28 +17,28 @@ void check(GLint good, GLuint object, const Log& log, const std::string& step) {
 }
 
 GLuint compile(GLenum stage, const std::string& source) {
-  const GLuint shader = glCreateShader(stage);
+  const GLuint shader = gl::CreateShader(stage);
   const char* text = source.c_str();
-  glShaderSource(shader, 1, &text, nullptr);
-  glCompileShader(shader);
+  gl::ShaderSource(shader, 1, &text, nullptr);
+  gl::CompileShader(shader);
   GLint good = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-  check(good, shader, glGetShaderInfoLog, "compile");
+  gl::GetShaderiv(shader, GL_COMPILE_STATUS, &good);
+  check(good, shader, gl::GetShaderInfoLog, "compile");
   return shader;
 }
 
 GLuint link_program(const std::string& vertex, const std::string& fragment) {
-  const GLuint program = glCreateProgram();
+  const GLuint program = gl::CreateProgram();
   const GLuint shaders[] = {compile(GL_VERTEX_SHADER, vertex),
                             compile(GL_FRAGMENT_SHADER, fragment)};
   for (const GLuint shader : shaders) {
-    glAttachShader(program, shader);
-    glDeleteShader(shader);  // lives on with the program
+    gl::AttachShader(program, shader);
+    gl::DeleteShader(shader);  // lives on with the program
   }
-  glLinkProgram(program);
+  gl::LinkProgram(program);
   GLint good = 0;
-  glGetProgramiv(program, GL_LINK_STATUS, &good);
-  check(good, program, glGetProgramInfoLog, "link");
+  gl::GetProgramiv(program, GL_LINK_STATUS, &good);
+  check(good, program, gl::GetProgramInfoLog, "link");
   return program;
 }
 

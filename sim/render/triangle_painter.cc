@@ -1,7 +1,6 @@
 #include "sim/render/triangle_painter.h"
 
-#include <GL/gl.h>
-#include <GL/glext.h>
+#include "sim/render/gl.h"
 
 #include <algorithm>
 
@@ -15,15 +14,15 @@ void set_matrix(int location, const Matrix& matrix) {
   const Eigen::Matrix<float, Matrix::RowsAtCompileTime, Matrix::ColsAtCompileTime> m =
       matrix.template cast<float>();
   if constexpr (Matrix::RowsAtCompileTime == 4) {
-    glUniformMatrix4fv(location, 1, GL_FALSE, m.data());
+    gl::UniformMatrix4fv(location, 1, GL_FALSE, m.data());
   } else {
-    glUniformMatrix3fv(location, 1, GL_FALSE, m.data());
+    gl::UniformMatrix3fv(location, 1, GL_FALSE, m.data());
   }
 }
 
 void set_vector(int location, const Eigen::Vector3d& v) {
-  glUniform3f(location, static_cast<float>(v.x()), static_cast<float>(v.y()),
-              static_cast<float>(v.z()));
+  gl::Uniform3f(location, static_cast<float>(v.x()), static_cast<float>(v.y()),
+                static_cast<float>(v.z()));
 }
 
 // Quads that stand for an unbounded plane around the camera's foot: small ones nearby, where float
@@ -105,32 +104,32 @@ void TrianglePainter::make_program_for(ProgramCache& programs, int texture) {
 void TrianglePainter::use(const Shot& shot, int texture, const Eigen::Isometry3d& X_WG,
                           const Eigen::Vector3d& texture_shift, int id) const {
   const GlProgram& program = program_for(texture);
-  glUseProgram(program.name);
+  gl::UseProgram(program.name);
   const Eigen::Matrix4d clip_from_G =
       clip_from_camera(shot.intrinsics, depth_) * (shot.X_WC.inverse() * X_WG).matrix();
   set_matrix(program.clip_from_G, clip_from_G);
   set_matrix(program.X_WG, X_WG.matrix());
   set_vector(program.texture_shift, texture_shift);
-  glUniform1i(program.id, id);
-  glUniform1f(program.lod_bias, static_cast<float>(shot.lod_bias));
+  gl::Uniform1i(program.id, id);
+  gl::Uniform1f(program.lod_bias, static_cast<float>(shot.lod_bias));
 }
 
 void TrianglePainter::draw(const VertexBuffer& buffer, int texture) const {
   textures_.bind(texture);
-  glBindVertexArray(buffer.array.name());
-  glDrawArrays(GL_TRIANGLES, 0, buffer.count);
+  gl::BindVertexArray(buffer.array.name());
+  gl::DrawArrays(GL_TRIANGLES, 0, buffer.count);
 }
 
 void TrianglePainter::draw(const VertexBuffer& buffer, const std::vector<std::uint32_t>& vertices,
                            int texture, bool finest_only) const {
   if (vertices.empty()) return;
   textures_.bind(texture, finest_only);
-  glBindVertexArray(buffer.array.name());
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, chosen_.name());
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-               static_cast<GLsizeiptr>(vertices.size() * sizeof(vertices[0])), vertices.data(),
-               GL_STREAM_DRAW);
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(vertices.size()), GL_UNSIGNED_INT, nullptr);
+  gl::BindVertexArray(buffer.array.name());
+  gl::BindBuffer(GL_ELEMENT_ARRAY_BUFFER, chosen_.name());
+  gl::BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(vertices.size() * sizeof(vertices[0])), vertices.data(),
+                 GL_STREAM_DRAW);
+  gl::DrawElements(GL_TRIANGLES, static_cast<GLsizei>(vertices.size()), GL_UNSIGNED_INT, nullptr);
 }
 
 void TrianglePainter::draw_static(const Shot& shot) {
@@ -172,13 +171,13 @@ void TrianglePainter::draw_unbounded(const Shot& shot) {
 }
 
 void TrianglePainter::draw_sky(const Shot& shot) {
-  glUseProgram(sky_program_.name);
+  gl::UseProgram(sky_program_.name);
   set_camera(sky_program_, shot.intrinsics);
   set_matrix(sky_program_.R_WC, Eigen::Matrix3d(shot.X_WC.linear()));
-  glUniform1f(sky_program_.lod_bias, static_cast<float>(shot.lod_bias));
+  gl::Uniform1f(sky_program_.lod_bias, static_cast<float>(shot.lod_bias));
   textures_.bind(scene_.sky_texture);
-  glBindVertexArray(no_vertices_.name());
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  gl::BindVertexArray(no_vertices_.name());
+  gl::DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
 }  // namespace dodgesim

@@ -18,6 +18,8 @@ namespace fs = std::filesystem;
 using dodgesim::testing::CommandTest;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
+using dodgesim::testing::shell;
+using ::testing::AnyOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -223,6 +225,14 @@ TEST_F(DodgesimTest, WritesTheTruthAboutEvents) {
   EXPECT_GT(causes[1], 100);    // the ball
   EXPECT_GT(causes[254], 100);  // shot noise
   EXPECT_EQ(dodgesim("replay " + out + " --throw 0 --events e.csv").exit_code, 2);
+}
+
+// It brings LLVM, which takes a tenth of a second to load.
+TEST_F(DodgesimTest, DoesNotStartWithOsmesa) {
+  const std::string libraries =
+      shell("LD_TRACE_LOADED_OBJECTS=1 " DODGESIM_BINARY_DIR "/dodgesim").output;
+  EXPECT_THAT(libraries, HasSubstr("libmujoco"));
+  EXPECT_THAT(libraries, Not(AnyOf(HasSubstr("OSMesa"), HasSubstr("LLVM"))));
 }
 
 TEST_F(DodgesimTest, ReportsOutputThatCannotBeWritten) {

@@ -3,14 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/glext.h>
-
 #include <functional>
 #include <stdexcept>
 #include <thread>
 
+#include "sim/render/gl.h"
 #include "sim/render/gl_objects.h"
 #include "tests/sim/render/full_scene.h"
 
@@ -27,7 +24,8 @@ void on_a_fresh_thread(const std::function<void()>& task) { std::thread(task).jo
 int objects_alive() {
   int count = 0;
   for (GLuint name = 1; name < kNames; ++name) {
-    count += glIsTexture(name) + glIsBuffer(name) + glIsVertexArray(name) + glIsFramebuffer(name);
+    count += gl::IsTexture(name) + gl::IsBuffer(name) + gl::IsVertexArray(name) +
+             gl::IsFramebuffer(name);
   }
   return count;
 }
@@ -50,7 +48,7 @@ TEST(ContextLease, GivesTheSameContextAgainWithItsPrograms) {
     ContextLease lease;
     EXPECT_EQ(lease.programs().size(), 2U);
     EXPECT_EQ(some_program(lease.programs()), program);
-    EXPECT_TRUE(glIsProgram(program));
+    EXPECT_TRUE(gl::IsProgram(program));
     EXPECT_EQ(lease.programs().size(), 2U);
   });
 }
@@ -190,43 +188,45 @@ std::vector<float> draw_all(Scene& scene) {
 void scramble_uniforms() {
   const std::vector<float> floats(64, 7.5F);
   for (GLuint program = 1; program < kNames; ++program) {
-    if (!glIsProgram(program)) continue;
-    glUseProgram(program);
+    if (!gl::IsProgram(program)) continue;
+    gl::UseProgram(program);
     GLint count = 0;
-    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+    gl::GetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
     for (GLint i = 0; i < count; ++i) {
       char name[100];
       GLint size = 0;
       GLenum type = 0;
-      glGetActiveUniform(program, static_cast<GLuint>(i), sizeof name, nullptr, &size, &type, name);
-      const GLint at = glGetUniformLocation(program, name);
-      if (type == GL_FLOAT) glUniform1fv(at, size, floats.data());
-      if (type == GL_FLOAT_VEC2) glUniform2fv(at, size, floats.data());
-      if (type == GL_FLOAT_VEC3) glUniform3fv(at, size, floats.data());
-      if (type == GL_FLOAT_VEC4) glUniform4fv(at, size, floats.data());
-      if (type == GL_FLOAT_MAT3) glUniformMatrix3fv(at, size, GL_FALSE, floats.data());
-      if (type == GL_FLOAT_MAT4) glUniformMatrix4fv(at, size, GL_FALSE, floats.data());
-      if (type == GL_INT) glUniform1i(at, 77);
+      gl::GetActiveUniform(program, static_cast<GLuint>(i), sizeof name, nullptr, &size, &type,
+                           name);
+      const GLint at = gl::GetUniformLocation(program, name);
+      if (type == GL_FLOAT) gl::Uniform1fv(at, size, floats.data());
+      if (type == GL_FLOAT_VEC2) gl::Uniform2fv(at, size, floats.data());
+      if (type == GL_FLOAT_VEC3) gl::Uniform3fv(at, size, floats.data());
+      if (type == GL_FLOAT_VEC4) gl::Uniform4fv(at, size, floats.data());
+      if (type == GL_FLOAT_MAT3) gl::UniformMatrix3fv(at, size, GL_FALSE, floats.data());
+      if (type == GL_FLOAT_MAT4) gl::UniformMatrix4fv(at, size, GL_FALSE, floats.data());
+      if (type == GL_INT) gl::Uniform1i(at, 77);
     }
   }
 }
 
 void scramble_state() {
-  glDisable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
-  glDepthMask(GL_FALSE);
-  glDisable(GL_SCISSOR_TEST);
-  glScissor(3, 4, 5, 6);
-  glViewport(1, 2, 3, 4);
-  glDisable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE);
-  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  glActiveTexture(GL_TEXTURE1);
+  gl::Disable(GL_DEPTH_TEST);
+  gl::DepthFunc(GL_GREATER);
+  gl::DepthMask(GL_FALSE);
+  gl::Disable(GL_SCISSOR_TEST);
+  gl::Scissor(3, 4, 5, 6);
+  gl::Viewport(1, 2, 3, 4);
+  gl::Disable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+  gl::Enable(GL_BLEND);
+  gl::BlendFunc(GL_ONE, GL_ONE);
+  gl::ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  gl::ActiveTexture(GL_TEXTURE1);
   for (const GLenum alignment : {GL_PACK_ALIGNMENT, GL_UNPACK_ALIGNMENT}) {
-    glPixelStorei(alignment, 8);
+    gl::PixelStorei(alignment, 8);
   }
-  for (const GLenum length : {GL_PACK_ROW_LENGTH, GL_UNPACK_ROW_LENGTH}) glPixelStorei(length, 400);
+  for (const GLenum length : {GL_PACK_ROW_LENGTH, GL_UNPACK_ROW_LENGTH})
+    gl::PixelStorei(length, 400);
 }
 
 TEST(RendererInAUsedContext, DrawsTheBitsOfOneInAFreshContext) {
