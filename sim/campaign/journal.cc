@@ -53,8 +53,13 @@ std::string framed(const std::string& bytes) {
 // Reads a journal from its start.
 class RecordReader {
  public:
-  explicit RecordReader(const std::filesystem::path& path)
-      : path_(path), file_(path, std::ios::binary) {
+  explicit RecordReader(const std::filesystem::path& path) : path_(path) {
+    std::error_code ignored;
+    // A pipe, say, would be waited for.
+    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path)) {
+      fail("is not a regular file");
+    }
+    file_.open(path, std::ios::binary);
     if (!file_) fail_to_open(errno);
     file_.seekg(0, std::ios::end);
     size_ = static_cast<std::uint64_t>(file_.tellg());

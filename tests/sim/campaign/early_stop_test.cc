@@ -80,6 +80,9 @@ TEST_F(EarlyStopCampaignTest, LacksThrowsUntilItHasEnded) {
   EXPECT_FALSE(campaign.complete());
   EXPECT_FALSE(campaign.ended_early());
   EXPECT_THROW(expect_complete({root_ / "part"}), MissingThrows);
+  const int flown = run_campaign(scenario_, options("whole"), fly_nth()).wanted;
+  EXPECT_EQ(expect_complete({root_ / "part", root_ / "whole"}), flown)
+      << "one that is whole will do";
 }
 
 TEST_F(EarlyStopCampaignTest, GoesOnWhereItWasInterrupted) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 
@@ -9,6 +10,7 @@
 #include "sim/base/random.h"
 #include "sim/files/csv.h"
 #include "sim/files/input_file.h"
+#include "tests/complaint.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 
 namespace dodgesim {
@@ -175,6 +177,12 @@ TEST_F(JournalTest, WhatCannotBeReadOrMadeIsAnError) {
   EXPECT_THROW(read_journal(root_ / "none"), IoError);
   put("something else");
   EXPECT_THROW(read_journal(path_), IoError);
+}
+
+TEST_F(JournalTest, APipeIsNotWaitedFor) {
+  ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
+  EXPECT_EQ(testing::complaint<IoError>([&] { read_journal(path_); }),
+            path_.string() + " is not a regular file.");
 }
 
 }  // namespace
