@@ -237,6 +237,19 @@ TEST_F(ReportCommandTest, RatesAreNamedByWhatThePilotIsForNotByItsName) {
   EXPECT_THAT(table, ::testing::ContainsRegex("[|]oracle[|]+[01][.][0-9]+ [^|]*[|]+[01][.]"));
 }
 
+TEST_F(ReportCommandTest, ALegendNamesTheCurvesThatAreDrawn) {
+  dodgesim("sweep " + path("s.yaml") + " -j 1 --throws 1 --out " + path("pilots") +
+           " --set fly_oracle=true --over pilot=none,oracle --over throw.speed_mps=5,6");
+  const std::string dom = browse(path("pilots/report.html")).output;
+  EXPECT_THAT(dom, Not(HasSubstr(":CONSOLE:"))) << dom.substr(0, 4000);
+  const std::string curves = text_between(dom, "id=\"sweep-curve\"", "id=\"sweep-table\"");
+  // Where the oracle flies as the pilot, no other one flies beside it.
+  EXPECT_THAT(curves, ::testing::ContainsRegex(
+                          "the pilot of the sweep[|].*[|]pilot none[|]+pilot oracle[|]+oracle[|]"));
+  EXPECT_THAT(curves.substr(curves.find("|oracle|")),
+              AllOf(HasSubstr("|pilot none|"), Not(HasSubstr("|pilot oracle|"))));
+}
+
 TEST_F(ReportCommandTest, ErrorsAreNamed) {
   dodgesim("run " + path("s.yaml") + " -j 1 --set 'mission.start_m=[3, 0, 2]' --out " +
            path("wall"));

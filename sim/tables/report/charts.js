@@ -122,10 +122,12 @@ const markers = [
   (x, y) => svg('path', {d: `M${x} ${y - 6}l6 6l-6 6l-6-6z`}),
 ];
 
+// A name that is empty is left out.
 function legendOf(names) {
   const legend = document.createElement('div');
   legend.className = 'legend';
   names.forEach((name, k) => {
+    if (!name) return;
     const key = svg('svg', {viewBox: '0 0 14 14', class: `series s${k % 6}`});
     key.append(markers[k % markers.length](7, 7));
     const item = document.createElement('span');
@@ -163,7 +165,8 @@ function rateCurves({series, xLabel, label}) {
     chart.append(group);
   });
   const figure = document.createElement('div');
-  figure.append(chart, legendOf(series.map((s) => s.name)));
+  const drawn = (s) => s.points.some(([, rate]) => rate[1] > 0);
+  figure.append(chart, legendOf(series.map((s) => drawn(s) && s.name)));
   return figure;
 }
 
