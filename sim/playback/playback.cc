@@ -82,6 +82,10 @@ std::int64_t Playback::events(int camera) const {
   return eyes_.at(static_cast<std::size_t>(camera)).count;
 }
 
+std::int64_t Playback::late(int camera) const {
+  return eyes_.at(static_cast<std::size_t>(camera)).late;
+}
+
 std::int64_t Playback::strays(int camera) const {
   return eyes_.at(static_cast<std::size_t>(camera)).queue.strays();
 }
@@ -116,7 +120,10 @@ void Playback::send_readings() {
 // Reads the events up to the first that is later.
 void Playback::hold(Eye& eye, TimeUs until_us) {
   for (; eye.queue.front() != nullptr && eye.queue.front()->t_us <= until_us; eye.queue.pop()) {
-    eye.held.push_back(*eye.queue.front());
+    const Event& event = *eye.queue.front();
+    eye.newest_us = std::max(eye.newest_us, event.t_us);
+    if (event.t_us < eye.newest_us - EventQueue::kSortedUs) ++eye.late;
+    eye.held.push_back(event);
     if (eye.held.size() <= kMostHeld) continue;
     throw ScenarioError("There are more than " + std::to_string(kMostHeld) + " events from " +
                         std::to_string(eye.held.front().t_us) + " to " +

@@ -2,6 +2,7 @@
 // get it (sim/bridge/onboard_computer.h). What it commands moves nobody.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,8 +44,10 @@ class Playback {
   TimeUs first_event_us() const { return first_event_us_; }
   TimeUs last_event_us() const { return last_event_us_; }  // of those handed over so far
   std::int64_t events(int camera) const;                   // so far
-  std::int64_t strays(int camera) const;                   // so far
-  double part_played(int camera) const;                    // of the camera's file, 0 to 1
+  // So far, of those: that stood more than EventQueue::kSortedUs too late in their file.
+  std::int64_t late(int camera) const;
+  std::int64_t strays(int camera) const;  // so far
+  double part_played(int camera) const;   // of the camera's file, 0 to 1
 
  private:
   // What comes from one camera.
@@ -54,8 +57,10 @@ class Playback {
 
     EventQueue queue;
     Packetizer packetizer;
-    std::vector<Event> held;  // in order of time, not yet due
-    std::int64_t count = 0;   // of those that were due
+    std::vector<Event> held;                                // in order of time, not yet due
+    std::int64_t count = 0;                                 // of those that were due
+    std::int64_t late = 0;                                  // of those read
+    TimeUs newest_us = std::numeric_limits<TimeUs>::min();  // of those read
   };
 
   void hold(Eye& eye, TimeUs until_us);

@@ -212,6 +212,16 @@ TEST_F(DetectTest, TakesWhatOthersRecord) {
                     HasSubstr("moved by -2.000 ms"), HasSubstr("repeats=3 has no effect")));
 }
 
+TEST_F(DetectTest, SaysHowManyEventsComeAfterTheClockWasSetBack) {
+  std::string events = "t_us,x,y,p\n";
+  for (int i = 0; i < 40; ++i) events += std::to_string(5'000'000 + i) + ",5,5,1\n";
+  for (int i = 0; i < 90; ++i) events += std::to_string(200 * i) + ",5,5,1\n";
+  write("e.csv", events);
+  write("c.yaml", "{width: 64, height: 48}");
+  EXPECT_THAT(detect(path("e.csv") + " --calibration " + path("c.yaml")).output,
+              HasSubstr("130 events, 90 of which stand more than 10 ms too late in their file"));
+}
+
 // Real event cameras; skips where the recordings are absent.
 TEST_F(DetectTest, TakesNoStaticSceneAndNoNoiseForAnObstacle) {
   const auto file = [](const std::string& name) { return dodge::recording::path(name); };

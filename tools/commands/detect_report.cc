@@ -22,14 +22,13 @@ std::vector<std::int64_t> sizes_kb(const std::vector<std::string>& files) {
 }
 
 void report_events(const Playback& playback, int cameras) {
-  const auto* dodger = dynamic_cast<const dodge::Dodger*>(&playback.pilot());
   for (int camera = 0; camera < cameras; ++camera) {
     if (cameras > 1) std::printf("%s camera: ", kCameraNames[static_cast<std::size_t>(camera)]);
     std::printf("%s", count_text(playback.events(camera), "event").c_str());
-    const std::int64_t dropped = dodger != nullptr ? dodger->dropped_events(camera) : 0;
-    if (dropped > 0) {
-      std::printf(", %lld of which were dropped: they stand more than 10 ms too late in their file",
-                  static_cast<long long>(dropped));
+    if (playback.late(camera) > 0) {
+      std::printf(
+          ", %lld of which stand more than 10 ms too late in their file: our pilots drop them",
+          static_cast<long long>(playback.late(camera)));
     }
     std::printf("\n");
     const auto strays = static_cast<long long>(playback.strays(camera));

@@ -201,6 +201,24 @@ TEST(Playback, HandsOverAnEventThatStandsFarTooLateInTheFile) {
   EXPECT_GE(late->second + EventQueue::kSortedUs, events[899].t_us);
 }
 
+// An hour of these would be played in one cycle, in which no pilot sees them.
+TEST(Playback, CountsWhatStandsFarTooLateInTheFile) {
+  std::vector<Event> events = random_events(0, 1000, 3);
+  events[900].t_us = events[10].t_us;
+  // What a camera says before its clock is set to zero.
+  std::vector<Event> after_restart = random_events(5'000'000, 100, 4);
+  after_restart.insert(after_restart.end(), events.begin(), events.end());
+  for (const auto& [file, late] : {std::pair{events, 1}, std::pair{after_restart, 1000}}) {
+    Witness::Arrivals seen;
+    Playback playback({}, std::make_unique<Witness>(seen), sensors_of({file}));
+    EXPECT_EQ(playback.late(0), 0);
+    while (playback.next()) {
+    }
+    EXPECT_EQ(playback.late(0), late);
+    EXPECT_EQ(playback.events(0), static_cast<std::int64_t>(file.size()));
+  }
+}
+
 // A little ahead and an hour, at the beginning, in the middle, and before the last event.
 TEST(Playback, IsNotHeldUpByAStray) {
   const std::vector<Event> events = random_events(kEpochUs, 3000, 9);
