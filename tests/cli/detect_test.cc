@@ -222,6 +222,20 @@ TEST_F(DetectTest, SaysHowManyEventsComeAfterTheClockWasSetBack) {
               HasSubstr("130 events, 90 of which stand more than 10 ms too late in their file"));
 }
 
+// Not of the time before and after.
+TEST_F(DetectTest, SaysHowLongTheImuWasSilentInTheRecording) {
+  std::string events = "t_us,x,y,p\n";
+  for (int i = 0; i < 100; ++i) events += std::to_string(10'000'000 + 200 * i) + ",5,5,1\n";
+  write("e.csv", events);
+  write("i.csv",
+        "t_us,wx,wy,wz\n0,0,0,0\n9990000,0,0,0\n10005000,0,0,0\n10030000,0,0,0\n"
+        "20000000,0,0,0\n");
+  write("c.yaml", "{width: 64, height: 48}");
+  EXPECT_THAT(
+      detect(path("e.csv") + " --calibration " + path("c.yaml") + " --imu " + path("i.csv")).output,
+      HasSubstr("IMU: 5 readings, covers 0.020 of 0.020 s, longest gap 25.0 ms"));
+}
+
 // Real event cameras; skips where the recordings are absent.
 TEST_F(DetectTest, TakesNoStaticSceneAndNoNoiseForAnObstacle) {
   const auto file = [](const std::string& name) { return dodge::recording::path(name); };

@@ -1,5 +1,6 @@
 #include "tools/commands/detect_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <numeric>
@@ -33,7 +34,7 @@ void report_events(const Playback& playback, int cameras) {
     std::printf("\n");
     const auto strays = static_cast<long long>(playback.strays(camera));
     if (strays == 0) continue;
-    std::printf("%lld more passed over: stamped more than 10 ms ahead of those behind\n", strays);
+    std::printf("%lld more passed over: stamped far ahead of the others\n", strays);
   }
 }
 
@@ -53,11 +54,19 @@ void PlaybackProgress::show(const Playback& playback) {
 }
 
 void Coverage::report(TimeUs begin_us, TimeUs end_us) const {
-  if (count_ == 0) return;
-  const TimeUs covered_us = std::min(end_us, last_us_) - std::max(begin_us, first_us_);
-  std::printf("%s: %zu readings, covers %.3f of %.3f s, longest gap %.1f ms\n", name_, count_,
-              seconds(std::max<TimeUs>(covered_us, 0)), seconds(end_us - begin_us),
-              1e-3 * static_cast<double>(longest_gap_us_));
+  if (stamps_us_.empty()) return;
+  const TimeUs covered_us =
+      std::min(end_us, stamps_us_.back()) - std::max(begin_us, stamps_us_.front());
+  TimeUs longest_gap_us = 0;
+  for (std::size_t i = 1; i < stamps_us_.size(); ++i) {
+    const TimeUs from_us = stamps_us_[i - 1], to_us = stamps_us_[i];
+    if (to_us > begin_us && from_us < end_us) {
+      longest_gap_us = std::max(longest_gap_us, to_us - from_us);
+    }
+  }
+  std::printf("%s: %zu readings, covers %.3f of %.3f s, longest gap %.1f ms\n", name_,
+              stamps_us_.size(), seconds(std::max<TimeUs>(covered_us, 0)),
+              seconds(end_us - begin_us), 1e-3 * static_cast<double>(longest_gap_us));
 }
 
 void Sums::add(int clusters, const Playback& playback) {

@@ -1,7 +1,6 @@
 // What `dodgesim detect` says while it plays a recording and at its end.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -28,21 +27,15 @@ class PlaybackProgress {
 class Coverage {
  public:
   template <class Reading>
-  Coverage(const char* name, const std::vector<Reading>& log) : name_(name), count_(log.size()) {
-    if (log.empty()) return;
-    first_us_ = log.front().t_us;
-    last_us_ = log.back().t_us;
-    for (std::size_t i = 1; i < log.size(); ++i) {
-      longest_gap_us_ = std::max(longest_gap_us_, log[i].t_us - log[i - 1].t_us);
-    }
+  Coverage(const char* name, const std::vector<Reading>& log) : name_(name) {
+    for (const Reading& reading : log) stamps_us_.push_back(reading.t_us);
   }
 
   void report(TimeUs begin_us, TimeUs end_us) const;
 
  private:
   const char* name_;
-  std::size_t count_;
-  TimeUs first_us_ = 0, last_us_ = 0, longest_gap_us_ = 0;
+  std::vector<TimeUs> stamps_us_;
 };
 
 // What the cycles found, in sum.
