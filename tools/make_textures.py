@@ -89,6 +89,8 @@ def write_png(path, rows):
 
 
 def main():
+    if len(sys.argv) > 2 or sys.argv[-1].startswith("-"):
+        sys.exit(__doc__)
     root = pathlib.Path(__file__).resolve().parent.parent
     out = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else root / "models" / "textures"
     out.mkdir(parents=True, exist_ok=True)
