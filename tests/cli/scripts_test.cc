@@ -31,10 +31,4 @@ TEST(Scripts, RefuseOptionsThatTheyWouldNotFollow) {
   }
 }
 
-TEST(Scripts, TakeNoOptionForTheFolderOfTheTextures) {
-  const Outcome outcome = script("make_textures.py --help");
-  EXPECT_NE(outcome.exit_code, 0);
-  EXPECT_THAT(outcome.output, HasSubstr("usage: tools/make_textures.py [OUTPUT_DIR]"));
-}
-
 }  // namespace
