@@ -64,6 +64,13 @@ class Budget : public FlightObserver {
   TimeUs flown_us_ = 0;
 };
 
+// Every launch after the ones before it, in whose way their objects may still be. Ends at a hit.
+FlightPlan all_launches_until(TimeUs last_us, FlightPlan plan) {
+  plan.pilot = kNoPilot;
+  plan.end_us = last_us + kTickUs;
+  return plan;
+}
+
 // Solves the throw and launches its objects, some of which may start inside something: flights up
 // to each arrival and each launch.
 void try_throw(const ThrowCase& thrown, Budget& budget) {
@@ -75,6 +82,8 @@ void try_throw(const ThrowCase& thrown, Budget& budget) {
   for (const TimeUs launch_us : launches_us) {
     fly(thrown.scenario, launches_at(launch_us, plan), &budget);
   }
+  if (launches_us.size() < 2) return;
+  fly(thrown.scenario, all_launches_until(*launches_us.rbegin(), plan), &budget);
 }
 
 }  // namespace

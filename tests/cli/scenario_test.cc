@@ -132,6 +132,12 @@ TEST_F(ScenarioCommandTest, ThrowsThatStartInsideSomethingAreFound) {
               AllOf(HasSubstr("Object 1 would be launched at 1 s"), HasSubstr("\"floor\"")));
   write("apart.yaml", "pilot: none\nthrows:\n  - " + keys + "1.5, count: 2, interval_s: 0.2}\n");
   EXPECT_EQ(dodgesim("validate " + path("apart.yaml")).exit_code, 0);
+  // Also what is thrown before the object ahead of it has made way.
+  write("close.yaml", "pilot: none\nthrows:\n  - " + keys + "1.5, count: 2, interval_s: 0.02}\n");
+  const Outcome close = dodgesim("validate " + path("close.yaml"));
+  EXPECT_EQ(close.exit_code, 2);
+  EXPECT_THAT(close.output, AllOf(HasSubstr("Object 1 would be launched at 1.02 s"),
+                                  HasSubstr("m inside object 0")));
 }
 
 TEST_F(ScenarioCommandTest, ImpossibleThrowsAreFoundInEveryCell) {
