@@ -157,17 +157,15 @@ TEST(LuminanceRenderer, LetsDarkLightsChangeNoBitHoweverManyThereAre) {
   Scene plain = full_scene();
   const Image expected = plain.render(tilted_camera());
   for (const std::string kind : {"directional='true'", "pos='1 0 3'"}) {
-    for (const int count : {1, 5, 12}) {
-      std::string lights;
-      for (int i = 0; i < count; ++i) {
-        lights += "<light " + kind + " dir='0 0 -1' ambient='0 0 0' diffuse='0 0 0'/>";
-      }
+    std::string lights;
+    for (int i = 0; i < 12; ++i) {
+      lights += "<light " + kind + " dir='0 0 -1' ambient='0 0 0' diffuse='0 0 0'/>";
       std::string content = kFullScene;
       content.insert(content.find("<geom"), lights);
       Scene scene(content);
       scene.snapshot() = plain.snapshot();
       const Image image = scene.render(tilted_camera());
-      EXPECT_TRUE(image.luminance == expected.luminance) << count << " more, " << kind;
+      EXPECT_TRUE(image.luminance == expected.luminance) << i + 1 << " more, " << kind;
     }
   }
 }
