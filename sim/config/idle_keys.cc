@@ -17,7 +17,15 @@ struct IdleRule {
   std::string reason;
 };
 
+bool stereo(const Scenario& scenario) { return scenario.dodger.position.depth == "stereo"; }
+
 // A plug-in may do as it likes with the keys of dodger.
+bool may_measure_mono(const Scenario& s) { return s.pilot == kPluginPilot || !stereo(s); }
+bool may_measure_stereo(const Scenario& s) { return s.pilot == kPluginPilot || stereo(s); }
+
+constexpr const char* kStereo = "dodger.position.depth is stereo";
+constexpr const char* kMono = "dodger.position.depth is mono";
+
 const IdleRule kRules[] = {
     {"plugin_parameters", "", [](const Scenario& s) { return s.pilot == kPluginPilot; },
      "the pilot is not plugin"},
@@ -28,6 +36,14 @@ const IdleRule kRules[] = {
        return s.pilot == kPluginPilot || s.dodger.escape.law != "potential_field";
      },
      "dodger.escape.law is potential_field"},
+    {"dodger.position.known_size_m", "", may_measure_mono, kStereo},
+    {"dodger.position.side_sigma_px", "", may_measure_mono, kStereo},
+    {"dodger.position.stereo", "", may_measure_stereo, kMono},
+    {"delays.lower_camera_us", "", stereo, kMono},
+    {"vehicle_overrides.lower_camera_turn_deg", "", stereo, kMono},
+    {"sensors.render.flicker_depth", "",
+     [](const Scenario& s) { return s.sensors.render.flicker.flicker_hz > 0; },
+     "sensors.render.flicker_hz is 0"},
     {"mission.waypoint_radius_m", "",
      [](const Scenario& s) { return s.mission.type == "waypoints"; },
      "mission.type is not waypoints"},

@@ -41,6 +41,36 @@ TEST(IdleKeys, OfAGroupAreNamedTogether) {
   EXPECT_THAT(notes_on("pilot: plugin\n" + escape + "}\n"), IsEmpty());
 }
 
+TEST(IdleKeys, AreThoseOfTheOtherDepth) {
+  EXPECT_THAT(notes_on("dodger: {position: {known_size_m: 0.3}}\n"),
+              ElementsAre("s.yaml:1:35: dodger.position.known_size_m has no effect: "
+                          "dodger.position.depth is stereo."));
+  EXPECT_THAT(notes_on("dodger: {position: {side_sigma_px: 3}}\n").size(), 1);
+  EXPECT_THAT(notes_on("dodger: {position: {depth: mono, known_size_m: 0.3, side_sigma_px: 3}}\n"),
+              IsEmpty());
+  const std::string stereo =
+      "delays: {lower_camera_us: 500}\nvehicle_overrides: {lower_camera_turn_deg: [0.1, 0, 0]}\n"
+      "dodger: {position: {stereo: {search_px: 8}, depth: ";
+  EXPECT_THAT(notes_on(stereo + "stereo}}\n"), IsEmpty());
+  EXPECT_THAT(notes_on(stereo + "mono}}\n"),
+              ElementsAre("s.yaml:3:41: dodger.position.stereo.search_px has no effect: "
+                          "dodger.position.depth is mono.",
+                          "s.yaml:1:27: delays.lower_camera_us has no effect: "
+                          "dodger.position.depth is mono.",
+                          "s.yaml:2:44: vehicle_overrides.lower_camera_turn_deg has no effect: "
+                          "dodger.position.depth is mono."));
+  // A plug-in may use all keys of dodger, but gets no events of a second camera either.
+  EXPECT_THAT(notes_on("pilot: plugin\n" + stereo + "mono, known_size_m: 1}}\n").size(), 2);
+}
+
+TEST(IdleKeys, OfAFlickerAreNamedWithoutOne) {
+  const std::string depth = "sensors: {render: {flicker_depth: 0.5";
+  EXPECT_THAT(notes_on(depth + "}}\n"),
+              ElementsAre("s.yaml:1:35: sensors.render.flicker_depth has no effect: "
+                          "sensors.render.flicker_hz is 0."));
+  EXPECT_THAT(notes_on(depth + ", flicker_hz: 100}}\n"), IsEmpty());
+}
+
 TEST(IdleKeys, ActIfOneValueOfGridOrSweepMakesThem) {
   const std::string oracle = "pilot: none\nfly_oracle: false\noracle: {range_cap_m: 2}\n";
   EXPECT_THAT(notes_on(oracle + "sweep: {pilot: [none, oracle]}\n"), IsEmpty());
