@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <optional>
-#include <sstream>
 #include <utility>
 #include <vector>
 
+#include "sim/base/body_axes.h"
 #include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
@@ -158,23 +157,9 @@ void read_camera_info(const YamlNode& root, ReadContext& context, CalibrationKey
   keys.distortion = DistortionKeys{kDistortion, info.distortion_coefficients.data};
 }
 
-// The rotation that "right down forward" stands for; nothing if these are no three axes of a
-// right-handed frame.
-std::optional<Eigen::Matrix3d> rotation_of(const std::string& axes) {
-  const std::map<std::string, Eigen::Vector3d> directions = {
-      {"forward", {1, 0, 0}}, {"backward", {-1, 0, 0}}, {"left", {0, 1, 0}},
-      {"right", {0, -1, 0}},  {"up", {0, 0, 1}},        {"down", {0, 0, -1}}};
-  std::istringstream words(axes);
-  Eigen::Matrix3d R;
-  std::string word;
-  for (int i = 0; i < 3; ++i) {
-    words >> word;
-    const auto found = directions.find(word);
-    if (!words || found == directions.end()) return std::nullopt;
-    R.col(i) = found->second;
-  }
-  if (words >> word || R.determinant() < 0.5) return std::nullopt;
-  return R;
+std::optional<Eigen::Matrix3d> right_handed_axes(const std::string& words) {
+  const std::optional<Eigen::Matrix3d> axes = axes_named(words);
+  return axes && axes->determinant() > 0 ? axes : std::nullopt;
 }
 
 void read_rotations(const CalibrationKeys& keys, ReadContext& context,
@@ -193,7 +178,8 @@ void read_rotations(const CalibrationKeys& keys, ReadContext& context,
   calibration.camera.X_BC.linear() = R_BC;
   calibration.camera.X_BC.translation() = keys.p_BC_m;
   calibration.imu_axes_assumed = keys.imu_axes.empty();
-  const auto R_BG = calibration.imu_axes_assumed ? std::optional(R_BC) : rotation_of(keys.imu_axes);
+  const auto R_BG =
+      calibration.imu_axes_assumed ? std::optional(R_BC) : right_handed_axes(keys.imu_axes);
   if (R_BG) {
     calibration.R_BG = *R_BG;
   } else {

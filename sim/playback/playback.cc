@@ -82,6 +82,10 @@ std::int64_t Playback::events(int camera) const {
   return eyes_.at(static_cast<std::size_t>(camera)).count;
 }
 
+std::span<const Event> Playback::new_events(int camera) const {
+  return eyes_.at(static_cast<std::size_t>(camera)).due;
+}
+
 std::int64_t Playback::late(int camera) const {
   return eyes_.at(static_cast<std::size_t>(camera)).late;
 }
@@ -141,10 +145,11 @@ void Playback::send_events(int camera) {
   hold(eye, now_us_ + EventQueue::kSortedUs);
   const auto due =
       std::ranges::find_if(eye.held, [this](const Event& event) { return event.t_us > now_us_; });
-  if (due != eye.held.begin()) last_event_us_ = std::max(last_event_us_, std::prev(due)->t_us);
-  eye.count += due - eye.held.begin();
-  eye.packetizer.push({eye.held.begin(), due}, now_us_);
+  eye.due.assign(eye.held.begin(), due);
   eye.held.erase(eye.held.begin(), due);
+  if (!eye.due.empty()) last_event_us_ = std::max(last_event_us_, eye.due.back().t_us);
+  eye.count += std::ssize(eye.due);
+  eye.packetizer.push(eye.due, now_us_);
   while (const auto packet = eye.packetizer.take()) {
     computer_.send_events(camera, packet->end_us, packet->events);
   }

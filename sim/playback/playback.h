@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ class Playback {
   const dodge::Pilot& pilot() const { return computer_.pilot(); }
   dodge::Pilot& pilot() { return computer_.pilot(); }
 
+  // Of the last cycle: the camera's events whose time it brought, in order.
+  std::span<const Event> new_events(int camera) const;
+
   TimeUs first_event_us() const { return first_event_us_; }
   TimeUs last_event_us() const { return last_event_us_; }  // of those handed over so far
   std::int64_t events(int camera) const;                   // so far
@@ -58,6 +62,7 @@ class Playback {
     EventQueue queue;
     Packetizer packetizer;
     std::vector<Event> held;                                // in order of time, not yet due
+    std::vector<Event> due;                                 // since the last cycle
     std::int64_t count = 0;                                 // of those that were due
     std::int64_t late = 0;                                  // of those read
     TimeUs newest_us = std::numeric_limits<TimeUs>::min();  // of those read

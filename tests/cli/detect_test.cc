@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class DetectTest : public CommandTest {
  protected:
@@ -234,6 +235,37 @@ TEST_F(DetectTest, SaysHowLongTheImuWasSilentInTheRecording) {
   EXPECT_THAT(
       detect(path("e.csv") + " --calibration " + path("c.yaml") + " --imu " + path("i.csv")).output,
       HasSubstr("IMU: 5 readings, covers 0.020 of 0.020 s, longest gap 25.0 ms"));
+}
+
+// A camera that turns to the right and back before upright stripes, and an IMU that says so, or the
+// opposite.
+TEST_F(DetectTest, SaysWhetherTheRatesFitTheEvents) {
+  write("c.yaml", "{width: 64, height: 48, intrinsics: {fx: 40, fy: 40, cx: 31.5, cy: 23.5}}");
+  std::string events = "t_us,x,y,p\n", right = "t_us,wx,wy,wz\n", left = right;
+  for (int ms = 0; ms < 1500; ++ms) {
+    const double t_s = 1e-3 * ms, azimuth = 0.5 * std::sin(12 * t_s), rate = 6 * std::cos(12 * t_s);
+    const std::string stamp = std::to_string(1000 * ms) + ",";
+    right += stamp + "0," + std::to_string(rate) + ",0\n";
+    left += stamp + "0," + std::to_string(-rate) + ",0\n";
+    for (int stripe = 0; stripe < 9; ++stripe) {
+      const double x = 31.5 + 40 * std::tan(0.2 * (stripe - 4) - azimuth);
+      if (x < 0 || x > 63) continue;
+      for (int y = stripe + ms % 3; y < 48; y += 9) {
+        events += stamp + std::to_string(std::lround(x)) + "," + std::to_string(y) + ",1\n";
+      }
+    }
+  }
+  write("e.csv", events);
+  write("right.csv", right);
+  write("left.csv", left);
+  const std::string film = path("e.csv") + " --calibration " + path("c.yaml") + " --imu ";
+  const std::string fits = detect(film + path("right.csv")).output;
+  EXPECT_THAT(fits, ContainsRegex("IMU: turned back by its rates, events are [1-9][0-9.]+ times"));
+  EXPECT_THAT(fits, Not(HasSubstr("they would be")));
+  EXPECT_THAT(
+      detect(film + path("left.csv")).output,
+      ContainsRegex("events are [01]\\.[0-9]+ times .*\nIMU: with imu_axes [a-z]+ up [a-z]+ they "
+                    "would be [1-9][0-9.]+ times as sharp \\(7 others alike\\)"));
 }
 
 // Real event cameras; skips where the recordings are absent.

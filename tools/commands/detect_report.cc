@@ -69,6 +69,22 @@ void Coverage::report(TimeUs begin_us, TimeUs end_us) const {
               seconds(end_us - begin_us), 1e-3 * static_cast<double>(longest_gap_us));
 }
 
+void report_rates(const char* log, const char* axes, const RateCheck::Fit& fit) {
+  if (fit.windows == 0) return;
+  std::printf("%s: turned back by its rates, events are %.2f times as sharp as they are (%s)\n",
+              log, fit.given, count_text(fit.windows, "window").c_str());
+  if (!fit.axes.empty() && fit.with_axes >= fit.with_shift) {
+    std::printf(
+        "%s: with %s %s%s they would be %.2f times as sharp%s%s\n", log, axes, fit.axes.c_str(),
+        fit.right_handed ? "" : ", which no sensor has,", fit.with_axes,
+        fit.right_handed ? "" : ": is a sign wrong?",
+        fit.as_good == 0 ? "" : (" (" + std::to_string(fit.as_good) + " others alike)").c_str());
+  } else if (fit.shift_us != 0) {
+    std::printf("%s: with its instants moved by %+g ms they would be %.2f times as sharp\n", log,
+                1e-3 * static_cast<double>(fit.shift_us), fit.with_shift);
+  }
+}
+
 void Sums::add(int clusters, const Playback& playback) {
   const auto found = static_cast<long long>(playback.pilot().detections().size());
   ++cycles_;
@@ -85,11 +101,10 @@ void Sums::add(int clusters, const Playback& playback) {
 
 void Sums::report(const Playback& playback, int cameras, TimeUs period_us) const {
   report_events(playback, cameras);
-  std::printf(
-      "%.3f s, %lld cycles: something moves in %lld, is measured in %lld (%lld "
-      "detections), is evaded in %lld\n",
-      seconds(playback.last_event_us() - playback.first_event_us()), cycles_, with_clusters_,
-      with_detections_, detections_, evading_);
+  std::printf("%.3f s, %s: something moves in %lld, is measured in %lld (%s), is evaded in %lld\n",
+              seconds(playback.last_event_us() - playback.first_event_us()),
+              count_text(cycles_, "cycle").c_str(), with_clusters_, with_detections_,
+              count_text(detections_, "detection").c_str(), evading_);
   if (dynamic_cast<const dodge::Dodger*>(&playback.pilot()) == nullptr) return;
   std::printf("The pilot's stages take %.3f ms a cycle here; a cycle comes every %g ms\n",
               1e-3 * stages_us_ / static_cast<double>(cycles_),

@@ -7,6 +7,7 @@
 
 #include "sim/campaign/progress.h"
 #include "sim/playback/playback.h"
+#include "sim/playback/rate_check.h"
 
 namespace dodgesim {
 
@@ -37,6 +38,10 @@ class Coverage {
   const char* name_;
   std::vector<TimeUs> stamps_us_;
 };
+
+// Says whether a log's rates fit the events, and with which other axes or clock they would. `axes`:
+// whose axes these are, as in "with AXES forward right down".
+void report_rates(const char* log, const char* axes, const RateCheck::Fit& fit);
 
 // What the cycles found, in sum.
 class Sums {
