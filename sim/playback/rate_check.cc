@@ -23,8 +23,8 @@ constexpr TimeUs kPartRested = 50;
 
 constexpr TimeUs kShiftStepUs = 5000, kMostShiftUs = 100'000;
 
-// What is surely better is so by a tenth, and by so many standard errors of the mean over at least
-// so many windows.
+// What is surely better is so by a tenth, also than not turning back, and by so many standard
+// errors of the mean over at least so many windows.
 const double kLeastGain = std::log(1.1);
 constexpr double kStandardErrors = 4;
 constexpr int kFewestWindows = 10;
@@ -148,7 +148,9 @@ bool RateCheck::Reading::surely_better(int windows) const {
 
 const RateCheck::Reading* RateCheck::best(std::span<const Reading> readings) const {
   const auto found = std::ranges::max_element(readings, {}, &Reading::sum);
-  return found->surely_better(windows_) ? &*found : nullptr;
+  // Rates that hardly turn blur least where the events hardly move, and explain nothing.
+  const bool sharpens = gain_ + found->sum > kLeastGain * windows_;
+  return sharpens && found->surely_better(windows_) ? &*found : nullptr;
 }
 
 RateCheck::Fit RateCheck::fit() const {

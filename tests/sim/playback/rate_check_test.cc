@@ -135,6 +135,19 @@ TEST(RateCheck, LooksAtNothingWhileTheCameraHardlyTurns) {
   EXPECT_EQ(RateCheck(forward_camera(), {}, axes).fit().windows, 0);
 }
 
+// As of a camera that keeps what it flies around in view: other axes would blur that less, but none
+// would make it sharper than it is.
+TEST(RateCheck, NamesNoAxesThatAreWorseThanNotTurning) {
+  Film still = film(Eigen::Vector3d::Zero());
+  still.rates = film({0, 0, 3}).rates;
+  const Eigen::Matrix3d axes = *axes_named("right down forward");
+  const RateCheck::Fit fitted = fit(still, axes, axes);
+  EXPECT_GT(fitted.windows, 50);
+  EXPECT_LT(fitted.given, 0.7);
+  EXPECT_EQ(fitted.axes, "");
+  EXPECT_EQ(fitted.shift_us, 0);
+}
+
 // Rates that turn all events out of the image do not make it sharp.
 TEST(RateCheck, IsNotDeceivedByRatesThatAreFarTooFast) {
   const Eigen::Matrix3d axes = *axes_named("forward left up");
