@@ -86,15 +86,25 @@ Eigen::Quaterniond rotation(const TextColumns& file, double w, const Eigen::Vect
                       ", but must be a unit quaternion.");
 }
 
-// From one attitude to the next; the last state goes on turning as before.
+// In the mean from one attitude to the next.
+Eigen::Vector3d rate_between(const StateReading& now, const StateReading& next) {
+  const Eigen::AngleAxisd turn(now.q_W.conjugate() * next.q_W);
+  const double angle = std::remainder(turn.angle(), 2 * std::numbers::pi);  // the shorter way
+  return angle / seconds(next.t_us - now.t_us) * turn.axis();
+}
+
+// A mean holds for the middle between two states; between two middles the rate is linear. The first
+// and the last state turn as in the mean beside them.
 void fill_in_rates(std::vector<StateReading>& states) {
   for (std::size_t i = 0; i + 1 < states.size(); ++i) {
-    const StateReading &now = states[i], &next = states[i + 1];
-    const Eigen::AngleAxisd turn(now.q_W.conjugate() * next.q_W);
-    const double angle = std::remainder(turn.angle(), 2 * std::numbers::pi);  // the shorter way
-    states[i].w_B = angle / seconds(next.t_us - now.t_us) * turn.axis();
+    const Eigen::Vector3d ahead = rate_between(states[i], states[i + 1]);
+    states[i].w_B = states[i + 1].w_B = ahead;
+    if (i == 0) continue;
+    const Eigen::Vector3d behind = rate_between(states[i - 1], states[i]);
+    const double since_s = seconds(states[i].t_us - states[i - 1].t_us);
+    const double until_s = seconds(states[i + 1].t_us - states[i].t_us);
+    states[i].w_B = (until_s * behind + since_s * ahead) / (since_s + until_s);
   }
-  if (states.size() > 1) states.back().w_B = states[states.size() - 2].w_B;
 }
 
 std::string line(TimeUs t_us, std::initializer_list<double> values) {

@@ -70,21 +70,44 @@ TEST_F(SensorLog, OfRatesAloneHasNoForces) {
   EXPECT_EQ(imu[0].f_B_mps2, Eigen::Vector3d::Zero());
 }
 
-// Turns at a constant rate about an axis of B, through all signs of the quaternion.
-TEST_F(SensorLog, OfAttitudesAloneHasTheRatesBetweenThem) {
-  const Eigen::Vector3d w(3, -7, 5);
+std::string without_rates(const std::vector<StateReading>& states) {
   std::string text = "t_us,x,y,z,qw,qx,qy,qz,vx,vy,vz\n";
-  for (int i = 0; i < 300; ++i) {
-    Eigen::Quaterniond q(Eigen::AngleAxisd(0.004 * i * w.norm(), w.normalized()));
-    if (i % 3 == 0) q.coeffs() *= -1;  // the same attitude
-    const std::string line = log_line(StateReading{
-        4000 * i, Eigen::Vector3d::Zero(), q, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
+  for (const StateReading& state : states) {
+    const std::string line = log_line(state);
     std::size_t end = line.size();
     for (int cell = 0; cell < 3; ++cell) end = line.rfind(',', end - 1);
     text += line.substr(0, end) + "\n";
   }
-  for (const StateReading& state : read_state_log(file(text))) {
+  return text;
+}
+
+// Turns at a constant rate about an axis of B, through all signs of the quaternion.
+TEST_F(SensorLog, OfAttitudesAloneHasTheRatesBetweenThem) {
+  const Eigen::Vector3d w(3, -7, 5);
+  std::vector<StateReading> states;
+  for (int i = 0; i < 300; ++i) {
+    Eigen::Quaterniond q(Eigen::AngleAxisd(0.004 * i * w.norm(), w.normalized()));
+    if (i % 3 == 0) q.coeffs() *= -1;  // the same attitude
+    states.push_back({.t_us = 4000 * i, .q_W = q});
+  }
+  for (const StateReading& state : read_state_log(file(without_rates(states)))) {
     EXPECT_LT((state.w_B - w).norm(), 1e-6) << state.t_us;
+  }
+}
+
+// Turns ever faster: neither too early nor too late, though one state is missing.
+TEST_F(SensorLog, OfAttitudesAloneHasTheRatesOfItsInstants) {
+  const double radps2 = 10;
+  std::vector<StateReading> states;
+  for (const TimeUs t_us : {0, 33'000, 66'000, 132'000, 165'000}) {
+    const double angle = 0.5 * radps2 * seconds(t_us) * seconds(t_us);
+    states.push_back(
+        {.t_us = t_us,
+         .q_W = Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()))});
+  }
+  const auto read = read_state_log(file(without_rates(states)));
+  for (std::size_t i = 1; i + 1 < read.size(); ++i) {
+    EXPECT_NEAR(read[i].w_B.z(), radps2 * seconds(read[i].t_us), 1e-6) << read[i].t_us;
   }
 }
 
