@@ -266,6 +266,14 @@ TEST_F(DetectTest, SaysWhetherTheRatesFitTheEvents) {
       detect(film + path("left.csv")).output,
       ContainsRegex("events are [01]\\.[0-9]+ times .*\nIMU: with imu_axes [a-z]+ up [a-z]+ they "
                     "would be [1-9][0-9.]+ times as sharp \\(7 others alike\\)"));
+  // A chain has no imu_axes.
+  write("chain.yaml",
+        "cam0: {camera_model: pinhole, distortion_model: radtan, distortion_coeffs: [0, 0, 0, 0], "
+        "intrinsics: [40, 40, 31.5, 23.5], resolution: [64, 48]}");
+  EXPECT_THAT(
+      detect(path("e.csv") + " --calibration " + path("chain.yaml") + " --imu " + path("left.csv"))
+          .output,
+      ContainsRegex("IMU: with its axes [a-z]+ up [a-z]+ they would"));
 }
 
 // Real event cameras; skips where the recordings are absent.

@@ -208,13 +208,14 @@ std::vector<CheckedRates> rates_to_check(const DetectArguments& arguments,
                                          const RecordedSensors& sensors) {
   std::vector<CheckedRates> rates;
   if (!arguments.imu.empty()) {
-    rates.push_back({"IMU", "imu_axes", {calibration.camera, sensors.imu, calibration.R_BG}});
+    const char* const axes = calibration.name.empty() ? "imu_axes" : "its axes";  // in a chain
+    rates.push_back({"IMU", axes, {calibration.camera, sensors.imu, calibration.R_BG}});
   }
   if (!arguments.state.empty()) {
     std::vector<ImuReading> turning;
     for (const StateReading& state : sensors.states) turning.push_back({state.t_us, state.w_B});
     rates.push_back(
-        {"State", "a body's axes", {calibration.camera, turning, Eigen::Matrix3d::Identity()}});
+        {"State", "its body's axes", {calibration.camera, turning, Eigen::Matrix3d::Identity()}});
   }
   return rates;
 }
