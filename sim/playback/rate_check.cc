@@ -21,7 +21,7 @@ constexpr std::size_t kFewestEvents = 200, kMostEvents = 5000;  // the latter ar
 // looked at from its beginning to its end, and costs not much more than a short one.
 constexpr TimeUs kPartRested = 50;
 
-constexpr TimeUs kShiftStepUs = 5000, kMostShiftUs = 100'000;
+constexpr TimeUs kShiftStepUs = 10'000, kMostShiftUs = 500'000;
 
 // What is surely better is so by a tenth, also than not turning back, and by so many standard
 // errors of the mean over at least so many windows.
@@ -81,10 +81,10 @@ Eigen::Vector3d RateCheck::turn(TimeUs shift_us) const {
 void RateCheck::add(std::span<const Event> events) {
   for (const Event& event : events) {
     if (event.x >= width_ || event.y >= height_) continue;
-    if (!started_) first_us_ = rest_until_us_ = event.t_us;
+    if (!started_) first_us_ = rest_until_us_ = end_us_ = event.t_us;
     started_ = true;
-    if (event.t_us < rest_until_us_) continue;
-    if (event.t_us < end_us_) window_.clear();  // the clock was set back
+    const bool late = event.t_us < end_us_;
+    if (late || event.t_us < rest_until_us_) continue;
     if (window_.empty()) begin_us_ = checked_us_ = event.t_us;
     end_us_ = event.t_us;
     window_.push_back({event.t_us, event.x, event.y, event.polarity});

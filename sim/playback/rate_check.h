@@ -26,7 +26,7 @@ class RateCheck {
   RateCheck(const dodge::CameraModel& camera, const std::vector<ImuReading>& rates,
             const Eigen::Matrix3d& R_BG);
 
-  // The next events of the camera, in order of time.
+  // The next events of the camera, in order of time; others are passed over.
   void add(std::span<const Event> events);
 
   struct Fit {

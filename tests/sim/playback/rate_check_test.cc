@@ -111,12 +111,29 @@ TEST(RateCheck, NamesTheAxesThatAreMeant) {
 TEST(RateCheck, TellsByHowMuchTheClockIsOff) {
   const Film turning = film(kTurning);
   const Eigen::Matrix3d axes = *axes_named("right down forward");
-  for (const TimeUs late_us : {-80'000, -42'000, 35'000, 100'000}) {
+  for (const TimeUs late_us : {-450'000, -80'000, -42'000, 35'000, 300'000}) {
     const RateCheck::Fit wrong = fit(turning, axes, axes, late_us);
     EXPECT_NEAR(static_cast<double>(wrong.shift_us), static_cast<double>(late_us), 5001);
     EXPECT_GT(wrong.with_shift, 1.1 * wrong.given);
     EXPECT_GT(wrong.with_shift, wrong.with_axes);
   }
+}
+
+TEST(RateCheck, PassesOverEventsThatComeLate) {
+  const Eigen::Matrix3d axes = *axes_named("forward left up");
+  Film some_late = film(kTurning), without = some_late;
+  without.events.clear();
+  for (std::size_t i = 0; i < some_late.events.size(); ++i) {
+    if (i % 3 == 2) {
+      some_late.events[i].t_us -= 20'000;
+    } else {
+      without.events.push_back(some_late.events[i]);
+    }
+  }
+  const RateCheck::Fit expected = fit(without, axes, axes),
+                       passed_over = fit(some_late, axes, axes);
+  EXPECT_EQ(passed_over.windows, expected.windows);
+  EXPECT_EQ(passed_over.given, expected.given);
 }
 
 // A turn about one axis says where that one points, and nothing of the others.
