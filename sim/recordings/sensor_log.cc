@@ -98,12 +98,14 @@ Eigen::Vector3d rate_between(const StateReading& now, const StateReading& next) 
 void fill_in_rates(std::vector<StateReading>& states) {
   for (std::size_t i = 0; i + 1 < states.size(); ++i) {
     const Eigen::Vector3d ahead = rate_between(states[i], states[i + 1]);
-    states[i].w_B = states[i + 1].w_B = ahead;
-    if (i == 0) continue;
-    const Eigen::Vector3d behind = rate_between(states[i - 1], states[i]);
-    const double since_s = seconds(states[i].t_us - states[i - 1].t_us);
-    const double until_s = seconds(states[i + 1].t_us - states[i].t_us);
-    states[i].w_B = (until_s * behind + since_s * ahead) / (since_s + until_s);
+    if (i == 0) {
+      states[i].w_B = ahead;
+    } else {  // it has the mean behind it so far
+      const double since_s = seconds(states[i].t_us - states[i - 1].t_us);
+      const double until_s = seconds(states[i + 1].t_us - states[i].t_us);
+      states[i].w_B = (until_s * states[i].w_B + since_s * ahead) / (since_s + until_s);
+    }
+    states[i + 1].w_B = ahead;
   }
 }
 
