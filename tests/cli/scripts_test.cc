@@ -21,7 +21,6 @@ TEST(Scripts, RefuseOptionsThatTheyWouldNotFollow) {
   for (const auto& [command, complaint] : {
            std::pair{"setup --lint --slurm", "one option at a time"},
            {"build --debug --asan", "one flag, then targets, not: --asan"},
-           {"test --gate --slurm", "--gate or --slurm, one at a time"},
            {"fuzz 0 csv", "Usage: tools/fuzz SECONDS"},  // libFuzzer would never end
            {"fuzz 5 csv none", "no target none; there are: camera csv"},
        }) {
