@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 std::vector<fs::path> documents() {
   const fs::path source = DODGESIM_SOURCE_DIR;
   std::vector<fs::path> found = {source / "README.md"};
-  for (const char* folder : {"dodge", "models", "results", "scenarios", "tests", "tools"}) {
+  for (const char* folder : {"dodge", "models", "results", "scenarios", "sim", "tests", "tools"}) {
     for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
       if (entry.path().extension() == ".md") found.push_back(entry.path());
     }
