@@ -31,7 +31,7 @@ const std::vector<PaperExperiment>& paper_experiments() {
       table1_experiment(),  table2_experiment(),    table3_experiment(),      indoor_experiment(),
       outdoor_experiment(), shapes_experiment(),    more_throws_experiment(), drift_experiment(),
       latency_experiment(), speed_experiment(),     range_experiment(),       physics_experiment(),
-      field_experiment(),   threshold_experiment(), translation_experiment()};
+      field_experiment(),   threshold_experiment(), translation_experiment(), quiet_experiment()};
   return all;
 }
 

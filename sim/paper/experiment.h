@@ -46,6 +46,7 @@ struct PaperExperiment {
   // In place of flights and analyse: what is timed on this machine. Its pictures go into the
   // directory of `options.plots_dir`.
   PaperTables (*measure)(const BenchOptions& options) = nullptr;
+  bool only_named = false;  // takes so long that "all experiments" leaves it out
 };
 
 // A change to a scenario whose throws stay the same.
@@ -57,7 +58,7 @@ struct PaperVariant {
 std::vector<PaperFlight> flights_of(const std::string& prefix, const std::string& scenario,
                                     const std::vector<PaperVariant>& variants);
 
-// All of them: the paper's, then the claims.
+// Every one: the paper's, the claims, then those that are flown only when they are named.
 const std::vector<PaperExperiment>& paper_experiments();
 
 PaperExperiment table1_experiment();
@@ -75,6 +76,7 @@ PaperExperiment field_experiment();
 PaperExperiment physics_experiment();
 PaperExperiment threshold_experiment();
 PaperExperiment translation_experiment();
+PaperExperiment quiet_experiment();
 
 // What table3 makes of the quantities of pilot_cases().
 PaperTables table3_of(const std::vector<Measurement>& measured);

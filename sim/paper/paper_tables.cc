@@ -81,8 +81,8 @@ std::vector<PaperExperiment> experiments_named(const std::vector<std::string>& n
   }
   std::vector<PaperExperiment> chosen;
   for (const PaperExperiment& experiment : all) {
-    const bool wanted = contains(names, experiment.name);
-    if (names.empty() || wanted) chosen.push_back(experiment);
+    const bool wanted = names.empty() ? !experiment.only_named : contains(names, experiment.name);
+    if (wanted) chosen.push_back(experiment);
   }
   return chosen;
 }

@@ -63,7 +63,7 @@ TEST_F(PaperCommandTest, ASeedMovesThatOfEveryScenarioOutOfReachOfTheOthers) {
   EXPECT_THAT(bad.output, HasSubstr("--seed x: seed is \"x\", but must be a whole number"));
 }
 
-// Nine campaigns in the same workers.
+// Eleven campaigns in the same workers.
 TEST_F(PaperCommandTest, GivesTheSameFilesForAnyNumberOfWorkersAndAfterAStop) {
   const auto fly = [&](const std::string& out, const std::string& options) {
     return "paper physics --throws 1 --seed 3 --set 'grid.speed_mps=[6]' --out " + path(out) + " " +
@@ -76,7 +76,7 @@ TEST_F(PaperCommandTest, GivesTheSameFilesForAnyNumberOfWorkersAndAfterAStop) {
             "while kill -0 $! && ! [ -e " + path("stopped/flights/physics_1_5m/manifest.json") +
             " ]; do sleep 0.02; done; kill -TERM $!; wait $!)");
   EXPECT_EQ(stopped.exit_code, 3);
-  EXPECT_THAT(stopped.output, HasSubstr("of 9 campaigns; the same command with --resume"));
+  EXPECT_THAT(stopped.output, HasSubstr("of 11 campaigns; the same command with --resume"));
   ASSERT_EQ(dodgesim(fly("stopped", "--resume")).exit_code, 0);
   for (const char* file : {"physics.csv", "flights/physics_1_5m/throws.csv",
                            "flights/physics_middle/throws.csv", "flights/physics_slow/table.md"}) {

@@ -156,7 +156,9 @@ void add_paper_command(CLI::App& program, const std::string& command_line, int& 
   CLI::App* command = program.add_subcommand(
       "paper",
       "Fly the experiments of Falanga et al. 2020, and put the results beside the paper's");
-  command->add_option("experiments", arguments->experiments, "Which ones; all of them without any")
+  command
+      ->add_option("experiments", arguments->experiments,
+                   "Which ones; by default all that take minutes")
       ->type_name("EXPERIMENT");
   add_campaign_options(*command, "paper", arguments->options);
   add_repeat_options(
@@ -168,7 +170,8 @@ void add_paper_command(CLI::App& program, const std::string& command_line, int& 
   add_models_option(*command, arguments->models_dir);
   std::string list = "Experiments:\n";
   for (const PaperExperiment& experiment : paper_experiments()) {
-    list += "  " + experiment.name + "    " + experiment.title + "\n";
+    list += "  " + experiment.name + "    " + experiment.title +
+            (experiment.only_named ? " (an hour and a half; only when it is named)\n" : "\n");
   }
   command->footer(list +
                   "\nWrites to DIR: EXPERIMENT.md and EXPERIMENT.csv with the paper's figures "
