@@ -110,6 +110,7 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
   const FlightLog& log = flown.log;
   const FlightLog::Object& object = log.objects[static_cast<std::size_t>(hitter)];
   evidence.in_view = object.in_view_us.has_value();
+  evidence.in_view_near = object.in_view_near;
   if (object.known_us) evidence.earliest_command_us = *object.known_us + flown.command_delay_us;
   evidence.another_known_before = std::ranges::any_of(log.objects, [&](const auto& other) {
     return other.known_us && (!object.known_us || *other.known_us < *object.known_us);

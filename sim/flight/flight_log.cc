@@ -27,8 +27,12 @@ FlightLogger::FlightLogger(const World& world, const Setup& setup) : setup_(setu
 void FlightLogger::observe(const World& world, const VelocityReference& reference) {
   const Snapshot& now = world.snapshot();
   for (std::size_t i = 0; i < log_.objects.size(); ++i) {
-    std::optional<TimeUs>& in_view_us = log_.objects[i].in_view_us;
-    if (!in_view_us && now.launched[i] && in_view(world, i)) in_view_us = now.t_us;
+    FlightLog::Object& object = log_.objects[i];
+    if (object.in_view_near || !now.launched[i]) continue;
+    const std::optional<double> distance_m = distance_in_view_m(world, i);
+    if (!distance_m) continue;
+    if (!object.in_view_us) object.in_view_us = now.t_us;
+    object.in_view_near = *distance_m <= setup_.near_m;
   }
   Trajectory& trajectory = log_.trajectory;
   if (now.t_us < trajectory.start_us) return;
@@ -41,16 +45,19 @@ void FlightLogger::observe(const World& world, const VelocityReference& referenc
   }
 }
 
-bool FlightLogger::in_view(const World& world, std::size_t object) const {
+std::optional<double> FlightLogger::distance_in_view_m(const World& world,
+                                                       std::size_t object) const {
   const Snapshot& now = world.snapshot();
+  std::optional<double> least_m;
   const double diameter_m = 2 * world.object(static_cast<int>(object)).bounding_radius_m;
   for (int camera = 0; camera < setup_.cameras; ++camera) {
     const Eigen::Isometry3d& X_BC = world.vehicle().X_BC[static_cast<std::size_t>(camera)];
     const Eigen::Vector3d p_C = (now.vehicle.pose() * X_BC).inverse() * now.objects[object].p_W;
     if (p_C.z() <= 0 || setup_.intrinsics.f * diameter_m < p_C.z()) continue;
-    if (setup_.intrinsics.contains(setup_.intrinsics.project(p_C))) return true;
+    if (!setup_.intrinsics.contains(setup_.intrinsics.project(p_C))) continue;
+    least_m = std::min(p_C.norm(), least_m.value_or(p_C.norm()));
   }
-  return false;
+  return least_m;
 }
 
 Trajectory::Sample FlightLogger::sample(const Snapshot& now,

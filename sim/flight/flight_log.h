@@ -16,6 +16,7 @@ namespace dodgesim {
 struct FlightLog {
   struct Object {
     std::optional<TimeUs> in_view_us;  // first
+    bool in_view_near = false;         // at any time within Setup::near_m of that camera
     // Output of the pilot's first cycle that knew of it: that detected it or, of a pilot that is
     // told of objects, was told.
     std::optional<TimeUs> known_us;
@@ -42,7 +43,8 @@ class FlightLogger {
  public:
   struct Setup {
     Intrinsics intrinsics;
-    int cameras = 2;                  // the first of the vehicle's
+    int cameras = 2;  // the first of the vehicle's
+    double near_m = 0;
     TimeUs start_us = 0, end_us = 0;  // of the trajectory
   };
 
@@ -60,9 +62,9 @@ class FlightLogger {
   FlightLog log() const;
 
  private:
-  // In the image of one of the cameras, and at least a pixel wide. What stands between does not
-  // count.
-  bool in_view(const World& world, std::size_t object) const;
+  // How far it is from a camera in whose image it is, and at least a pixel wide; empty if in none.
+  // What stands between does not count.
+  std::optional<double> distance_in_view_m(const World& world, std::size_t object) const;
   Trajectory::Sample sample(const Snapshot& now, const VelocityReference& reference) const;
 
   Setup setup_;

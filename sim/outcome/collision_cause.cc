@@ -17,6 +17,8 @@ std::string to_text(CollisionCause cause) {
   switch (cause) {
     case CollisionCause::kNotSeen:
       return "not seen";
+    case CollisionCause::kSeenFarOnly:
+      return "seen far only";
     case CollisionCause::kNotDetected:
       return "not detected";
     case CollisionCause::kSecondObject:
@@ -63,7 +65,9 @@ CollisionCause collision_cause(const Agility& agility, const CollisionEvidence& 
   }
   if (evidence.another_known_before) return CollisionCause::kSecondObject;
   if (evidence.perceives && !evidence.in_view) return CollisionCause::kNotSeen;
-  if (evidence.perceives && !evidence.earliest_command_us) return CollisionCause::kNotDetected;
+  if (evidence.perceives && !evidence.earliest_command_us) {
+    return evidence.in_view_near ? CollisionCause::kNotDetected : CollisionCause::kSeenFarOnly;
+  }
   if (!evidence.undisturbed) return CollisionCause::kWrongDirection;
   const auto in_time = [&times](const std::optional<double>& needed_s) {
     return times.left_s && needed_s && *times.left_s >= *needed_s;

@@ -3,7 +3,10 @@
 // detects one when it is first told of it:
 //
 //   not seen              the object was never in view of a camera
-//   not detected          in view, but no detection was of it
+//   seen far only         in view, but never while it was as near as the pilot believes detections
+//                         (dodger.position.max_range_m; of a plug-in nobody knows), and no
+//                         detection was of it
+//   not detected          in view and near, but no detection was of it
 //   second object         the pilot knew of another object before this one
 //   not evaded            a command sent at the first detection would have left some manoeuvre, but
 //                         none came before the object did: the pilot did not believe what it had
@@ -42,6 +45,7 @@ namespace dodgesim {
 
 enum class CollisionCause {
   kNotSeen,
+  kSeenFarOnly,
   kNotDetected,
   kSecondObject,
   kNotEvaded,
@@ -56,30 +60,26 @@ enum class CollisionCause {
   kFlewIntoTheRoom,
 };
 
-inline constexpr std::array kCollisionCauses = {CollisionCause::kNotSeen,
-                                                CollisionCause::kNotDetected,
-                                                CollisionCause::kSecondObject,
-                                                CollisionCause::kNotEvaded,
-                                                CollisionCause::kSeenLate,
-                                                CollisionCause::kWrongPosition,
-                                                CollisionCause::kWrongDirection,
-                                                CollisionCause::kDirectionTurned,
-                                                CollisionCause::kCommandedTooLittle,
-                                                CollisionCause::kNotEnoughThrust,
-                                                CollisionCause::kLanding,
-                                                CollisionCause::kFledIntoTheRoom,
-                                                CollisionCause::kFlewIntoTheRoom};
+inline constexpr std::array kCollisionCauses = {
+    CollisionCause::kNotSeen,         CollisionCause::kSeenFarOnly,
+    CollisionCause::kNotDetected,     CollisionCause::kSecondObject,
+    CollisionCause::kNotEvaded,       CollisionCause::kSeenLate,
+    CollisionCause::kWrongPosition,   CollisionCause::kWrongDirection,
+    CollisionCause::kDirectionTurned, CollisionCause::kCommandedTooLittle,
+    CollisionCause::kNotEnoughThrust, CollisionCause::kLanding,
+    CollisionCause::kFledIntoTheRoom, CollisionCause::kFlewIntoTheRoom};
 
 std::string to_text(CollisionCause cause);
 
 // What is known of a flight. "The object" is the one that hit or, of a flight that was not hit,
 // would have without evasion.
 struct CollisionEvidence {
-  bool hit = false;       // otherwise it came to harm, if it did, by crashing into the room
-  bool evaded = false;    // anything, at any time
-  bool landing = false;   // the pilot had begun an emergency landing
-  bool perceives = true;  // the pilot sees with its cameras; others are told of objects
-  bool in_view = false;   // the object was, before the hit
+  bool hit = false;           // otherwise it came to harm, if it did, by crashing into the room
+  bool evaded = false;        // anything, at any time
+  bool landing = false;       // the pilot had begun an emergency landing
+  bool perceives = true;      // the pilot sees with its cameras; others are told of objects
+  bool in_view = false;       // the object was, before the hit
+  bool in_view_near = false;  // likewise, within the range that the pilot believes
   // When a command sent at the object's first detection, or when the pilot was told of it, would
   // have arrived; empty: there was none.
   std::optional<TimeUs> earliest_command_us;

@@ -35,6 +35,19 @@ TEST(ExplainThrow, WhatComesIntoViewMayStayUndetected) {
   EXPECT_FALSE(result.false_alarm);
 }
 
+// At 2 m/s from 2 m a ball rises out of the view, whose half is 32 degrees, while it is 1.76 m
+// away: it climbs at 4.9 m/s, and its elevation's tangent is 2.45 times the time [s].
+TEST(ExplainThrow, ALobThatLeavesTheViewFarAwayIsSeenFarOnly) {
+  const auto cause = [](const std::string& max_range_m) {
+    const std::string blind =
+        "dodger: {time_image: {threshold_b: 1}, position: {max_range_m: " + max_range_m + "}}\n";
+    return fly_throw(head_on("falanga2020", "speed_mps: 2, launch_height_m: 2", 0.2, blind), 0)
+        .cause;
+  };
+  EXPECT_EQ(cause("1.6"), "seen far only");
+  EXPECT_EQ(cause("1.9"), "not detected");
+}
+
 TEST(ExplainThrow, ToldOfItAtHalfAMetreItIsTooLate) {
   const ThrowResult result =
       fly_throw(head_on("oracle", "speed_mps: 8", 0.2, "oracle: {range_cap_m: 0.8}\n"), 0);

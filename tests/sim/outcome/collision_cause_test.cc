@@ -55,6 +55,8 @@ TEST(CollisionCause, TellsWhatWasNotPerceived) {
   blind.command_us.reset();
   EXPECT_EQ(cause(blind), CollisionCause::kNotSeen);
   blind.in_view = true;
+  EXPECT_EQ(cause(blind), CollisionCause::kSeenFarOnly);
+  blind.in_view_near = true;
   EXPECT_EQ(cause(blind), CollisionCause::kNotDetected);
   blind.perceives = false;  // it is told of objects
   EXPECT_EQ(cause(blind), CollisionCause::kSeenLate);
