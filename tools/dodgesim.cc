@@ -13,6 +13,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/shell.h"
+#include "sim/base/vector_level.h"
 #include "tools/commands/command.h"
 
 namespace {
@@ -135,6 +136,7 @@ int main(int argc, char** argv) {
   open_standard_files();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing
   try {
+    vector_level();  // a bad name is a mistake before all others
     return flushed(run_program(argc, argv));
   } catch (const ScenarioError& error) {
     std::cerr << error.what() << "\n";

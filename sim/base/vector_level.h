@@ -19,6 +19,10 @@ inline int widest_vector_level() {
   return kPortable;
 }
 
+// The widest, or what the environment variable DODGESIM_VECTORS names: portable, avx2 or avx512.
+// Throws ScenarioError if this processor has no such vectors.
+int vector_level();
+
 #if defined(__x86_64__)
 #define DODGESIM_TARGET_AVX2 [[gnu::target("avx2")]]
 #if defined(__clang__)  // ignores the attribute if it names a preferred width

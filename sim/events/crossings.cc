@@ -142,7 +142,7 @@ void Crossings::add(const Pixel& pixel) {
 }
 
 void Crossings::solve(double refractory_us) {
-  static const int level = widest_vector_level();
+  static const int level = vector_level();
   solve(refractory_us, level);
 }
 

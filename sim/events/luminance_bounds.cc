@@ -61,7 +61,7 @@ void LuminanceBounds::set(std::size_t pixel, double low_luminance, double high_l
 
 void LuminanceBounds::scan(std::size_t first, std::size_t size, const float* luminance,
                            unsigned char* may_fire) const {
-  static const int level = widest_vector_level();
+  static const int level = vector_level();
   scan(first, size, luminance, may_fire, level);
 }
 

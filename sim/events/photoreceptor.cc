@@ -226,7 +226,7 @@ double Photoreceptor::straight_s(const Charge& now, double luminance, double slo
 }
 
 void Photoreceptor::advance(const Row& row) const {
-  static const int level = widest_vector_level();
+  static const int level = vector_level();
   advance(row, level);
 }
 

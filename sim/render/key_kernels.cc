@@ -351,7 +351,7 @@ const KeyKernels& key_kernels(int vector_level, bool gathers) {
 }
 
 const KeyKernels& key_kernels() {
-  static const KeyKernels& fastest = key_kernels(widest_vector_level(), gathers_are_quick());
+  static const KeyKernels& fastest = key_kernels(vector_level(), gathers_are_quick());
   return fastest;
 }
 

@@ -182,7 +182,7 @@ const SolidKernels& solid_kernels(SolidType type, int vector_level) {
 }
 
 const SolidKernels& solid_kernels(SolidType type) {
-  static const int level = widest_vector_level();
+  static const int level = vector_level();
   return solid_kernels(type, level);
 }
 

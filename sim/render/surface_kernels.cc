@@ -213,7 +213,7 @@ const SurfaceKernels& surface_kernels(int vector_level) {
 }
 
 const SurfaceKernels& surface_kernels() {
-  static const int level = widest_vector_level();
+  static const int level = vector_level();
   return surface_kernels(level);
 }
 
