@@ -38,6 +38,15 @@ TEST(SamplingStudy, FindsNoDifferenceBetweenTheReferenceAndItself) {
   EXPECT_NE(table.find("| reference | +0.00 % |"), std::string::npos) << table;
 }
 
+// A few throws of what `dodgesim check-sensor --sampling 50` measures.
+TEST(SamplingStudy, FindsTheDefaultsWithinTheirLimits) {
+  const SamplingOptions options{kModels, 4, 1, EventCameraSpec(), 5000};
+  const auto results = study_sampling(options, {sampling_variants().front()}, [](int) {});
+  EXPECT_GT(results[0].object.reference_events, 1000);
+  EXPECT_GT(results[0].scene.reference_events, 10000);
+  EXPECT_FALSE(judge(results).failed()) << sampling_table(results);
+}
+
 SamplingResult good_result() {
   SamplingResult result;
   result.object = {995, 1000, 0.02, 30, 60};
