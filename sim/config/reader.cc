@@ -44,8 +44,9 @@ std::string describe(const YamlNode& node) {
     case Kind::kNull:
       return tag + "empty";
     case Kind::kSequence:
-      return tag + (node.items.empty() ? "an empty list"
-                                       : "a list of " + std::to_string(node.items.size()));
+      return (tag.empty() ? "" : tag + "with ") +
+             (node.items.empty() ? "an empty list"
+                                 : "a list of " + std::to_string(node.items.size()));
     case Kind::kMap:
       return tag.empty() ? "a map" : tag + describe_map(node);
     case Kind::kScalar:

@@ -94,7 +94,10 @@ void EventCameraSpec::visit(Visitor& v) {
     "Cut-off of the source follower behind it, which does not depend on the light: both make "
     "the response second-order, which is followed to 0.5 % of the thresholds. 0: no follower.");
   v("refractory_us", refractory_us, 0, 1000000,
-    "Time a pixel is held in reset after an event (most simulators: 100 us, v2e: 500 us).");
+    "Time a pixel is held in reset after an event (most simulators: 100 us, v2e: 500 us). It "
+    "starts anew at its end, with the light of that instant for reference, as a pixel that is "
+    "reset does: what changed meanwhile makes no event. Simulators that only leave out events of "
+    "that time (ESIM) keep more.");
   v("leak_hz", leak_hz, 0, 1000,
     "Mean rate of ON events of a pixel at rest, due to the leak of its reference (v2e: 0.1), "
     "refractory periods not counted. Any "

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/base/memory_limit.h"
 #include "sim/bench/timed_emulation.h"
 #include "sim/campaign/progress.h"
@@ -132,6 +133,10 @@ void emulate(FrameReader& video, const LightBetween& light, Emulation& emulation
   progress.finish();
 }
 
+std::string rate_text(double per_s) {
+  return per_s < 100 ? formatted("%.3g", per_s) : formatted("%.0f", per_s);
+}
+
 void report(const FrameReader& video, const EventCamera& camera, const Counts& counts,
             const TimedEmulation& timed) {
   const long long on = counts.on, off = counts.off;
@@ -149,9 +154,10 @@ void report(const FrameReader& video, const EventCamera& camera, const Counts& c
               seconds(video.duration_us()));
   if (timed.frames() == 0) return;  // nothing was measured
   const auto frames = static_cast<double>(timed.frames());
-  std::printf("emulation: %.0f frames/s, %.2f Mev/s\n", frames / timed.emulation_s(),
+  std::printf("emulation: %s frames/s, %.2f Mev/s\n",
+              rate_text(frames / timed.emulation_s()).c_str(),
               1e-6 * static_cast<double>(timed.events()) / timed.emulation_s());
-  std::printf("cv::log: %.0f frames/s\n", frames / timed.log_s());
+  std::printf("cv::log: %s frames/s\n", rate_text(frames / timed.log_s()).c_str());
   std::printf("emulation takes %.3f of the time of cv::log\n", timed.emulation_s() / timed.log_s());
 }
 

@@ -175,11 +175,12 @@ const BadScenario kBadScenarios[] = {
     {"UniformBackwards", "throw: {size_m: !uniform [0.3, 0.1]}\n",
      "bad.yaml:1:27: throw.size_m[0] is 0.3, but the lowest value must come first"},
     {"UniformOfOne", "throw: {size_m: !uniform [0.3]}\n",
-     "bad.yaml:1:17: throw.size_m is !uniform a list of 1, but must be !uniform [lowest, highest]"},
+     "bad.yaml:1:17: throw.size_m is !uniform with a list of 1, but must be !uniform [lowest, "
+     "highest]"},
     {"UniformOfText", "throw: {size_m: !uniform [a, b]}\n",
      "bad.yaml:1:27: throw.size_m[0] is \"a\", but must be a number"},
     {"ChoiceOfNothing", "throw: {size_m: !choice []}\n",
-     "bad.yaml:1:17: throw.size_m is !choice an empty list"},
+     "bad.yaml:1:17: throw.size_m is !choice with an empty list"},
     {"ChoiceOutOfRange", "throw: {size_m: !choice [0.1, 0]}\n",
      "bad.yaml:1:31: throw.size_m[1] is 0, but must be between 0.01 and 1."},
     {"NormalWithoutSd", "throw: {size_m: !normal {mean: 0.2}}\n",
@@ -192,7 +193,7 @@ const BadScenario kBadScenarios[] = {
     {"NormalUnknownKey", "throw: {size_m: !normal {mean: 0.2, sd: 0.1, sigma: 1}}\n",
      "bad.yaml:1:46: throw.size_m.sigma is not a known key"},
     {"UnknownDistribution", "throw: {size_m: !gauss [0, 1]}\n",
-     "bad.yaml:1:17: throw.size_m is !gauss a list of 2, but must be a number between"},
+     "bad.yaml:1:17: throw.size_m is !gauss with a list of 2, but must be a number between"},
     {"ListWithoutTag", "throw: {size_m: [0.1, 0.2]}\n",
      "bad.yaml:1:17: throw.size_m is a list of 2, but must be a number between 0.01 and 1, "
      "!uniform"},
@@ -209,7 +210,7 @@ const BadScenario kBadScenarios[] = {
     {"MissingRoom", "room: attic\n",
      "bad.yaml:1:7: room is \"attic\", but there is no model file "},
     {"DrawnModelOfAWrongTag", "throw: {object: !uniform [ball, box]}\n",
-     "bad.yaml:1:17: throw.object is !uniform a list of 2, but must be the name of a file in "
+     "bad.yaml:1:17: throw.object is !uniform with a list of 2, but must be the name of a file in "
      "models/objects without .xml, or !choice [a, b, ...] of such names."},
     {"MissingChoice", "throw: {object: !choice [ball, anvil]}\n",
      "bad.yaml:1:32: throw.object[1] is \"anvil\", but there is no model file "},
@@ -261,7 +262,7 @@ const BadScenario kBadScenarios[] = {
     {"GridOfANumber", "throw: {}\ngrid: {size_m: 0.1}\n",
      "bad.yaml:2:16: grid.size_m is 0.1, but must be a list of values, such as [0.1, 0.2]."},
     {"GridOfAChoice", "throw: {}\ngrid: {size_m: !choice [0.1, 0.2]}\n",
-     "bad.yaml:2:16: grid.size_m is !choice a list of 2, but must be a list of values"},
+     "bad.yaml:2:16: grid.size_m is !choice with a list of 2, but must be a list of values"},
     {"GridOfNothing", "throw: {}\ngrid: {size_m: []}\n",
      "bad.yaml:2:16: grid.size_m is an empty list, but must be a list of values"},
     {"GridValueOutOfRange", "throw: {}\ngrid:\n  size_m: [0.1, 3]\n",
