@@ -9,7 +9,8 @@
 
 namespace dodgesim {
 
-// In the paper's order; for no names, all but those that must be named. Throws ScenarioError for a name that is none.
+// In the paper's order; for no names, all but those that must be named. Throws ScenarioError for a
+// name that is none.
 std::vector<PaperExperiment> experiments_named(const std::vector<std::string>& names);
 
 // Their campaigns, each once.
