@@ -24,10 +24,9 @@ constexpr TimeUs kPartRested = 50;
 constexpr TimeUs kShiftStepUs = 10'000, kMostShiftUs = 500'000;
 
 // What is surely better is so by a tenth, also than not turning back, and by so many standard
-// errors of the mean over at least so many windows.
+// errors of the mean over at least kFewestWindows.
 const double kLeastGain = std::log(1.1);
 constexpr double kStandardErrors = 4;
-constexpr int kFewestWindows = 10;
 
 // Means of logarithms that differ by less are taken for the same.
 constexpr double kSameGain = 0.03;

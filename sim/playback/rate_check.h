@@ -22,6 +22,8 @@ namespace dodgesim {
 
 class RateCheck {
  public:
+  static constexpr int kFewestWindows = 10;  // of which other axes or stamps are named
+
   // R_BG: from the axes of the sensor to those of B, as they are taken to be; `rates` are in B.
   RateCheck(const dodge::CameraModel& camera, const std::vector<ImuReading>& rates,
             const Eigen::Matrix3d& R_BG);

@@ -266,6 +266,15 @@ TEST_F(DetectTest, SaysWhetherTheRatesFitTheEvents) {
       detect(film + path("left.csv")).output,
       ContainsRegex("events are [01]\\.[0-9]+ times .*\nIMU: with imu_axes [a-z]+ up [a-z]+ they "
                     "would be [1-9][0-9.]+ times as sharp \\(7 others alike\\)"));
+  // Too short, and at rest.
+  write("short.csv", events.substr(0, events.find("\n120000,")));
+  EXPECT_THAT(
+      detect(path("short.csv") + " --calibration " + path("c.yaml") + " --imu " + path("left.csv"))
+          .output,
+      ContainsRegex("as they are \\([1-9] windows?, too few to tell whether others would"));
+  write("rest.csv", "t_us,wx,wy,wz\n0,0,0,0\n1500000,0,0,0\n");
+  EXPECT_THAT(detect(film + path("rest.csv")).output,
+              HasSubstr("IMU: the camera turns too little, or sees too little, to tell"));
   // A chain has no imu_axes.
   write("chain.yaml",
         "cam0: {camera_model: pinhole, distortion_model: radtan, distortion_coeffs: [0, 0, 0, 0], "

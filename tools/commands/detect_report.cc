@@ -70,9 +70,16 @@ void Coverage::report(TimeUs begin_us, TimeUs end_us) const {
 }
 
 void report_rates(const char* log, const char* axes, const RateCheck::Fit& fit) {
-  if (fit.windows == 0) return;
-  std::printf("%s: turned back by its rates, events are %.2f times as sharp as they are (%s)\n",
-              log, fit.given, count_text(fit.windows, "window").c_str());
+  if (fit.windows == 0) {
+    std::printf(
+        "%s: the camera turns too little, or sees too little, to tell whether its rates fit\n",
+        log);
+    return;
+  }
+  const bool few = fit.windows < RateCheck::kFewestWindows;
+  std::printf("%s: turned back by its rates, events are %.2f times as sharp as they are (%s%s)\n",
+              log, fit.given, count_text(fit.windows, "window").c_str(),
+              few ? ", too few to tell whether others would fit better" : "");
   if (!fit.axes.empty() && fit.with_axes >= fit.with_shift) {
     std::printf(
         "%s: with %s %s%s they would be %.2f times as sharp%s%s\n", log, axes, fit.axes.c_str(),
