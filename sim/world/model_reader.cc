@@ -6,6 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
 #include "sim/base/gravity.h"
+#include "sim/base/numbers.h"
 #include "sim/world/compose.h"
 #include "sim/world/contact_bound.h"
 #include "sim/world/convex.h"
@@ -222,8 +223,7 @@ VehicleParameters ModelReader::vehicle(double mass_scale) const {
   const double lift = 4 * vehicle.max_thrust_n / (vehicle.mass_kg * kGravityMps2);
   if (lift < kLeastLift) {
     throw ScenarioError(file_ + ": the rotors lift only " + std::to_string(lift) +
-                        " times the vehicle's weight; it needs at least " +
-                        std::to_string(kLeastLift) +
+                        " times the vehicle's weight; it needs at least " + to_text(kLeastLift) +
                         " to fly (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
   }
   for (const char* name : kCameraNames) {
