@@ -1,7 +1,6 @@
 #include "sim/flight/flight.h"
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
 
 #include "dodge/dodger.h"
@@ -122,9 +121,9 @@ FlightLogger::Setup Flight::flight_logger_setup() const {
   FlightLogger::Setup setup;
   setup.intrinsics = intrinsics(scenario_.sensors.camera);
   setup.cameras = cameras();
-  // How far a pilot of one's own believes what it sees, nobody knows.
-  setup.near_m = scenario_.pilot == kPluginPilot ? std::numeric_limits<double>::infinity()
-                                                 : scenario_.dodger.position.max_range_m;
+  // How far a pilot of one's own believes what it sees, nobody knows; others do not look.
+  const bool known = perceives(plan_.pilot) && plan_.pilot != kPluginPilot;
+  if (known) setup.near_m = scenario_.dodger.position.max_range_m;
   setup.end_us = plan_.end_us;
   if (plan_.launches.empty()) return setup;
   TimeUs first_us = plan_.end_us;

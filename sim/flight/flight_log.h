@@ -2,6 +2,7 @@
 // commands, and the course for the eye.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -44,7 +45,7 @@ class FlightLogger {
   struct Setup {
     Intrinsics intrinsics;
     int cameras = 2;  // the first of the vehicle's
-    double near_m = 0;
+    double near_m = std::numeric_limits<double>::infinity();
     TimeUs start_us = 0, end_us = 0;  // of the trajectory
   };
 

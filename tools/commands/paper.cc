@@ -171,7 +171,7 @@ void add_paper_command(CLI::App& program, const std::string& command_line, int& 
   std::string list = "Experiments:\n";
   for (const PaperExperiment& experiment : paper_experiments()) {
     list += "  " + experiment.name + "    " + experiment.title +
-            (experiment.only_named ? " (an hour and a half; only when it is named)\n" : "\n");
+            (experiment.only_named ? " (more than an hour; only when it is named)\n" : "\n");
   }
   command->footer(list +
                   "\nWrites to DIR: EXPERIMENT.md and EXPERIMENT.csv with the paper's figures "
