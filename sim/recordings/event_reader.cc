@@ -8,6 +8,7 @@
 
 #include "sim/files/npy_reader.h"
 #include "sim/recordings/hdf5_event_reader.h"
+#include "sim/recordings/prophesee_reader.h"
 #include "sim/recordings/raw_event.h"
 #include "sim/recordings/text_columns.h"
 
@@ -121,9 +122,10 @@ std::unique_ptr<EventReader> open_events(const std::string& path, const ImageSiz
   if (end == ".csv") return std::make_unique<TextReader>(path, image, true);
   if (end == ".npy") return std::make_unique<NpyEventReader>(path, image);
   if (end == ".h5" || end == ".hdf5") return open_hdf5_events(path, image);
+  if (end == ".raw") return open_prophesee_events(path, image);
   throw ScenarioError(path +
-                      " must end in .h5 (or .hdf5), .npy, .txt or .csv, which decides on the "
-                      "format of the events.");
+                      " must end in .h5 (or .hdf5), .npy, .txt, .csv or .raw, which decides on "
+                      "the format of the events.");
 }
 
 }  // namespace dodgesim

@@ -7,9 +7,14 @@
 // .txt  A line "t x y p" an event: t is in seconds, as in the rpg data sets, if it has a fraction
 //       in one of the first 16,384 events, and otherwise in microseconds.
 // .csv  The same with commas, after a line that names the columns: t_us, x, y and p in any order.
+// .raw  Prophesee's EVT 2.0 and EVT 3.0 (evt_words.h), behind lines "% keyword value" of which
+//       "% format EVT3;height=720;width=1280" or "% evt 3.0" names the format. The clock is whole
+//       however often it has wrapped; "% t_offset_us", which event_writer.h writes, is added to it.
+//       Passed over are what stands before the first word of the clock, words of other kinds, and
+//       one that is cut at the end of the file.
 //
-// Lines of both may be as text_columns.h has them. Columns and fields other than these, such as the
-// causes of events, are passed over.
+// Lines of .txt and .csv may be as text_columns.h has them. Columns and fields other than these,
+// such as the causes of events, are passed over.
 #pragma once
 
 #include <memory>

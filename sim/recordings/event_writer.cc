@@ -9,6 +9,7 @@
 #include "sim/files/npy_header.h"
 #include "sim/files/output_file.h"
 #include "sim/recordings/hdf5_event_writer.h"
+#include "sim/recordings/prophesee_writer.h"
 
 namespace dodgesim {
 
@@ -103,8 +104,9 @@ std::unique_ptr<EventWriter> make_event_writer(const std::filesystem::path& path
   if (end == ".txt") return std::make_unique<TextWriter>(path, recording.t_offset_us);
   if (end == ".npy") return std::make_unique<NpyWriter>(path, recording);
   if (end == ".h5" || end == ".hdf5") return make_hdf5_event_writer(path, recording);
+  if (end == ".raw") return make_prophesee_event_writer(path, recording);
   throw ScenarioError(path.string() +
-                      " must end in .h5 (or .hdf5), .npy or .txt, which decides on " +
+                      " must end in .h5 (or .hdf5), .npy, .txt or .raw, which decides on " +
                       "the format of the events.");
 }
 

@@ -7,12 +7,15 @@
 // .npy  NumPy records t <i8 [us], x <u2, y <u2, p |i1 (+1 ON, -1 OFF).
 // .txt  A line "t x y p" an event: t [us] as an integer, p 1 (ON) or 0 (OFF). The columns are
 //       those of events.txt in the rpg data sets, where t is in seconds.
+// .raw  Prophesee's EVT 2.0, which its programs open: a header, then words of 32 bits
+// (evt_words.h).
+//       Its clock counts from "% t_offset_us" in the header. Up to 2048 x 2048 px.
 //
 // t is the absolute time in .npy and .txt. A file appears only when it is whole
 // (sim/files/staged_file.h).
 //
 // A recording with causes (sim/events/cause.h) says why each event happened: in events/cause u8
-// (.h5), in a fifth field cause |u1 (.npy), in a fifth column (.txt).
+// (.h5), in a fifth field cause |u1 (.npy), in a fifth column (.txt); .raw has no place for it.
 #pragma once
 
 #include <filesystem>
@@ -47,8 +50,9 @@ class EventWriter {
   virtual void finish() = 0;
 };
 
-// The format follows from the name's end. Throws ScenarioError for any other end, and for a
-// recording that is too long for .h5 (2^32 - 1 us, 71.6 minutes).
+// The format follows from the name's end. Throws ScenarioError for any other end, for a recording
+// that is too long for .h5 (2^32 - 1 us, 71.6 minutes) or .raw (2^34 - 1 us, 4.7 hours), and for
+// what .raw has no place for.
 std::unique_ptr<EventWriter> make_event_writer(const std::filesystem::path& path,
                                                const Recording& recording);
 

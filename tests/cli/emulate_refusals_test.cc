@@ -101,6 +101,13 @@ TEST_F(EmulateRefusalsTest, RefusesWhatHdf5CannotHold) {
   EXPECT_EQ(ideal().exit_code, 0);
 }
 
+TEST_F(EmulateRefusalsTest, RefusesCausesInAFileThatHasNoPlaceForThem) {
+  out_ = (root_ / "events.raw").string();
+  expect_refused(emulate("--camera ideal --causes --out " + out_), 2,
+                 "events.raw has no place for them; .h5, .npy and .txt have.");
+  EXPECT_EQ(ideal().exit_code, 0);
+}
+
 TEST_F(EmulateRefusalsTest, ReportsFilesThatCannotBeReadOrWrittenWithExitCode4) {
   const std::string full = out_ + ".partial";
   fs::create_symlink("/dev/full", full);

@@ -57,7 +57,7 @@ void expect_increasing(const std::vector<Reading>& log) {
 // The first byte says what the others are.
 bool events(Bytes bytes) {
   if (bytes.empty()) return false;
-  constexpr std::array<const char*, 5> kEnds = {".txt", ".csv", ".npy", ".imu", ".state"};
+  constexpr std::array<const char*, 6> kEnds = {".txt", ".csv", ".npy", ".imu", ".state", ".raw"};
   const std::string end = kEnds[bytes[0] % kEnds.size()];
   const NamedFile file(text_of(bytes.subspan(1)), end);
   return accepts([&] {

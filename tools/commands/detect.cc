@@ -34,9 +34,9 @@ What it commands moves nobody, and its goal is to stay where it is.
 EVENTS: .h5 (DSEC, RVT; or t, x, y, p at the root, as records CD/events or as a table events), .npy
   or .txt as `emulate` and `replay --events` write them; .txt of the rpg data sets, with t in
   seconds (it has a fraction in one of the first 16,384 events); .csv whose first line names the
-  columns t_us, x, y and p. They must be in order of time, but for 10 ms. The pilot drops those that
-  come later; up to 16 in a row with stamps far ahead of the next are passed over, and so are up to
-  32 at the end that are more than ten minutes ahead.
+  columns t_us, x, y and p; .raw of Prophesee (EVT 2.0 and 3.0). They must be in order of time, but
+  for 10 ms. The pilot drops those that come later; up to 16 in a row with stamps far ahead of the
+  next are passed over, and so are up to 32 at the end that are more than ten minutes ahead.
 CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {model:
   radtan_k1_k2_p1_p2_k3, coeffs: [...]}; p_BC_m and R_BC (rows), the camera's place on the body,
   which by default looks forward; imu_axes, where x, y, z of the IMU point, by default as

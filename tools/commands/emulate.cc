@@ -44,6 +44,8 @@ EVENTS:
         time stamp of T.npy, from which t counts); p 1 or 0; up to 71.6 minutes
   .npy  records t <i8, x <u2, y <u2, p |i1; p +1 or -1
   .txt  a line "t x y p" an event, t in whole microseconds, p 1 or 0
+  .raw  Prophesee's EVT 2.0, for its programs; a line "% t_offset_us" of its header has the first
+        time stamp of T.npy, from which t counts; up to 2048 rows and columns and 4.7 hours
   --causes adds events/cause, u8 (.h5), a field cause |u1 (.npy), a fifth column (.txt)
 t of .npy and .txt is of the clock of T.npy. The recording ends with the last frame: what latency
 or the readout would stamp later is not in it. The file appears when it is whole.
@@ -173,6 +175,10 @@ void refuse_same_file(const std::string& out, const std::string& input) {
 }
 
 void emulate(const EmulateArguments& arguments) {
+  if (arguments.causes && arguments.out.ends_with(".raw")) {
+    throw ScenarioError("--causes: " + arguments.out +
+                        " has no place for them; .h5, .npy and .txt have.");
+  }
   watch_stop_signals();
   // All events between two pictures are held at once. With a limit, too many are an error; without,
   // the system would kill the program.
@@ -211,7 +217,8 @@ void add_emulate_command(CLI::App& program, int& exit_code) {
                    "ideal, sees1, noisy, low_light or a YAML file; see below")
       ->required()
       ->type_name("CAMERA");
-  command->add_option("--out", arguments->out, "Where the events go: .h5 (DSEC), .npy or .txt")
+  command
+      ->add_option("--out", arguments->out, "Where the events go: .h5 (DSEC), .npy, .txt or .raw")
       ->required()
       ->type_name("EVENTS");
   command->add_option("--seed", arguments->seed, "Of mismatch, hot and dead pixels, and noise")

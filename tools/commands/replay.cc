@@ -357,8 +357,8 @@ void add_replay_command(CLI::App& program, int& exit_code) {
               "Write a camera's events with their causes (t, x, y, p, cause), as far as they\n"
               "reach the computer before the flight ends, and print how well the pilot finds\n"
               "an object's events. Causes: 0 the static scene, moved by ego-motion; 1 + i\n"
-              "object i; 253 leak; 254 shot noise; 255 a hot pixel")
-          ->type_name("FILE.h5|.npy|.txt");
+              "object i; 253 leak; 254 shot noise; 255 a hot pixel. In .raw (Prophesee) without")
+          ->type_name("FILE.h5|.npy|.txt|.raw");
   command->add_option("--camera", arguments->camera, "Whose events: top or bottom")
       ->check(CLI::IsMember(std::vector<std::string>(kCameraNames.begin(), kCameraNames.end())))
       ->needs(events)

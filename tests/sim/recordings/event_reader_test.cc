@@ -76,7 +76,8 @@ INSTANTIATE_TEST_SUITE_P(Formats, WrittenRecording,
                                            std::pair("e.h5", 70001), std::pair("e.npy", 0),
                                            std::pair("e.npy", 16384), std::pair("e.npy", 40001),
                                            std::pair("e.txt", 0), std::pair("e.txt", 16384),
-                                           std::pair("e.txt", 40001)));
+                                           std::pair("e.txt", 40001), std::pair("e.raw", 0),
+                                           std::pair("e.raw", 16384), std::pair("e.raw", 40001)));
 
 TEST_P(WrittenRecording, ReadsBackOnTheClockOfItsOffset) {
   const auto& [name, count] = GetParam();
@@ -145,7 +146,7 @@ TEST_F(Reading, SaysInWhichLineAnEventIsNone) {
 TEST_F(Reading, SaysWhichEventOfABinaryFileIsNone) {
   Events events = random_recording(20000, 3);
   events[17000].y = 480;
-  for (const char* name : {"e.npy", "e.h5"}) {
+  for (const char* name : {"e.npy", "e.h5", "e.raw"}) {
     testing::write(root_ / name, recording_of(events), events);
     EXPECT_THAT(
         complaint<ScenarioError>([&] { read(root_ / name); }),
@@ -284,13 +285,92 @@ TEST_F(Reading, RefusesHdf5WhoseNumbersAreNotWhole) {
   EXPECT_THAT(refused(), HasSubstr("event 0: t [us] is"));
 }
 
+// A header and words, little-endian.
+template <class Word>
+std::string raw(const std::string& header, const std::vector<Word>& words) {
+  return header +
+         std::string(reinterpret_cast<const char*>(words.data()), words.size() * sizeof(Word));
+}
+
+constexpr const char* kEvt2 = "% evt 2.0\n% end\n";
+constexpr const char* kEvt3 = "% format EVT3;height=480;width=640\n% end\n";
+
+TEST_F(Reading, TakesEvt2) {
+  EXPECT_THAT(
+      read(file("e.raw", raw<std::uint32_t>(
+                             kEvt2, {1u << 28 | 5u << 22 | 7u << 11 | 9u,  // before the clock
+                                     8u << 28 | 3, 1u << 28 | 5u << 22 | 7u << 11 | 9u,
+                                     0xau << 28 | 1, 0xeu << 28, 63u << 22 | 639u << 11 | 479u}))),
+      ElementsAre(Event{3 * 64 + 5, 7, 9, 1}, Event{3 * 64 + 63, 639, 479, -1}));
+}
+
+TEST_F(Reading, TakesEvt3) {
+  EXPECT_THAT(
+      read(file("e.raw", raw<std::uint16_t>(kEvt3, {0x2805,  // before the clock
+                                                    0x8001, 0x6010, 0x0009, 0x2807,  // ON
+                                                    0x2008, 0xa101, 0xe001,          // OFF
+                                                    0x3864, 0x4801, 0x5082,          // 100 to 119
+                                                    0x8002, 0x0809, 0x2001, 0x1004, 0x2002,
+                                                    0x3003, 0x4001, 0x0003, 0x2004}))),
+      ElementsAre(Event{4112, 7, 9, 1}, Event{4112, 8, 9, -1}, Event{4112, 100, 9, 1},
+                  Event{4112, 111, 9, 1}, Event{4112, 113, 9, 1}, Event{4112, 119, 9, 1},
+                  Event{8192, 1, 9, -1},    // the lower bits begin anew; row of the second camera
+                  Event{8192, 4, 3, -1}));  // what stands in the row of grey levels is none
+}
+
+TEST_F(Reading, CountsHowOftenTheClockOfRawHasWrapped) {
+  EXPECT_THAT(read(file("e.raw", raw<std::uint16_t>(kEvt3, {0x8fff, 0x6fff, 0x0001, 0x2001, 0x8000,
+                                                            0x2001, 0x8fff, 0x8001, 0x2001}))),
+              ElementsAre(Event{(1 << 24) - 1, 1, 1, -1}, Event{1 << 24, 1, 1, -1},
+                          Event{(2 << 24) + 4096, 1, 1, -1}));
+  // A word of the clock that comes a little late is no turn.
+  EXPECT_THAT(read(file("f.raw", raw<std::uint32_t>(kEvt2, {8u << 28 | 0xfffffff, 1, 8u << 28, 1,
+                                                            8u << 28 | 5, 1, 8u << 28 | 4, 1}))),
+              ElementsAre(Event{(TimeUs{1} << 34) - 64, 0, 1, -1}, Event{TimeUs{1} << 34, 0, 1, -1},
+                          Event{(TimeUs{1} << 34) + 320, 0, 1, -1},
+                          Event{(TimeUs{1} << 34) + 256, 0, 1, -1}));
+}
+
+TEST_F(Reading, TakesHeadersOfRawWithAndWithoutAnEnd) {
+  const std::vector<std::uint32_t> words = {8u << 28 | 0x25, 1u << 28 | 2u << 11 | 3u};  // "%..."
+  for (const char* header :
+       {"% date 2014-02-28\n% evt 2.0\n% geometry 640x480\n", "% evt 2.0\n% end\n",
+        "% evt 2.0\n% format EVT2;height=480;width=640\n% generation 3.1\n% end\n"}) {
+    EXPECT_THAT(read(file("e.raw", raw(header, words))), ElementsAre(Event{0x25 * 64, 2, 3, 1}));
+  }
+  // A word that was cut.
+  EXPECT_THAT(read(file("e.raw", raw(kEvt2, words) + "abc")),
+              ElementsAre(Event{0x25 * 64, 2, 3, 1}));
+}
+
+TEST_F(Reading, RefusesRawOfAnotherImageOrFormat) {
+  const std::vector<std::uint16_t> words = {0x8000, 0x6000, 0x0000, 0x2000};
+  const auto refused = [&](const std::string& header) {
+    return refusal("e.raw", raw(header, words));
+  };
+  EXPECT_THAT(refused("% format EVT3;height=720;width=640\n% end\n"),
+              HasSubstr("its header says height 720, but the calibration says 480."));
+  EXPECT_THAT(refused("% evt 3.0\n% geometry 1280x480\n% end\n"),
+              HasSubstr("its header says width 1280, but the calibration says 640."));
+  EXPECT_THAT(refused("% format EVT21;height=480;width=640\n% end\n"),
+              HasSubstr("must have a header that names the format EVT2 or EVT3, but names EVT21."));
+  EXPECT_THAT(refused(""), HasSubstr("but names none."));
+  EXPECT_THAT(refused(std::string("% ") + std::string(5000, 'x')), HasSubstr("but names none."));
+  EXPECT_THAT(refused("% evt 3.0\n% t_offset_us 9000000000000000000\n% end\n"),
+              HasSubstr("t_offset_us 9000000000000000000"));
+  // An event beside the image, of a header that does not say how large it is.
+  EXPECT_THAT(
+      refusal("e.raw", raw<std::uint16_t>("% evt 3.0\n% end\n", {0x8000, 0x6000, 0x0000, 0x2281})),
+      HasSubstr("e.raw, event 0: x is 641, but must be from 0 to 639."));
+}
+
 TEST_F(Reading, SaysThatAFileIsCutOrAbsent) {
   const Events events = random_recording(90000, 6);
   testing::write(root_ / "e.h5", recording_of(events), events);
   const std::string whole = contents(root_ / "e.h5");
   put(root_ / "cut.h5", whole.substr(0, whole.size() / 2));
   EXPECT_THROW(read(root_ / "cut.h5"), std::runtime_error);
-  for (const char* name : {"none.h5", "none.txt", "none.csv"}) {
+  for (const char* name : {"none.h5", "none.txt", "none.csv", "none.raw"}) {
     EXPECT_THAT(complaint<IoError>([&] { read(root_ / name); }), HasSubstr(name));
   }
 }

@@ -29,6 +29,8 @@ using testing::recording_of;
 using testing::TemporaryDirectory;
 using testing::write;
 
+constexpr const char* kEnds[] = {".h5", ".npy", ".txt", ".raw"};
+
 class Hdf5File {
  public:
   explicit Hdf5File(const std::string& path)
@@ -168,6 +170,37 @@ TEST_P(RecordingOfSize, ReadsBackFromText) {
   EXPECT_TRUE(read == events_);
 }
 
+// Words of 32 bits behind the header: 8 and the clock's upper 28 bits, or the polarity, its lower
+// 6 bits, 11 bits of x and 11 of y.
+TEST_P(RecordingOfSize, ReadsBackFromRaw) {
+  Events events = events_;
+  for (Event& event : events) {
+    event.x %= 2048;
+    event.y %= 2048;
+  }
+  write(root_ / "events.raw", {2048, 2048, 77, 1 << 30}, events);
+  const std::string file = contents(root_ / "events.raw");
+  EXPECT_THAT(file, HasSubstr("\n% format EVT2;height=2048;width=2048\n"));
+  EXPECT_THAT(file, HasSubstr("\n% geometry 2048x2048\n"));
+  EXPECT_THAT(file, HasSubstr("\n% t_offset_us 77\n"));
+  Events read;
+  TimeUs high_us = -1;
+  for (std::size_t i = file.find("% end\n") + 6; i + 4 <= file.size(); i += 4) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, file.data() + i, 4);
+    if (word >> 28 == 8) {
+      ASSERT_LT(high_us, TimeUs{word & 0xfffffff} << 6);
+      high_us = TimeUs{word & 0xfffffff} << 6;
+      continue;
+    }
+    ASSERT_LE(word >> 28, 1u);
+    read.push_back({high_us + (word >> 22) % 64, static_cast<std::uint16_t>((word >> 11) % 2048),
+                    static_cast<std::uint16_t>(word % 2048),
+                    static_cast<std::int8_t>(word >> 28 == 1 ? 1 : -1)});
+  }
+  EXPECT_TRUE(read == events);
+}
+
 // Causes are handed over in the same portions as the events.
 TEST(EventWriter, SaysWhyEachEventHappened) {
   TemporaryDirectory root;
@@ -222,7 +255,7 @@ TEST(EventWriter, CompressesHdf5WithFiltersThatEveryReaderHas) {
 TEST(EventWriter, MakesTheSameBytesOfTheSameRecording) {
   TemporaryDirectory root;
   const Events events = random_events(50000, 6);
-  for (const std::string end : {".h5", ".npy", ".txt"}) {
+  for (const std::string end : kEnds) {
     write(root / ("a" + end), recording_of(events), events);
     write(root / ("b" + end), recording_of(events), events);
     EXPECT_TRUE(contents(root / ("a" + end)) == contents(root / ("b" + end))) << end;
@@ -245,10 +278,21 @@ TEST(EventWriter, KeepsTheLastStampThatHdf5CanHold) {
   EXPECT_NO_THROW(make_event_writer(root / "longer.npy", {640, 480, 0, TimeUs{UINT32_MAX} + 1}));
 }
 
+TEST(EventWriter, RefusesWhatRawHasNoPlaceFor) {
+  TemporaryDirectory root;
+  const auto refusal = [&](const Recording& recording) {
+    return complaint<ScenarioError>([&] { make_event_writer(root / "e.raw", recording); });
+  };
+  constexpr TimeUs kEndUs = TimeUs{1} << 34;
+  EXPECT_EQ(refusal({2048, 2048, 0, kEndUs - 1}), "");
+  EXPECT_THAT(refusal({640, 480, 0, kEndUs}), HasSubstr("e.raw cannot hold the recording of"));
+  EXPECT_THAT(refusal({640, 2049, 0, 0}), HasSubstr("pictures of 640 x 2049 px"));
+}
+
 TEST(EventWriter, LeavesNothingBehindUnlessFinished) {
   TemporaryDirectory root;
   const Events events = random_events(100000, 7);
-  for (const std::string end : {".h5", ".npy", ".txt"}) {
+  for (const std::string end : kEnds) {
     {
       const auto writer = make_event_writer(root / ("a" + end), recording_of(events));
       writer->add(events);
@@ -259,7 +303,7 @@ TEST(EventWriter, LeavesNothingBehindUnlessFinished) {
 
 TEST(EventWriter, ReplacesAFileOnlyWithAWholeOne) {
   TemporaryDirectory root;
-  for (const std::string end : {".h5", ".npy", ".txt"}) {
+  for (const std::string end : kEnds) {
     testing::put(root / ("a" + end), "old");
     const auto writer = make_event_writer(root / ("a" + end), {4, 4, 0, 10});
     writer->add(Events{{1, 2, 3, 1}});
@@ -271,7 +315,7 @@ TEST(EventWriter, ReplacesAFileOnlyWithAWholeOne) {
 
 TEST(EventWriter, RefusesWhatItCannotCreate) {
   TemporaryDirectory root;
-  for (const std::string end : {".h5", ".npy", ".txt"}) {
+  for (const std::string end : kEnds) {
     const std::string nowhere = root / ("no/such/events" + end);
     EXPECT_EQ(complaint<IoError>([&] { make_event_writer(nowhere, {}); }),
               nowhere + " could not be created: No such file or directory.");
@@ -282,13 +326,13 @@ TEST(EventWriter, RefusesWhatItCannotCreate) {
   }
   for (const std::string name : {"events", "events.csv", "events.h5.gz", ".h5"}) {
     EXPECT_THAT(complaint<ScenarioError>([&] { make_event_writer(root / name, {}); }),
-                HasSubstr("must end in .h5 (or .hdf5), .npy or .txt"));
+                HasSubstr("must end in .h5 (or .hdf5), .npy, .txt or .raw"));
   }
 }
 
 TEST(EventWriter, ReportsAFullDisk) {
   TemporaryDirectory root;
-  for (const std::string end : {".h5", ".npy", ".txt"}) {
+  for (const std::string end : kEnds) {
     const std::string path = root / ("a" + end);
     for (const std::size_t count : {0, 10, 200000}) {
       if (count == 0 && end == ".txt") continue;  // nothing to write
@@ -308,7 +352,7 @@ TEST(EventWriter, ReportsEveryByteThatFindsNoPlace) {
   std::signal(SIGXFSZ, SIG_IGN);
   rlimit before{};
   ::getrlimit(RLIMIT_FSIZE, &before);
-  for (const std::string end : {".h5", ".npy", ".txt"}) {
+  for (const std::string end : kEnds) {
     const std::string path = root / ("a" + end);
     write(path, recording_of(events), events);
     const std::string whole = contents(path);
