@@ -71,6 +71,7 @@ TEST_F(DetectTest, FindsInARecordedFlightWhatThePilotFoundInIt) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, ContainsRegex("top camera: [0-9]+ events\nbottom camera: "));
   EXPECT_THAT(outcome.output, ContainsRegex("IMU: [0-9]+ readings, covers 0.[5-9].* gap 1.0 ms"));
+  EXPECT_THAT(outcome.output, Not(HasSubstr("swapped")));
   expect_found_as_flown();
   const CsvTable cycles = table("found/cycles.csv");
   std::size_t evading = 0;
@@ -78,6 +79,12 @@ TEST_F(DetectTest, FindsInARecordedFlightWhatThePilotFoundInIt) {
   EXPECT_GT(evading, 3u);
   EXPECT_GT(table("found/clusters.csv").rows(), 10u);
   EXPECT_GT(table("found/obstacles.csv").rows(), 3u);
+
+  const Outcome swapped = detect(path("rec/bottom.h5") + " " + path("rec/top.h5") +
+                                 " --calibration " + path("rec/top.yaml") + " " +
+                                 path("rec/bottom.yaml") + " --imu " + path("rec/imu.csv"));
+  EXPECT_EQ(swapped.exit_code, 0) << swapped.output;
+  EXPECT_THAT(swapped.output, HasSubstr("are their events swapped?"));
 
   // A replay that fails, here before its flight, leaves an earlier recording as it was.
   const std::string log = contents("rec/imu.csv");

@@ -56,7 +56,7 @@ the vehicle turns as its IMU says and stays in its place. With one camera, depth
 size (dodger.position.known_size_m).
 
 It says how much sharper the rates make the events while the camera turns, and with which other
-axes or clock they would fit better.
+axes or clock they would fit better; and of two cameras, if their events seem to be swapped.
 
 DIR gets cycles.csv (what each cycle found and commands), clusters.csv (what moves in the images),
 detections.csv and obstacles.csv (what was measured and is tracked, in the world).
@@ -273,12 +273,14 @@ void detect(const DetectArguments& arguments) {
   std::optional<StageVideo> video = make_video(arguments, scenario, dodger);
   DetectionFiles files(arguments.out);
   Sums sums;
+  CameraOrder order;
   PlaybackProgress progress(arguments.events);
   while (playback.next()) {
     progress.show(playback);
     if (asked_to_stop()) throw std::runtime_error("Stopped; nothing is written.");
     sums.add(files.add(playback.now_us(), playback.pilot(), playback.command()), playback);
     for (CheckedRates& checked : rates) checked.check.add(playback.new_events(0));
+    if (dodger != nullptr) order.add(dodger->clusters(0), dodger->clusters(1));
     if (video) video->add(*dodger, playback.now_us());
   }
   if (video) video->close();
@@ -291,6 +293,7 @@ void detect(const DetectArguments& arguments) {
   for (const CheckedRates& checked : rates) {
     report_rates(checked.log, checked.axes, checked.check.fit());
   }
+  report_order(order);
   std::printf("%s: cycles.csv, clusters.csv, detections.csv, obstacles.csv\n",
               arguments.out.c_str());
   if (video) std::printf("Video: %s\n", arguments.video.c_str());

@@ -92,6 +92,15 @@ void report_rates(const char* log, const char* axes, const RateCheck::Fit& fit) 
   }
 }
 
+void report_order(const CameraOrder& order) {
+  if (!order.surely_swapped()) return;
+  std::printf(
+      "In %d of %d cycles in which each camera sees one thing, and both the same columns, the "
+      "first "
+      "camera's stands higher, as a lower camera's does: are their events swapped?\n",
+      order.swapped(), order.counted());
+}
+
 void Sums::add(int clusters, const Playback& playback) {
   const auto found = static_cast<long long>(playback.pilot().detections().size());
   ++cycles_;

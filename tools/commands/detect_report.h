@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/campaign/progress.h"
+#include "sim/playback/camera_order.h"
 #include "sim/playback/playback.h"
 #include "sim/playback/rate_check.h"
 
@@ -42,6 +43,9 @@ class Coverage {
 // Says whether a log's rates fit the events, and with which other axes or clock they would. `axes`:
 // whose axes these are, as in "with AXES forward right down".
 void report_rates(const char* log, const char* axes, const RateCheck::Fit& fit);
+
+// Says so if the events of the first camera seem to be those of the lower one.
+void report_order(const CameraOrder& order);
 
 // What the cycles found, in sum.
 class Sums {
