@@ -1,5 +1,7 @@
 #include "dodge/camera_model.h"
 
+#include <cmath>
+
 namespace dodge {
 
 namespace {
@@ -38,20 +40,31 @@ bool unfolded(const CameraModel& camera, const Eigen::Vector2d& p) {
   return true;
 }
 
+// The inverse of distort(); NaN where it has none.
+Eigen::Vector2d undistorted(const CameraModel& camera, const Eigen::Vector2d& distorted) {
+  if (camera.k1 == 0 && camera.k2 == 0 && camera.p1 == 0 && camera.p2 == 0 && camera.k3 == 0) {
+    return distorted;
+  }
+  Eigen::Vector2d ideal = distorted;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Eigen::Vector2d error = distorted - distort(camera, ideal);
+    if (error.norm() <= kExact) break;
+    ideal += stretch(camera, ideal).inverse() * error;
+  }
+  const bool found = (distorted - distort(camera, ideal)).norm() <= kExact;
+  if (!found || !unfolded(camera, ideal)) ideal.setConstant(std::nan(""));
+  return ideal;
+}
+
 }  // namespace
 
 Eigen::Vector2d CameraModel::bearing(const Eigen::Vector2d& pixel) const {
-  Eigen::Vector2d distorted((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
-  if (k1 == 0 && k2 == 0 && p1 == 0 && p2 == 0 && k3 == 0) return distorted;
-  Eigen::Vector2d ideal = distorted;
-  for (int i = 0; i < kMostSteps; ++i) {
-    const Eigen::Vector2d error = distorted - distort(*this, ideal);
-    if (error.norm() <= kExact) break;
-    ideal += stretch(*this, ideal).inverse() * error;
-  }
-  const bool found = (distorted - distort(*this, ideal)).norm() <= kExact;
-  if (!found || !unfolded(*this, ideal)) ideal.setConstant(std::nan(""));
-  return ideal;
+  if (!lens) return undistorted(*this, {(pixel.x() - cx) / fx, (pixel.y() - cy) / fy});
+  const Eigen::Vector2d bearing_L =
+      undistorted(*this, {(pixel.x() - lens->cx) / lens->fx, (pixel.y() - lens->cy) / lens->fy});
+  const Eigen::Vector3d ray_C = lens->R_CL * bearing_L.homogeneous();
+  if (!(ray_C.z() > 0)) return Eigen::Vector2d::Constant(std::nan(""));
+  return ray_C.hnormalized();
 }
 
 Eigen::Vector2d CameraModel::project(const Eigen::Vector3d& p_C) const {

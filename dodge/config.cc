@@ -73,6 +73,12 @@ void check_camera(const CameraModel& camera, const std::string& name) {
   if (camera.fx > kLongestFocalPx || camera.fy > kLongestFocalPx) {
     fail(name + " has a focal length of more than a million pixels.");
   }
+  if (camera.lens &&
+      !(camera.lens->fx > 0 && camera.lens->fy > 0 &&
+        std::isfinite(camera.lens->fx * camera.lens->cx) &&
+        std::isfinite(camera.lens->fy * camera.lens->cy) && is_rotation(camera.lens->R_CL))) {
+    fail(name + " has a lens without a positive focal length, or that is turned by no rotation.");
+  }
   if (!is_rotation(camera.X_BC.linear())) {
     fail(name + " has a pose X_BC whose linear part is no rotation: it scales, shears or mirrors.");
   }

@@ -21,8 +21,9 @@ namespace dodgesim {
 
 namespace {
 
-constexpr double kAssumedFovDeg = 80;  // of the paper's cameras
-constexpr double kFar = 1e4;           // of pixels and metres
+constexpr double kAssumedFovDeg = 80;       // of the paper's cameras
+constexpr double kFar = 1e4;                // of pixels and metres
+constexpr double kMostOfRotation = 1.0001;  // rounded
 constexpr const char* kDistortion = "radtan_k1_k2_p1_p2_k3";
 
 struct IntrinsicsKeys {
@@ -64,7 +65,7 @@ struct CalibrationKeys {
     v("intrinsics", intrinsics, "");
     v("distortion", distortion, "");
     v("p_BC_m", p_BC_m, -kFar, kFar, "");
-    v("R_BC", R_BC, -1, 1, "");
+    v("R_BC", R_BC, -kMostOfRotation, kMostOfRotation, "");
     v.text("imu_axes", imu_axes, "");
     v("p_BR_m", p_BR_m, -kFar, kFar, "");
   }
@@ -79,8 +80,8 @@ struct CameraInfoKeys {
 
     template <class Visitor>
     void visit(Visitor& v) {
-      v("rows", rows, 1, 12, "");
-      v("cols", cols, 1, 12, "");
+      v("rows", rows, 1, 14, "");
+      v("cols", cols, 1, 14, "");
       v.text("dt", dt, "");
       v("data", data, -kFar, kFar, "");
     }
@@ -117,8 +118,9 @@ void drop_empty(YamlNode& map) {
 void expect_no_misspelling(const YamlNode& root, Problems& problems) {
   const std::vector<std::string> names = {"width",  "height", "intrinsics", "distortion",
                                           "p_BC_m", "R_BC",   "imu_axes",   "p_BR_m"};
-  const std::vector<std::string> kalibr = {"camera_model", "resolution", "distortion_model",
-                                           "distortion_coeffs", "T_cam_imu"};
+  const std::vector<std::string> kalibr = {"camera_model",      "resolution", "distortion_model",
+                                           "distortion_coeffs", "T_cam_imu",  "T_imu_cam",
+                                           "timeshift_cam_imu"};
   for (const YamlNode::Key& key : root.keys) {
     if (contains(names, key.name)) continue;
     if (contains(kalibr, key.name)) {
@@ -153,7 +155,14 @@ void read_camera_info(const YamlNode& root, ReadContext& context, CalibrationKey
     return;
   }
   keys.intrinsics = IntrinsicsKeys{K[0], K[4], K[2], K[5]};
-  if (info.distortion_coefficients.data.empty()) return;
+  const std::size_t count = info.distortion_coefficients.data.size();
+  if (count == 0) return;
+  if (count != 4 && count != 5) {
+    context.add_problem("distortion_coefficients",
+                        "distortion_coefficients.data must be the four or five numbers k1, k2, p1, "
+                        "p2 and k3 (plumb_bob): calibrate without the others.");
+    return;
+  }
   keys.distortion = DistortionKeys{kDistortion, info.distortion_coefficients.data};
 }
 

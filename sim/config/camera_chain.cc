@@ -1,5 +1,6 @@
 #include "sim/config/camera_chain.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -112,6 +113,49 @@ void refuse_fisheye(const YamlNode& camera, const std::string& path, ReadContext
                                        "the events, or calibrate the camera as radtan.");
 }
 
+// A key of our own files.
+void refuse_imu_axes(const YamlNode& root, const YamlNode& camera, ReadContext& context) {
+  for (const YamlNode* map : {&root, &camera}) {
+    for (const YamlNode::Key& key : map->keys) {
+      if (key.name != "imu_axes") continue;
+      context.problems.fail(key.at,
+                            "imu_axes has no effect in a chain: where the IMU's axes point "
+                            "is said by T_cam_imu.");
+    }
+  }
+}
+
+std::optional<Eigen::Isometry3d> transform_of(const YamlNode& camera, const char* key,
+                                              const std::string& path, ReadContext& context) {
+  const YamlNode* const node = camera.find(key);
+  if (node == nullptr) return std::nullopt;
+  const auto X = transform(*node);
+  if (!X) {
+    context.problems.fail(node->at, path + "." + key + " must be four rows of four numbers, a " +
+                                        "rotation and a translation in metres.");
+  }
+  return X;
+}
+
+struct FromImu {
+  Eigen::Isometry3d X_CG = Eigen::Isometry3d::Identity();
+  bool known = false;  // else G is taken for the frame of a camera of the chain
+};
+
+// By T_cam_imu, by its inverse T_imu_cam (of OpenVINS's files), or by T_cn_cnm1 from the camera
+// before.
+FromImu from_imu(const YamlNode& map, const std::vector<std::string>& names, std::size_t i,
+                 const std::string& path, ReadContext& context) {
+  const YamlNode& camera = *map.find(names[i]);
+  const std::string own = path + names[i];
+  if (const auto X = transform_of(camera, "T_cam_imu", own, context)) return {*X, true};
+  if (const auto X = transform_of(camera, "T_imu_cam", own, context)) return {X->inverse(), true};
+  const auto X = transform_of(camera, "T_cn_cnm1", own, context);
+  if (!X || i == 0) return {};
+  const FromImu before = from_imu(map, names, i - 1, path, context);
+  return {*X * before.X_CG, before.known};
+}
+
 }  // namespace
 
 std::vector<std::string> cameras_of_chain(const YamlNode& root) {
@@ -127,26 +171,22 @@ std::vector<std::string> cameras_of_chain(const YamlNode& root) {
 CameraCalibration read_chain(const YamlNode& root, const std::string& name, ReadContext& context) {
   const YamlNode& map = cameras(root);
   const YamlNode& node = *map.find(name);
-  const std::string path = (&map == &root ? "" : "intrinsics.") + name;
-  refuse_fisheye(node, path + ".", context);
+  const std::string path = &map == &root ? "" : "intrinsics.";
+  refuse_fisheye(node, path + name + ".", context);
+  refuse_imu_axes(root, node, context);
   ChainKeys keys;
-  Reader reader(node, path, context);
+  Reader reader(node, path + name, context);
   keys.visit(reader);
   CameraCalibration calibration;
-  read_lens(keys, path + ".", context, calibration.camera);
+  read_lens(keys, path + name + ".", context, calibration.camera);
   calibration.imu_later_us = std::llround(1e6 * keys.timeshift_cam_imu);
-  const Eigen::Matrix3d R_BC = looking_forward();
-  calibration.camera.X_BC.linear() = R_BC;
-  const YamlNode* T_cam_imu = node.find("T_cam_imu");
-  calibration.imu_axes_assumed = T_cam_imu == nullptr;
-  const auto X_CG = T_cam_imu == nullptr ? Eigen::Isometry3d::Identity() : transform(*T_cam_imu);
-  if (X_CG) {
-    calibration.R_BG = R_BC * X_CG->linear();
-    calibration.camera.X_BC.translation() = -R_BC * X_CG->translation();
-  } else {
-    context.problems.add(T_cam_imu->at, path + ".T_cam_imu must be four rows of four numbers, a " +
-                                            "rotation and a translation in metres.");
-  }
+  const std::vector<std::string> names = cameras_of_chain(root);
+  const auto i = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  const FromImu imu = from_imu(map, names, i, path, context);
+  calibration.imu_axes_assumed = !imu.known;
+  calibration.R_BG = looking_forward() * imu.X_CG.linear();
+  calibration.camera.X_BC.linear() = looking_forward();
+  calibration.camera.X_BC.translation() = -(looking_forward() * imu.X_CG.translation());
   return calibration;
 }
 

@@ -8,12 +8,14 @@
 //     distortion_coeffs: [k1, k2, p1, p2]
 //     resolution: [width, height]
 //     T_cam_imu: [[...], [...], [...], [...]]    # from the axes of the IMU to those of the camera
+//     T_cn_cnm1: [[...], [...], [...], [...]]    # from the axes of the camera before, in its place
 //     timeshift_cam_imu: 0.003                   # [s], an instant by the IMU's clock less by the
 //                                                # camera's
 //
-// The camera looks forward, and the body's origin is the IMU; without T_cam_imu the IMU's axes are
-// the camera's, and the origin is the camera. Other keys, such as T_cn_cnm1 and rostopic, are
-// passed over.
+// The camera looks forward, and the body's origin is the IMU: what moves the body speaks of the
+// camera's axes. OpenVINS's T_imu_cam, from the camera's axes to the IMU's, is as good as
+// T_cam_imu. Where the chain begins with neither, the IMU is taken for its first camera. Other
+// keys, such as rostopic, are passed over.
 #pragma once
 
 #include <string>

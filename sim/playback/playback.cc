@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/base/rotation.h"
 
 namespace dodgesim {
 
@@ -69,8 +70,7 @@ std::vector<StateReading> Playback::states_from_rates() const {
       const StateReading& before = states.back();
       const Eigen::Vector3d turn =
           0.5 * seconds(state.t_us - before.t_us) * (before.w_B + state.w_B);
-      const Eigen::AngleAxisd rotation(turn.norm(), turn.stableNormalized());
-      state.q_W = (before.q_W * Eigen::Quaterniond(rotation)).normalized();
+      state.q_W = (before.q_W * rotation(turn)).normalized();
     }
     states.push_back(state);
   }
@@ -80,6 +80,14 @@ std::vector<StateReading> Playback::states_from_rates() const {
 
 std::int64_t Playback::events(int camera) const {
   return eyes_.at(static_cast<std::size_t>(camera)).count;
+}
+
+TimeUs Playback::first_event_us(int camera) const {
+  return eyes_.at(static_cast<std::size_t>(camera)).first_us;
+}
+
+TimeUs Playback::last_event_us(int camera) const {
+  return eyes_.at(static_cast<std::size_t>(camera)).last_us;
 }
 
 std::span<const Event> Playback::new_events(int camera) const {
@@ -118,6 +126,7 @@ bool Playback::next() {
 void Playback::send_readings() {
   send_until(now_us_, imu_, imu_sent_, [this](const auto& r) { computer_.send_imu(r); });
   send_until(now_us_, states_, states_sent_, [this](const auto& r) { computer_.send_state(r); });
+  computer_.set_goal({.p_WG = states_[std::max<std::size_t>(states_sent_, 1) - 1].p_W});
   send_until(now_us_, ranges_, ranges_sent_, [this](const auto& r) { computer_.send_range(r); });
 }
 
@@ -147,7 +156,11 @@ void Playback::send_events(int camera) {
       std::ranges::find_if(eye.held, [this](const Event& event) { return event.t_us > now_us_; });
   eye.due.assign(eye.held.begin(), due);
   eye.held.erase(eye.held.begin(), due);
-  if (!eye.due.empty()) last_event_us_ = std::max(last_event_us_, eye.due.back().t_us);
+  if (!eye.due.empty()) {
+    last_event_us_ = std::max(last_event_us_, eye.due.back().t_us);
+    if (eye.count == 0) eye.first_us = eye.due.front().t_us;
+    eye.last_us = eye.due.back().t_us;
+  }
   eye.count += std::ssize(eye.due);
   eye.packetizer.push(eye.due, now_us_);
   while (const auto packet = eye.packetizer.take()) {

@@ -1,5 +1,6 @@
 // A pilot on recorded data: handed to it cycle by cycle, as late as the computer of a vehicle would
-// get it (sim/bridge/onboard_computer.h). What it commands moves nobody.
+// get it (sim/bridge/onboard_computer.h). What it commands moves nobody, and its goal is the place
+// of the newest state.
 #pragma once
 
 #include <limits>
@@ -48,6 +49,8 @@ class Playback {
   TimeUs first_event_us() const { return first_event_us_; }
   TimeUs last_event_us() const { return last_event_us_; }  // of those handed over so far
   std::int64_t events(int camera) const;                   // so far
+  TimeUs first_event_us(int camera) const;                 // so far; requires events()
+  TimeUs last_event_us(int camera) const;
   // So far, of those: that stood more than EventQueue::kSortedUs too late in their file.
   std::int64_t late(int camera) const;
   std::int64_t strays(int camera) const;  // so far
@@ -64,6 +67,7 @@ class Playback {
     std::vector<Event> held;                                // in order of time, not yet due
     std::vector<Event> due;                                 // since the last cycle
     std::int64_t count = 0;                                 // of those that were due
+    TimeUs first_us = 0, last_us = 0;                       // of those
     std::int64_t late = 0;                                  // of those read
     TimeUs newest_us = std::numeric_limits<TimeUs>::min();  // of those read
   };

@@ -23,10 +23,14 @@ constexpr TimeUs kPartRested = 50;
 
 constexpr TimeUs kShiftStepUs = 10'000, kMostShiftUs = 500'000;
 
-// What is surely better is so by a tenth, also than not turning back, and by so many standard
-// errors of the mean over at least kFewestWindows.
-const double kLeastGain = std::log(1.1);
+// What is surely better is so by a tenth and by so many standard errors of the mean over at least
+// kFewestWindows, and by a half than not turning back: what is passed closely can be turned back a
+// little by axes that are wrong.
+const double kLeastGain = std::log(1.1), kLeastSharpening = std::log(1.5);
 constexpr double kStandardErrors = 4;
+
+// Within cells of so many pixels events are spread evenly when chance alone has them share pixels.
+constexpr int kCellPx = 16;
 
 // Means of logarithms that differ by less are taken for the same.
 constexpr double kSameGain = 0.03;
@@ -108,6 +112,7 @@ void RateCheck::look_at_window() {
     for (std::size_t i = 0; i < window_.size(); i += step) window_[kept++] = window_[i];
     window_.resize(kept);
   }
+  by_chance_ = pairs_by_chance();
   const double given = contrast(turn(0));
   gain_ += std::log(given / contrast(Eigen::Vector3d::Zero()));
   for (std::vector<Reading>* const readings : {&axes_, &shifts_}) {
@@ -127,7 +132,7 @@ double RateCheck::contrast(const Eigen::Vector3d& turn_B) {
   v_.resize(window_.size());
   ego_motion_.warp(window_, u_.data(), v_.data());
   pixels_.clear();
-  double pairs = 1;  // never none
+  double pairs = 0;
   for (std::size_t i = 0; i < window_.size(); ++i) {
     const int pixel = dodge::pixel_at(u_[i], v_[i], width_, height_);
     if (pixel < 0) continue;
@@ -135,6 +140,18 @@ double RateCheck::contrast(const Eigen::Vector3d& turn_B) {
     pairs += counts_[static_cast<std::size_t>(pixel)]++;
   }
   for (const int pixel : pixels_) counts_[static_cast<std::size_t>(pixel)] = 0;
+  return std::max(pairs, by_chance_);
+}
+
+// Where hardly a pixel has two events, anything that scatters them has more.
+double RateCheck::pairs_by_chance() const {
+  const int columns = width_ / kCellPx + 1;
+  std::vector<double> counts(static_cast<std::size_t>(columns * (height_ / kCellPx + 1)));
+  double pairs = 1;  // never none
+  for (const dodge::Event& event : window_) {
+    const int cell = event.y / kCellPx * columns + event.x / kCellPx;
+    pairs += counts[static_cast<std::size_t>(cell)]++ / (kCellPx * kCellPx);
+  }
   return pairs;
 }
 
@@ -148,7 +165,7 @@ bool RateCheck::Reading::surely_better(int windows) const {
 const RateCheck::Reading* RateCheck::best(std::span<const Reading> readings) const {
   const auto found = std::ranges::max_element(readings, {}, &Reading::sum);
   // Rates that hardly turn blur least where the events hardly move, and explain nothing.
-  const bool sharpens = gain_ + found->sum > kLeastGain * windows_;
+  const bool sharpens = gain_ + found->sum > kLeastSharpening * windows_;
   return sharpens && found->surely_better(windows_) ? &*found : nullptr;
 }
 

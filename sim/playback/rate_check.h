@@ -3,8 +3,9 @@
 // Turned back by the right rates, the events of a static scene fall onto few pixels: their contrast
 // is high (Gallego, Rebecq and Scaramuzza, "A unifying contrast maximization framework for event
 // cameras", CVPR 2018). Here contrast is the number of pairs of events of a window that share a
-// pixel. Windows in which the camera turns far enough are turned back by the rates as they are
-// given, by the same rates along other axes, and by those of a little earlier or later.
+// pixel, but at least of those that do by chance. Windows in which the camera turns far enough are
+// turned back by the rates as they are given, by the same rates along other axes, and by those of a
+// little earlier or later.
 #pragma once
 
 #include <Eigen/Dense>
@@ -57,6 +58,7 @@ class RateCheck {
   Eigen::Vector3d turned_until(TimeUs t_us) const;
   Eigen::Vector3d turn(TimeUs shift_us) const;
   double contrast(const Eigen::Vector3d& turn_B);
+  double pairs_by_chance() const;
   void end_window_if_due();
   void look_at_window();
   const Reading* best(std::span<const Reading> readings) const;
@@ -74,7 +76,8 @@ class RateCheck {
   TimeUs first_us_ = 0, rest_until_us_ = 0;
   bool started_ = false;
   int windows_ = 0;
-  double gain_ = 0;  // sum of ln(contrast with the rates as given / without any)
+  double by_chance_ = 1;  // pairs, of the window
+  double gain_ = 0;       // sum of ln(contrast with the rates as given / without any)
 
   dodge::EgoMotion ego_motion_;
   std::vector<float> u_, v_;

@@ -80,8 +80,10 @@ Eigen::Vector3d read(const std::optional<VectorColumns>& columns) {
 
 Eigen::Quaterniond rotation(const TextColumns& file, double w, const Eigen::Vector3d& xyz) {
   Eigen::Quaterniond q(w, xyz.x(), xyz.y(), xyz.z());
-  constexpr double kRoundingOfText = 0.01;
-  if (std::abs(q.norm() - 1) < kRoundingOfText) return q;
+  constexpr double kRoundingOfText = 0.01, kExact = 1e-12;
+  const double error = std::abs(q.norm() - 1);
+  if (error < kExact) return q;  // to the last bit
+  if (error < kRoundingOfText) return q.normalized();
   throw ScenarioError(file.place() + ": qw, qx, qy, qz have the length " + to_text(q.norm()) +
                       ", but must be a unit quaternion.");
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "sim/campaign/result_files.h"
 #include "sim/config/camera_calibration.h"
 #include "sim/config/pilot.h"
+#include "sim/config/stereo_pair.h"
 #include "sim/files/mp4_file.h"
 #include "sim/files/text_table.h"
 #include "sim/observers/stage_panels.h"
@@ -44,13 +46,15 @@ CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {mode
   Other keys are passed over. Size and lens may have the keys of ROS's and OpenCV's calibrators
   (plumb_bob).
   Or Kalibr's camchain.yaml or DSEC's cam_to_cam.yaml (pinhole, radtan): the first camera in it
-  or, with FILE.yaml:cam1, cam1. It looks forward, and the body's origin is the IMU of T_cam_imu;
-  timeshift_cam_imu is taken from the IMU's instants.
-  Two cameras must be rectified: one size, one set of intrinsics, the second straight below the
-  first. Calibrations stand behind the events.
+  or, with FILE.yaml:cam1, cam1. It looks forward, and the body's origin is the IMU of T_cam_imu
+  (or T_imu_cam), its axes are the camera's forward, left and up; timeshift_cam_imu is taken from
+  the IMU's instants.
+  Two cameras, the second below the first, are rectified by their calibrations (their images must
+  be of one size); in a chain by T_cam_imu or T_cn_cnm1. Calibrations stand behind the events.
 IMU.csv: t_us, wx, wy, wz [rad/s]. STATE.csv: t_us, x, y, z, qw, qx, qy, qz (body to world), vx, vy,
   vz [m, m/s]. RANGE.csv: t_us, range_m. A line with these names first; other columns are passed
-  over, as are empty lines and those that begin with #. All t_us are of the clock of the events.
+  over, as are empty lines and those that begin with #. All t_us are of the clock of the events, and
+  not negative.
 Without IMU.csv the camera turns as STATE.csv says or, without that, not at all. Without STATE.csv
 the vehicle turns as its IMU says and stays in its place. With one camera, depth comes from a known
 size (dodger.position.known_size_m).
@@ -112,7 +116,20 @@ Scenario load(const DetectArguments& arguments) {
   return scenario;
 }
 
-std::vector<CameraCalibration> load_calibrations(const DetectArguments& arguments) {
+// Rectified, for stereo, if they are not.
+std::vector<CameraCalibration> as_pair(const CameraCalibration& upper,
+                                       const CameraCalibration& lower) {
+  constexpr double kDeg = 180 / std::numbers::pi;
+  const StereoPair pair = rectified(upper, lower);
+  if (pair.upper.camera.lens) {
+    std::printf(
+        "The cameras are rectified by their calibrations: turned by %.2f and %.2f degrees.\n",
+        kDeg * pair.upper_turn_rad, kDeg * pair.lower_turn_rad);
+  }
+  return {pair.upper, pair.lower};
+}
+
+std::vector<CameraCalibration> load_calibrations(const DetectArguments& arguments, bool stereo) {
   if (arguments.calibrations.size() != arguments.events.size()) {
     throw ScenarioError(
         "Given are " + count_text(static_cast<std::int64_t>(arguments.events.size()), "file") +
@@ -128,6 +145,7 @@ std::vector<CameraCalibration> load_calibrations(const DetectArguments& argument
     std::printf("%s: %s is taken; FILE:%s would be another.\n", file.c_str(), read.name.c_str(),
                 read.passed_over.front().c_str());
   }
+  if (calibrations.size() == 2 && stereo) return as_pair(calibrations[0], calibrations[1]);
   return calibrations;
 }
 
@@ -186,7 +204,8 @@ RecordedSensors load_sensors(const DetectArguments& arguments,
     }
     warn_of_degrees(sensors.imu);
     if (calibrations.front().imu_axes_assumed) {
-      std::printf("The IMU's axes are taken for the camera's (imu_axes).\n");
+      std::printf("The IMU's axes are taken for the camera's (%s).\n",
+                  calibrations.front().name.empty() ? "imu_axes" : "there is no T_cam_imu");
     }
   } else {
     for (const StateReading& state : sensors.states) sensors.imu.push_back({state.t_us, state.w_B});
@@ -201,7 +220,23 @@ struct CheckedRates {
   const char* log;
   const char* axes;  // as report_rates() names them
   RateCheck check;
+  std::optional<RateCheck> in_degrees;  // the rates, taken for degrees a second
+
+  void add(std::span<const Event> events) {
+    check.add(events);
+    if (in_degrees) in_degrees->add(events);
+  }
+  void report() const {
+    if (!in_degrees || !report_degrees(log, in_degrees->fit())) {
+      report_rates(log, axes, check.fit());
+    }
+  }
 };
+
+std::vector<ImuReading> taken_for_degrees(std::vector<ImuReading> rates) {
+  for (ImuReading& rate : rates) rate.w_B_radps *= std::numbers::pi / 180;
+  return rates;
+}
 
 std::vector<CheckedRates> rates_to_check(const DetectArguments& arguments,
                                          const CameraCalibration& calibration,
@@ -209,13 +244,19 @@ std::vector<CheckedRates> rates_to_check(const DetectArguments& arguments,
   std::vector<CheckedRates> rates;
   if (!arguments.imu.empty()) {
     const char* const axes = calibration.name.empty() ? "imu_axes" : "its axes";  // in a chain
-    rates.push_back({"IMU", axes, {calibration.camera, sensors.imu, calibration.R_BG}});
+    rates.push_back(
+        {"IMU",
+         axes,
+         {calibration.camera, sensors.imu, calibration.R_BG},
+         RateCheck(calibration.camera, taken_for_degrees(sensors.imu), calibration.R_BG)});
   }
   if (!arguments.state.empty()) {
     std::vector<ImuReading> turning;
     for (const StateReading& state : sensors.states) turning.push_back({state.t_us, state.w_B});
-    rates.push_back(
-        {"State", "its body's axes", {calibration.camera, turning, Eigen::Matrix3d::Identity()}});
+    rates.push_back({"State",
+                     "its body's axes",
+                     {calibration.camera, turning, Eigen::Matrix3d::Identity()},
+                     {}});
   }
   return rates;
 }
@@ -262,11 +303,14 @@ void detect(const DetectArguments& arguments) {
   watch_stop_signals();
   expect_no_campaign(arguments.out);
   const Scenario scenario = load(arguments);
-  const std::vector<CameraCalibration> calibrations = load_calibrations(arguments);
+  const std::vector<CameraCalibration> calibrations =
+      load_calibrations(arguments, scenario.dodger.position.depth == "stereo");
   const dodge::Config config = pilot_config(scenario, calibrations);
   RecordedSensors sensors = load_sensors(arguments, calibrations);
-  const Coverage logs[] = {
-      {"IMU", sensors.imu}, {"State", sensors.states}, {"Range", sensors.ranges}};
+  std::vector<Coverage> logs;
+  if (!arguments.imu.empty()) logs.emplace_back("IMU", sensors.imu);
+  logs.emplace_back("State", sensors.states);
+  logs.emplace_back("Range", sensors.ranges);
   std::vector<CheckedRates> rates = rates_to_check(arguments, calibrations.front(), sensors);
   Playback playback(scenario.delays, make_pilot(scenario, config), std::move(sensors));
   auto* dodger = dynamic_cast<dodge::Dodger*>(&playback.pilot());
@@ -279,7 +323,7 @@ void detect(const DetectArguments& arguments) {
     progress.show(playback);
     if (asked_to_stop()) throw std::runtime_error("Stopped; nothing is written.");
     sums.add(files.add(playback.now_us(), playback.pilot(), playback.command()), playback);
-    for (CheckedRates& checked : rates) checked.check.add(playback.new_events(0));
+    for (CheckedRates& checked : rates) checked.add(playback.new_events(0));
     if (dodger != nullptr) order.add(dodger->clusters(0), dodger->clusters(1));
     if (video) video->add(*dodger, playback.now_us());
   }
@@ -290,9 +334,7 @@ void detect(const DetectArguments& arguments) {
   for (const Coverage& log : logs) {
     log.report(playback.first_event_us(), playback.last_event_us());
   }
-  for (const CheckedRates& checked : rates) {
-    report_rates(checked.log, checked.axes, checked.check.fit());
-  }
+  for (const CheckedRates& checked : rates) checked.report();
   report_order(order);
   std::printf("%s: cycles.csv, clusters.csv, detections.csv, obstacles.csv\n",
               arguments.out.c_str());

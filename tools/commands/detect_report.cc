@@ -38,6 +38,17 @@ void report_events(const Playback& playback, int cameras) {
   }
 }
 
+void report_clocks_of_cameras(const Playback& playback) {
+  if (playback.events(0) == 0 || playback.events(1) == 0) return;
+  const TimeUs begin_us = std::max(playback.first_event_us(0), playback.first_event_us(1));
+  const TimeUs end_us = std::min(playback.last_event_us(0), playback.last_event_us(1));
+  const TimeUs shorter_us = std::min(playback.last_event_us(0) - playback.first_event_us(0),
+                                     playback.last_event_us(1) - playback.first_event_us(1));
+  if (2 * (end_us - begin_us) >= shorter_us) return;
+  std::printf("Both cameras see something in %.3f s only: have their events one clock?\n",
+              seconds(std::max<TimeUs>(end_us - begin_us, 0)));
+}
+
 }  // namespace
 
 PlaybackProgress::PlaybackProgress(const std::vector<std::string>& files)
@@ -64,9 +75,11 @@ void Coverage::report(TimeUs begin_us, TimeUs end_us) const {
       longest_gap_us = std::max(longest_gap_us, to_us - from_us);
     }
   }
-  std::printf("%s: %zu readings, covers %.3f of %.3f s, longest gap %.1f ms\n", name_,
+  const bool little = 10 * covered_us < end_us - begin_us;
+  std::printf("%s: %zu readings, covers %.3f of %.3f s, longest gap %.1f ms%s\n", name_,
               stamps_us_.size(), seconds(std::max<TimeUs>(covered_us, 0)),
-              seconds(end_us - begin_us), 1e-3 * static_cast<double>(longest_gap_us));
+              seconds(end_us - begin_us), 1e-3 * static_cast<double>(longest_gap_us),
+              little ? ": are all times in microseconds, of one clock?" : "");
 }
 
 void report_rates(const char* log, const char* axes, const RateCheck::Fit& fit) {
@@ -90,6 +103,17 @@ void report_rates(const char* log, const char* axes, const RateCheck::Fit& fit) 
     std::printf("%s: with its instants moved by %+g ms they would be %.2f times as sharp\n", log,
                 1e-3 * static_cast<double>(fit.shift_us), fit.with_shift);
   }
+}
+
+bool report_degrees(const char* log, const RateCheck::Fit& fit) {
+  // Of rates in radians a 57th hardly ever turns far enough to be looked at.
+  constexpr double kSurelySharper = 1.5;
+  if (fit.windows < RateCheck::kFewestWindows || fit.given < kSurelySharper) return false;
+  std::printf(
+      "%s: turned back by its rates as if they were degrees a second, events are %.2f times as "
+      "sharp as they are (%s): t_us, wx, wy, wz are to be in rad/s\n",
+      log, fit.given, count_text(fit.windows, "window").c_str());
+  return true;
 }
 
 void report_order(const CameraOrder& order) {
@@ -117,6 +141,7 @@ void Sums::add(int clusters, const Playback& playback) {
 
 void Sums::report(const Playback& playback, int cameras, TimeUs period_us) const {
   report_events(playback, cameras);
+  if (cameras == 2) report_clocks_of_cameras(playback);
   std::printf("%.3f s, %s: something moves in %lld, is measured in %lld (%s), is evaded in %lld\n",
               seconds(playback.last_event_us() - playback.first_event_us()),
               count_text(cycles_, "cycle").c_str(), with_clusters_, with_detections_,

@@ -47,6 +47,10 @@ void report_rates(const char* log, const char* axes, const RateCheck::Fit& fit);
 // Says so if the events of the first camera seem to be those of the lower one.
 void report_order(const CameraOrder& order);
 
+// Of rates that were taken for degrees a second: whether they make the events so much sharper that
+// they must be; then it says so.
+bool report_degrees(const char* log, const RateCheck::Fit& fit);
+
 // What the cycles found, in sum.
 class Sums {
  public:

@@ -129,7 +129,8 @@ TEST_F(Calibration, OfRosIsRead) {
               HasSubstr("distortion_model is \"equidistant\", but must be plumb_bob"));
   EXPECT_THAT(refused("image_height", "height"), HasSubstr("image_height is missing"));
   EXPECT_THAT(refused("250.1, ", ""), HasSubstr("camera_matrix.data must be the nine numbers"));
-  EXPECT_THAT(refused(", -0.03]", ", 0, 0, 0, 0]"), HasSubstr("four or five"));
+  EXPECT_THAT(refused(", -0.03]", ", 0, 0, 0, 0]"),
+              HasSubstr("distortion_coefficients.data must be the four or five numbers"));
 }
 
 TEST_F(Calibration, OfOpenCvIsRead) {

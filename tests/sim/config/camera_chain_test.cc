@@ -128,6 +128,11 @@ TEST_F(CameraChain, SaysWhatIsMissingOrWrong) {
   EXPECT_THAT(refusal("[0.0, -1.0, 0.0, 0.01]", "[0.0, 1.0, 0.0, 0.01]"),
               HasSubstr("cam0.T_cam_imu must be four rows"));
   EXPECT_THAT(refusal("[0.0, -1.0, 0.0, 0.01]", "[0.0, -1.0, x]"), HasSubstr("T_cam_imu must be"));
+  EXPECT_THAT(refusal("  rostopic", "  imu_axes: forward left up\n  rostopic"),
+              HasSubstr("imu_axes has no effect in a chain"));
+  EXPECT_THAT(
+      complaint<ScenarioError>([&] { load(std::string("imu_axes: forward left up\n") + kChain); }),
+      HasSubstr("chain.yaml:1:1: imu_axes has no effect in a chain"));
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ class Witness : public dodge::Pilot {
     std::vector<std::pair<TimeUs, TimeUs>> imu, states, ranges;
     std::vector<dodge::StateEstimate> estimates;
     std::vector<TimeUs> cycles;
+    std::vector<Eigen::Vector3d> goals;  // of each cycle
   };
 
   explicit Witness(Arrivals& seen) : seen_(seen) {}
@@ -53,9 +54,10 @@ class Witness : public dodge::Pilot {
     seen_.estimates.push_back(state);
   }
   void add_range(const dodge::RangeReading& r) override { new_.ranges.emplace_back(r.t_us, 0); }
-  void set_goal(const dodge::Goal& /*goal*/) override {}
+  void set_goal(const dodge::Goal& goal) override { goal_ = goal.p_WG; }
   dodge::VelocityCommand update(TimeUs now_us) override {
     seen_.cycles.push_back(now_us);
+    seen_.goals.push_back(goal_);
     for (auto& [camera, events] : new_.events) move(events, seen_.events[camera], now_us);
     move(new_.imu, seen_.imu, now_us);
     move(new_.states, seen_.states, now_us);
@@ -74,6 +76,7 @@ class Witness : public dodge::Pilot {
 
   Arrivals& seen_;
   Arrivals new_;
+  Eigen::Vector3d goal_ = Eigen::Vector3d::Constant(std::nan(""));
 };
 
 // Hands out the same event without end.
@@ -170,6 +173,25 @@ TEST(Playback, HandsOverEverythingAsLateAsInFlight) {
   expect_prompt(seen.imu, delays.imu_us, seen.cycles);
   expect_prompt(seen.states, delays.state_estimate_us, seen.cycles);
   expect_prompt(seen.ranges, delays.range_us, seen.cycles);
+}
+
+TEST(Playback, ThePilotIsToStayWhereItIs) {
+  RecordedSensors sensors = sensors_of({random_events(kEpochUs, 1000, 1)});
+  sensors.states =
+      every<StateReading>(3000, kEpochUs + 7000, 40);  // from the second cycle or so on
+  for (std::size_t i = 0; i < sensors.states.size(); ++i) {
+    sensors.states[i].p_W = Eigen::Vector3d(1 + static_cast<double>(i), 2, 3);
+  }
+  const std::vector<StateReading> states = sensors.states;
+  const Witness::Arrivals seen = play({}, std::move(sensors));
+  ASSERT_GT(seen.cycles.size(), 10u);
+  std::size_t newest = 0;
+  for (std::size_t i = 0; i < seen.cycles.size(); ++i) {
+    while (newest + 1 < states.size() && states[newest + 1].t_us <= seen.cycles[i]) ++newest;
+    EXPECT_EQ(seen.goals[i], states[newest].p_W);
+  }
+  const Witness::Arrivals blind = play({}, sensors_of({random_events(kEpochUs, 1000, 1)}));
+  EXPECT_TRUE(blind.goals.front().isZero());
 }
 
 TEST(Playback, PutsEventsThatStandALittleTooLateInTheFileInOrder) {

@@ -173,6 +173,18 @@ TEST(RateCheck, IsNotDeceivedByRatesThatAreFarTooFast) {
   EXPECT_LT(fit(fast, axes, axes).given, 0.5);
 }
 
+// In so short a time hardly a pixel has two events, and whatever scatters them has some share one.
+TEST(RateCheck, DoesNotTakeScatteredEventsForSharpOnes) {
+  const Eigen::Matrix3d axes = *axes_named("forward left up");
+  Film slow = film({0.3, 0.2, 0.25});
+  for (ImuReading& rate : slow.rates) rate.w_B_radps *= 57.3;
+  const RateCheck::Fit fitted = fit(slow, axes, axes);
+  EXPECT_GT(fitted.windows, 10);
+  EXPECT_LT(fitted.given, 1.3);
+  EXPECT_EQ(fitted.axes, "");
+  EXPECT_EQ(fitted.shift_us, 0);
+}
+
 // A long recording is looked at until its end, and not ten times as often as one of a tenth.
 TEST(RateCheck, LooksTheLessOftenTheLongerItLasts) {
   const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();

@@ -138,5 +138,13 @@ TEST_F(SensorLog, RefusesWhatCannotBeWithItsLine) {
               HasSubstr("must be a unit quaternion"));
 }
 
+// The pilot takes none but unit ones.
+TEST_F(SensorLog, MakesRoundedQuaternionsUnitOnes) {
+  const auto states =
+      read_state_log(file("t_us,x,y,z,qw,qx,qy,qz,vx,vy,vz\n1,0,0,0,0.71,0,0.71,0,0,0,0\n"));
+  EXPECT_NEAR(states.front().q_W.norm(), 1, 1e-15);
+  EXPECT_NEAR(states.front().q_W.w(), std::sqrt(0.5), 1e-15);
+}
+
 }  // namespace
 }  // namespace dodgesim
