@@ -146,7 +146,7 @@ std::optional<Meeting> EscapePlanner::meeting(TimeUs now_us, const VehicleMotion
   const Fall fall(obstacle, now_us);
   int nearest = 0;
   double nearest_m2 = kInfinity;
-  const int steps = static_cast<int>(config_.horizon_s / kStepS);
+  const int steps = static_cast<int>(std::lround(config_.horizon_s / kStepS));
   for (int i = 0; i <= steps; ++i) {
     const double t_s = i * kStepS;
     const double m2 = (fall.position(t_s) - course.position(t_s)).squaredNorm();

@@ -42,9 +42,10 @@ class EventWindow {
   }
 
   // Takes the events that have arrived into the window, in ascending time: one that is older than
-  // one before it, or later than latest_us, is dropped. A wrong time stamp costs its own event or,
-  // if it lies ahead but not beyond latest_us, the events up to it. When events of the window are
-  // later than latest_us, because the clock was set back, it begins anew.
+  // one that the window still holds or that arrived before it, or later than latest_us, is dropped.
+  // A wrong time stamp costs its own event or, if it lies ahead but not beyond latest_us, the
+  // events up to it. When events of the window are later than latest_us, because the clock was set
+  // back, it begins anew.
   void take(TimeUs latest_us);
 
   // Forgets all events of the window up to and including t_us.

@@ -47,10 +47,11 @@ std::string to_text(double value) {
   const std::string text(shortest.data(), a.ptr);
   const auto b =
       std::to_chars(fixed.data(), fixed.data() + fixed.size(), value, std::chars_format::fixed);
+  if (b.ec != std::errc()) return text;
   const std::string plain(fixed.data(), b.ptr);
   // 100000 rather than 1e+05, but 1e-12.
   constexpr std::size_t kWorthReading = 3;
-  return b.ec == std::errc() && plain.size() <= text.size() + kWorthReading ? plain : text;
+  return plain.size() <= text.size() + kWorthReading ? plain : text;
 }
 
 NumberForm number_form(std::string_view text) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 
 #include "sim/base/contains.h"
 #include "sim/base/error.h"
@@ -88,7 +89,10 @@ std::vector<Measurement> measure(const std::vector<BenchCase>& cases, const Benc
     const int runs = options.runs > 0 ? options.runs : bench.runs;
     for (int i = 0; i < runs; ++i) {
       const std::vector<double> values = run();
-      for (std::size_t q = 0; q < measured.size(); ++q) measured[q].runs.push_back(values.at(q));
+      if (values.size() != measured.size()) {
+        throw std::logic_error("A benchmark measures what it does not name, or not all.");
+      }
+      for (std::size_t q = 0; q < measured.size(); ++q) measured[q].runs.push_back(values[q]);
     }
     for (const Measurement& measurement : measured) {
       if (!measurement.quantity.wanted) continue;

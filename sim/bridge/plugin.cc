@@ -74,7 +74,7 @@ PilotFunction* loaded(const Plugin& plugin) {
 
 // So that the library may be compiled anew while a campaign flies what it was.
 int copy_in_memory(const std::string& bytes, const std::string& file) {
-  const int copy = ::memfd_create("plugin", 0);
+  const int copy = ::memfd_create("plugin", MFD_CLOEXEC);
   if (copy >= 0 && write_all(copy, bytes)) return copy;
   throw IoError("The plug-in " + file + " could not be copied: " + std::strerror(errno) + ".");
 }

@@ -6,6 +6,7 @@
 #include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/files/csv.h"
+#include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 #include "sim/files/staged_file.h"
 #include "sim/outcome/blank_result.h"
@@ -78,13 +79,7 @@ fs::path any_result_file(const fs::path& out) {
 }
 
 void remove_result_files(const fs::path& out) {
-  std::error_code error;
-  for (const char* name : kResultFiles) {
-    fs::remove(out / name, error);
-    if (error) {
-      throw IoError((out / name).string() + " could not be removed: " + error.message() + ".");
-    }
-  }
+  for (const char* name : kResultFiles) remove_file(out / name);
 }
 
 bool holds_campaign(const fs::path& directory) {

@@ -51,7 +51,7 @@ struct Ramp {
 double time_constants_us(const EventCameraSpec& spec, double lux) {
   double sum_s = 0;
   if (spec.photoreceptor_hz > 0) {
-    sum_s += 1 / (spec.photoreceptor_dark_hz + spec.photoreceptor_hz * lux / 1000);
+    sum_s += 1 / (spec.photoreceptor_dark_hz + spec.photoreceptor_hz * lux / kBrightLux);
   }
   if (spec.follower_hz > 0) sum_s += 1 / spec.follower_hz;
   return 1e6 * sum_s / (2 * std::numbers::pi);
@@ -60,7 +60,8 @@ double time_constants_us(const EventCameraSpec& spec, double lux) {
 Ramp ramp_for(const EventCameraSpec& spec) {
   double from_lux = kFromLux;
   if (spec.photoreceptor_hz > 0) {
-    from_lux = std::clamp(1000 * kFastHz / spec.photoreceptor_hz, kFromLux, kBrightestFromLux);
+    from_lux =
+        std::clamp(kBrightLux * kFastHz / spec.photoreceptor_hz, kFromLux, kBrightestFromLux);
   }
   const double threshold = spec.contrast_threshold_on;
   Ramp ramp;

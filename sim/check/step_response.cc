@@ -71,7 +71,7 @@ std::vector<double> expected_latencies_us(const EventCameraSpec& spec, const Lig
   const double a =
       spec.photoreceptor_hz > 0
           ? 2 * std::numbers::pi *
-                (spec.photoreceptor_dark_hz + spec.photoreceptor_hz * step.after_lux / 1000)
+                (spec.photoreceptor_dark_hz + spec.photoreceptor_hz * step.after_lux / kBrightLux)
           : 0;
   const double b = 2 * std::numbers::pi * spec.follower_hz;
   const double height = height_of(step, spec);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/base/contains.h"
+#include "sim/config/dotted_keys.h"
 #include "sim/config/pilot.h"
 
 namespace dodgesim {
@@ -66,9 +67,7 @@ void check_varied_preset(const Preset& preset, const std::string& own, const Sce
       axis.values, [&](const YamlNode& value) { return !preset.same(value.text, own); });
   if (other == axis.values.end() || gives_all_keys(preset, context)) return;
   for (const auto& [key, at] : context.where) {
-    const auto below = context.where.lower_bound(key + ".");
-    const bool is_group = below != context.where.end() && below->first.starts_with(key + ".");
-    if (!preset.has(key) || is_group || varies(scenario, key)) continue;
+    if (!preset.has(key) || is_group(context.where, key) || varies(scenario, key)) continue;
     context.problems.add(at, key + " is given, but " + preset.key + " " + other->text +
                                  " brings its own; to hold for all values of " + preset.key +
                                  " it must stand in the sweep, too, as a list of one value.");

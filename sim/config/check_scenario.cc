@@ -144,11 +144,22 @@ void check_height_monitor(const Scenario& scenario, ReadContext& context) {
                           "dodger.height_monitor.enabled: false.");
 }
 
-// Our own pilots look at the events of a window that ends at most the timeout before now.
+// Our own pilots look at the events of a window that ends at most the timeout before now, and with
+// two cameras at most the lag before the newest event of any.
 void check_transport(const Scenario& scenario, ReadContext& context) {
   const dodge::WindowConfig& window = scenario.dodger.window;
-  const std::int64_t oldest_us = window.window_us + window.event_timeout_us;
   if (!perceives(scenario.pilot) || scenario.pilot == kPluginPilot) return;
+  const std::int64_t lag_us = window.window_us + window.camera_lag_us;
+  if (scenario.dodger.position.depth == "stereo" && scenario.delays.lower_camera_us >= lag_us) {
+    context.add_problem(
+        "delays.lower_camera_us",
+        "delays.lower_camera_us is " + std::to_string(scenario.delays.lower_camera_us) +
+            ", but must be less than dodger.window.window_us and camera_lag_us together, which "
+            "are " +
+            std::to_string(lag_us) +
+            ": the pilot would never see with both cameras at once; raise the lag.");
+  }
+  const std::int64_t oldest_us = window.window_us + window.event_timeout_us;
   if (scenario.delays.transport_us < oldest_us) return;
   context.add_problem(
       "delays.transport_us",

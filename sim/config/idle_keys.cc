@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sim/base/joined.h"
+#include "sim/config/dotted_keys.h"
 #include "sim/config/expand.h"
 #include "sim/config/pilot.h"
 
@@ -60,10 +61,8 @@ const IdleRule kRules[] = {
 std::vector<std::string> given(const IdleRule& rule, const Scenario& scenario) {
   std::vector<std::string> keys;
   for (const auto& [key, place] : scenario.places) {
-    const auto below = scenario.places.lower_bound(key + ".");
-    const bool is_group = below != scenario.places.end() && below->first.starts_with(key + ".");
     const bool ruled = key == rule.key || key.starts_with(rule.key + ".");
-    if (ruled && !is_group && key != rule.except) keys.push_back(key);
+    if (ruled && !is_group(scenario.places, key) && key != rule.except) keys.push_back(key);
   }
   return keys;
 }

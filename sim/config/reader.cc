@@ -76,6 +76,7 @@ std::optional<Number> parse_number(const std::string& text) {
 const YamlNode* Reader::take(const char* key) {
   known_.emplace_back(key);
   const YamlNode* node = map_.find(key);
+  if (node != nullptr && node->taken_away) return nullptr;
   if (node != nullptr) context_.where[full(key)] = node->at;
   return node;
 }

@@ -9,6 +9,20 @@
 
 namespace dodgesim {
 
+namespace {
+
+// A word alone is rather meant as one of throw's.
+std::string closest_varied(const std::string& word, const std::vector<std::string>& keys) {
+  std::vector<std::string> of_throw;
+  for (const std::string& key : keys) {
+    if (key.starts_with("throw.")) of_throw.push_back(key);
+  }
+  const std::string near = closest_key(word, of_throw);
+  return near.empty() ? closest_key(word, keys) : near;
+}
+
+}  // namespace
+
 bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const VariedKeys& before,
                          VariedKey& axis) {
   const std::vector<std::string>& keys = context_.variable_keys;
@@ -23,7 +37,7 @@ bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const V
   };
   if (axis.key.empty()) {
     return refuse_key(name + " is not a key that can take several values" +
-                      did_you_mean(closest_key(key.name, keys)));
+                      did_you_mean(closest_varied(key.name, keys)));
   }
   for (const VariedKey& other : before) {
     if (other.key == axis.key) return refuse_key(name + " is given twice.");

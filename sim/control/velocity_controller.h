@@ -91,7 +91,8 @@ struct ControllerSpec {
     v("max_tilt_deg", max_tilt_deg, 1, 85,
       "Limit of the commanded tilt; 75 deg still allows the lateral 33 m/s^2 that "
       "max_thrust_fraction leaves while keeping height.");
-    v("min_thrust_mps2", min_thrust_mps2, 0, 9, "Least collective thrust (rpg_quadrotor_control).");
+    v("min_thrust_mps2", min_thrust_mps2, 0.1, 9,
+      "Least collective thrust (rpg_quadrotor_control).");
     v("max_thrust_fraction", max_thrust_fraction, 0.3, 1,
       "Share of the four rotors' greatest thrust that may be commanded; the rest is left to turn "
       "the vehicle.");

@@ -52,7 +52,7 @@ void EventCamera::check_time(TimeUs t_us) const {
     throw std::invalid_argument("The samples of an event camera must follow each other in time.");
   }
   if (t_us - t_us_ > kMaxIntervalUs) {
-    throw std::invalid_argument("The pictures of an event camera must be less than " +
+    throw std::invalid_argument("The pictures of an event camera must be at most " +
                                 std::to_string(kMaxIntervalUs) + " us apart.");
   }
 }

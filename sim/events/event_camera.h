@@ -34,7 +34,8 @@ class EventCamera {
   EventCamera(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
               std::uint64_t throw_index, std::string_view name, bool keep_causes = false);
 
-  // The first picture, of the instant t_us: sets every reference to its signal.
+  // The first picture, of the instant t_us: sets every reference to its signal or, with
+  // a leak, as after a long rest.
   // Pictures: width x height, row-major from the top left, linear luminance, finite and >= 0.
   void reset(TimeUs t_us, const Picture& picture);
   void reset(TimeUs t_us, const float* luminance) { reset(t_us, Picture{luminance}); }

@@ -17,6 +17,12 @@ std::filesystem::path make_directory(const std::filesystem::path& directory) {
                 ".");
 }
 
+void remove_file(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::remove(file, error);
+  if (error) throw IoError(file.string() + " could not be removed: " + error.message() + ".");
+}
+
 NewDirectory::NewDirectory(const std::filesystem::path& directory) {
   std::error_code ignored;
   for (std::filesystem::path path = directory;

@@ -10,7 +10,11 @@ namespace dodgesim {
 // and the reason.
 std::filesystem::path make_directory(const std::filesystem::path& directory);
 
-// The same; what it has made, but for what holds files by then, is removed again at its end.
+// Removes the file, if it is there. Throws IoError with its name and the reason.
+void remove_file(const std::filesystem::path& file);
+
+// Makes a directory like make_directory(); what it has made, but for what holds files by then, is
+// removed again at its end.
 class NewDirectory {
  public:
   explicit NewDirectory(const std::filesystem::path& directory);

@@ -6,6 +6,7 @@
 #include "dodge/dodger.h"
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
+#include "sim/base/gravity.h"
 #include "sim/config/pilot.h"
 #include "sim/flight/setup.h"
 #include "sim/world/ray.h"

@@ -20,7 +20,6 @@
 #include "sim/flight/plan.h"
 #include "sim/motors/motors.h"
 #include "sim/outcome/collision_cause.h"
-#include "sim/outcome/result.h"
 #include "sim/sensors/imu.h"
 #include "sim/sensors/range_sensor.h"
 #include "sim/sensors/state_estimator.h"

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "sim/gate/outcomes.h"
-#include "sim/statistics/interval.h"
 #include "sim/statistics/paired.h"
 #include "sim/statistics/unpaired.h"
 

@@ -22,7 +22,7 @@ class EventRecorder : public FlightObserver {
     writer_->add(packet.events, packet.causes);
     count_ += packet.events.size();
   }
-  void finish() { writer_->finish(); }
+  void commit() { writer_->commit(); }
   std::size_t count() const { return count_; }
 
  private:

@@ -1,6 +1,5 @@
 #include "sim/observers/mcap_recorder.h"
 
-#include <array>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 
+#include "sim/base/error.h"
 #include "sim/base/formatted.h"
 #include "sim/files/directory.h"
 #include "sim/files/output_file.h"
@@ -91,11 +92,13 @@ cv::Mat3b stage_picture(const dodge::Dodger& pilot, TimeUs t_us) {
 StageFilm::StageFilm(std::string directory) : directory_(std::move(directory)) {
   make_directory(directory_);
   std::vector<std::filesystem::path> earlier;
-  for (const auto& entry : std::filesystem::directory_iterator(directory_)) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(directory_, error)) {
     const std::string name = entry.path().filename().string();
     if (name.starts_with("stages_") && name.ends_with("_us.png")) earlier.push_back(entry.path());
   }
-  for (const std::filesystem::path& file : earlier) std::filesystem::remove(file);
+  if (error) throw IoError(directory_ + " could not be read: " + error.message() + ".");
+  for (const std::filesystem::path& file : earlier) remove_file(file);
 }
 
 void StageFilm::on_tick(const World& world) { object_in_flight_ = world.snapshot().any_launched(); }

@@ -1,6 +1,7 @@
 #include "sim/observers/vehicle_log.h"
 
 #include <array>
+#include <list>
 #include <optional>
 
 #include "sim/config/camera_calibration.h"
@@ -96,18 +97,26 @@ void VehicleLog::write_truth() {
   truth_.write(line.row());
 }
 
+// What the disk has no place for is known before a file of an earlier recording gives way.
 void VehicleLog::finish() {
-  for (std::size_t i = 0; i < kCameraNames.size(); ++i) {
-    const std::string path = (directory_ / kCameraNames[i]).string();
-    if (i < cameras_.size()) {
-      cameras_[i]->finish();
-      write_file(path + ".yaml", calibrations_[i]);
-    } else {  // an earlier recording had it
-      for (const char* end : {".h5", ".yaml"}) std::filesystem::remove(path + end);
+  std::list<OutputFile> texts;
+  texts.emplace_back(directory_ / "scenario.yaml").write(to_yaml(scenario_));
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    texts.emplace_back(directory_ / (std::string(kCameraNames.at(i)) + ".yaml"))
+        .write(calibrations_[i]);
+  }
+  std::vector<OutputFile*> files = {&imu_, &states_, &ranges_, &truth_};
+  for (OutputFile& text : texts) files.push_back(&text);
+  for (const auto& camera : cameras_) camera->finish();
+  for (OutputFile* file : files) file->finish();
+
+  for (const auto& camera : cameras_) camera->commit();
+  for (OutputFile* file : files) file->commit();
+  for (std::size_t i = cameras_.size(); i < kCameraNames.size(); ++i) {
+    for (const char* end : {".h5", ".yaml"}) {  // of an earlier recording
+      remove_file(directory_ / (std::string(kCameraNames.at(i)) + end));
     }
   }
-  write_file(directory_ / "scenario.yaml", to_yaml(scenario_));
-  for (OutputFile* file : {&imu_, &states_, &ranges_, &truth_}) file->commit();
 }
 
 }  // namespace dodgesim

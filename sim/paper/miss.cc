@@ -1,7 +1,6 @@
 #include "sim/paper/miss.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim/flight/setup.h"
 

@@ -46,7 +46,8 @@ std::string description(const WorldSpec& world) {
   std::ostringstream text;
   text.precision(17);
   text << world.models_dir << '/' << world.room << '/' << world.vehicle << '/'
-       << overrides.mass_scale << '/' << overrides.max_thrust_n << '/' << overrides.inertia_scale;
+       << overrides.mass_scale << '/' << overrides.max_thrust_n << '/' << overrides.inertia_scale
+       << '/' << overrides.stereo_baseline_m;
   for (const ObjectSpec& object : world.objects) text << '/' << object.kind;
   return text.str();
 }

@@ -47,7 +47,8 @@ class TextWriter : public EventWriter {
     }
   }
 
-  void finish() override { file_.commit(); }
+  void finish() override { file_.finish(); }
+  void commit() override { file_.commit(); }
 
  private:
   OutputFile file_;
@@ -79,6 +80,10 @@ class NpyWriter : public EventWriter {
 
   void finish() override {
     file_.rewrite_front(front());
+    file_.finish();
+  }
+  void commit() override {
+    finish();
     file_.commit();
   }
 

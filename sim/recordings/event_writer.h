@@ -46,8 +46,10 @@ class EventWriter {
   virtual void add(std::span<const Event> events, std::span<const Cause> causes) = 0;
   void add(std::span<const Event> events) { add(events, {}); }
 
-  // Completes the file. Without it nothing is left behind.
+  // Flushes everything to the disk; what is left for commit() is to rename the file.
   virtual void finish() = 0;
+  // The file appears. Without it nothing is left behind.
+  virtual void commit() = 0;
 };
 
 // The format follows from the name's end. Throws ScenarioError for any other end, for a recording

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "sim/base/error.h"
@@ -53,6 +54,7 @@ class Hdf5Writer : public EventWriter {
   }
 
   void finish() override {
+    if (file_ < 0) return;
     if (milliseconds_ == 0) put(ms_to_idx_, count_);
     close_column(x_);
     close_column(y_);
@@ -62,7 +64,12 @@ class Hdf5Writer : public EventWriter {
     close_column(ms_to_idx_);
     // Closing a file reports no error when the disk is full: flushing does.
     check(H5Fflush(file_, H5F_SCOPE_GLOBAL));
-    check(H5Fclose(file_));
+    check(H5Fclose(std::exchange(file_, -1)));
+    staged_.sync();
+  }
+
+  void commit() override {
+    finish();
     staged_.commit();
   }
 

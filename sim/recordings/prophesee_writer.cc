@@ -48,7 +48,8 @@ class PropheseeWriter : public EventWriter {
     }
   }
 
-  void finish() override { file_.commit(); }
+  void finish() override { file_.finish(); }
+  void commit() override { file_.commit(); }
 
  private:
   void write(Evt2::Word word) {

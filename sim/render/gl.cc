@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sim/base/error.h"
+#include "sim/base/memory_limit.h"
 
 namespace dodgesim {
 
@@ -14,8 +15,13 @@ void* load_osmesa() {
   // For all: MuJoCo looks for its own functions in what the process has loaded.
   void* library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_GLOBAL);
   if (library) return library;
-  throw SimulationError(std::string("OSMesa cannot be loaded (") + dlerror() +
-                        "): is Mesa's llvmpipe (libosmesa6) installed?");
+  const std::string reason = dlerror();
+  const std::optional<std::int64_t> limit_mb = memory_limit_mb();
+  throw SimulationError(
+      "OSMesa cannot be loaded (" + reason + "): is Mesa's llvmpipe (libosmesa6) installed" +
+      (limit_mb ? ", and is the limit of memory, " + std::to_string(*limit_mb) + " MB, enough"
+                : "") +
+      "?");
 }
 
 }  // namespace

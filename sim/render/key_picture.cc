@@ -60,7 +60,7 @@ KeyPicture::KeyPicture(const Intrinsics& view, const KeySpec& spec)
   wide_ = {view.width + 2 * margin, view.height + 2 * margin, f};
   fine_ = {supersampling_ * wide_.width, supersampling_ * wide_.height, supersampling_ * f};
   means_.resize(area(fine_) +
-                static_cast<std::size_t>(kKeySpareRows) * static_cast<std::size_t>(fine_.width));
+                static_cast<std::size_t>(std::max(kKeySpareRows * fine_.width, kKeySpareMeans)));
   scratch_row_.resize(static_cast<std::size_t>(fine_.width));
   sharp_row_.resize(scratch_row_.size());
   for (auto& row : mean_rows_) row.resize(scratch_row_.size());

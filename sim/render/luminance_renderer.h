@@ -42,7 +42,7 @@ class LuminanceRenderer {
   // (clipped to the image) are written, with the values that a full frame has there, bit for bit.
   // luminance: linear, 1.0 = white under full light.
   // object_id (may be null): what is at the pixel's centre: -1 sky, 0 static, 1 + i thrown object
-  // i. Objects that are not launched are not drawn. Never allocates after the first call.
+  // i. Objects that are not launched are not drawn.
   void render(const Snapshot& snapshot, const Eigen::Isometry3d& X_WC, const Rect& region,
               float* luminance, std::int32_t* object_id);
 

@@ -69,7 +69,7 @@ void ScenePictures::place(int body, const BodyState& state) {
   const ConstMap3 center(model_.body_ipos + 3 * body);
   const Eigen::Vector3d p_W = state.p_W - state.q_W * center;
   std::copy_n(p_W.data(), 3, q);
-  q[3] = state.q_W.w(), q[4] = state.q_W.x(), q[5] = state.q_W.y(), q[6] = state.q_W.z();
+  set_quaternion(q + 3, state.q_W);
 }
 
 // Out of sight of the far clipping plane.

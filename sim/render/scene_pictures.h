@@ -6,7 +6,6 @@
 
 #include <Eigen/Dense>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "sim/base/mujoco.h"

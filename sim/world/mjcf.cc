@@ -82,7 +82,9 @@ std::optional<std::array<std::uint32_t, 2>> png_size(const std::string& path) {
 // What would take MuJoCo and the renderer more memory than any model needs.
 void check_asset(const std::string& path, const std::string& where) {
   std::error_code error;
-  if (std::filesystem::file_size(path, error) > kMaxAssetBytes || error) {
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (error) throw ScenarioError(where + "The file " + path + " cannot be read.");
+  if (bytes > kMaxAssetBytes) {
     throw ScenarioError(where + "The file " + path + " is larger than 32 MB.");
   }
   const auto size = png_size(path);
@@ -214,7 +216,7 @@ std::vector<MjcfTag> read_model_file(const std::string& directory, const std::st
   if (!std::filesystem::is_regular_file(path, error)) {
     throw ScenarioError("The model file " + path + " does not exist.");
   }
-  if (std::filesystem::file_size(path, error) > kMaxModelBytes || error) {
+  if (std::filesystem::file_size(path, error) > kMaxModelBytes && !error) {
     throw ScenarioError("The model file " + path + " is larger than 1 MB.");
   }
   std::ifstream in(path, std::ios::binary);
@@ -258,6 +260,7 @@ void prefix_names(std::vector<MjcfTag>& tags, const std::string& prefix) {
 void scale_body(std::vector<MjcfTag>& tags, double scale, double mass_exponent,
                 const std::string& label) {
   for (MjcfTag& tag : tags) {
+    if (tag.kind == MjcfTag::Kind::kClose) continue;
     if (tag.name == "mesh" && !tag.find("scale")) tag.attributes.emplace_back("scale", "1 1 1");
     const bool is_length_tag = tag.name == "geom" || tag.name == "site" || tag.name == "body" ||
                                tag.name == "camera" || tag.name == "inertial";

@@ -150,10 +150,7 @@ void ModelReader::override_vehicle(mjModel& model, mjData& data,
     const Eigen::Vector3d axis = Eigen::Vector3d(1, -1, -1).cwiseProduct(turn->axis());
     mjtNum* quat = model.cam_quat + 4 * find(mjOBJ_CAMERA, kCameraNames[1]);
     const Eigen::Quaterniond q = quaternion(quat) * Eigen::AngleAxisd(turn->angle(), axis);
-    quat[0] = q.w();
-    quat[1] = q.x();
-    quat[2] = q.y();
-    quat[3] = q.z();
+    set_quaternion(quat, q);
   }
   mj_setConst(&model, &data);  // what MuJoCo derives from these
 }

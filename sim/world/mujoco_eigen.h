@@ -12,6 +12,13 @@ using ConstMap3 = Eigen::Map<const Eigen::Vector3d>;
 
 inline Eigen::Quaterniond quaternion(const mjtNum* q) { return {q[0], q[1], q[2], q[3]}; }
 
+inline void set_quaternion(mjtNum* to, const Eigen::Quaterniond& q) {
+  to[0] = q.w();
+  to[1] = q.x();
+  to[2] = q.y();
+  to[3] = q.z();
+}
+
 inline Eigen::Isometry3d pose(const mjtNum* p, const mjtNum* q) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.linear() = quaternion(q).toRotationMatrix();

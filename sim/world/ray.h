@@ -17,7 +17,8 @@ struct RayHit {
   int geom = -1;        // id in World::model()
 };
 
-// The nearest surface of the geom groups below end_group.
+// The nearest surface of the geom groups below end_group from p_W along direction_W (of any length
+// but zero), if any.
 inline std::optional<RayHit> first_along(const World& world, const Eigen::Vector3d& p_W,
                                          const Eigen::Vector3d& direction_W, int end_group) {
   std::array<mjtByte, mjNGROUP> groups{};
@@ -29,13 +30,7 @@ inline std::optional<RayHit> first_along(const World& world, const Eigen::Vector
   return hit;
 }
 
-// The nearest surface of the room from p_W along direction_W (of any length but zero), if any.
-inline std::optional<RayHit> room_along(const World& world, const Eigen::Vector3d& p_W,
-                                        const Eigen::Vector3d& direction_W) {
-  return first_along(world, p_W, direction_W, kRoomGroup + 1);
-}
-
-// The same of the room or of an object that has been thrown.
+// The nearest surface of the room or of an object that has been thrown.
 inline std::optional<RayHit> surface_along(const World& world, const Eigen::Vector3d& p_W,
                                            const Eigen::Vector3d& direction_W) {
   return first_along(world, p_W, direction_W, kFirstHiddenGroup);

@@ -5,6 +5,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
+#include "sim/base/gravity.h"
 
 namespace dodgesim {
 

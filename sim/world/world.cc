@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/base/error.h"
+#include "sim/base/gravity.h"
 #include "sim/base/rotation.h"
 #include "sim/world/mujoco_eigen.h"
 #include "sim/world/ray.h"
@@ -173,10 +174,7 @@ void World::integrate(const FreeBody& body) {
   mjtNum* q = data_->qpos + body.qpos + 3;
   const Eigen::Quaterniond q_W =
       (quaternion(q) * rotation(0.5 * dt * (w0 + Eigen::Vector3d(w_B)))).normalized();
-  q[0] = q_W.w();
-  q[1] = q_W.x();
-  q[2] = q_W.y();
-  q[3] = q_W.z();
+  set_quaternion(q, q_W);
 }
 
 void World::check_accelerations() const {
@@ -200,11 +198,7 @@ BodyState World::state(const FreeBody& body) const {
 void World::set_state(const FreeBody& body, const BodyState& state) {
   Map3(data_->qpos + body.qpos) = state.p_W;
   const Eigen::Quaterniond q_W = state.q_W.normalized();
-  mjtNum* q = data_->qpos + body.qpos + 3;
-  q[0] = q_W.w();
-  q[1] = q_W.x();
-  q[2] = q_W.y();
-  q[3] = q_W.z();
+  set_quaternion(data_->qpos + body.qpos + 3, q_W);
   Map3(data_->qvel + body.qvel) = state.v_W;
   Map3(data_->qvel + body.qvel + 3) = q_W.conjugate() * state.w_W;
 }

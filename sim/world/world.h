@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/base/gravity.h"
 #include "sim/base/mujoco.h"
 #include "sim/world/compose.h"
 #include "sim/world/contact_bound.h"

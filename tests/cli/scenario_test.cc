@@ -76,6 +76,11 @@ TEST_F(ScenarioCommandTest, WhatOnlyTheModelsRefuseHasAPlaceToo) {
   EXPECT_EQ(weak.exit_code, 2);
   EXPECT_THAT(weak.output, AllOf(::testing::StartsWith("--set vehicle_overrides.max_thrust_n=1: "),
                                  HasSubstr("lift only 0.4")));
+  // One of several worlds.
+  const Outcome near = dodgesim("validate " + path("s.yaml") + " --set pilot=dodgesim --set " +
+                                "'grid={vehicle_overrides.stereo_baseline_m: [0.15, 0.0005]}'");
+  EXPECT_EQ(near.exit_code, 2);
+  EXPECT_THAT(near.output, HasSubstr("Stereo needs two cameras at least 0.001 m apart"));
 }
 
 TEST_F(ScenarioCommandTest, ThrowsThatAreImpossibleAreFoundBeforeTheyAreFlown) {

@@ -155,7 +155,7 @@ TEST_F(MovingRig, AtRestSeesTheBallByItsRegionsAsByWholePictures) {
 TEST_F(MovingRig, SeesABallInFrontOfAWallAndNoneBehindIt) {
   const Eigen::Isometry3d X_WC = world_.snapshot().vehicle.pose() * world_.vehicle().X_BC[0];
   const Vector3d along = X_WC.linear().col(2);
-  const auto wall = room_along(world_, X_WC.translation(), along);
+  const auto wall = first_along(world_, X_WC.translation(), along, kRoomGroup + 1);
   ASSERT_TRUE(wall);
   const auto events_at = [&](double distance_m) {
     ball_.p_W = X_WC.translation() + distance_m * along;

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "sim/base/error.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/sim/files/temporary_directory.h"
 
@@ -48,6 +49,20 @@ TEST(VehicleLog, AppearsWholeOrNotAtAll) {
   const auto mono = files_of(directory);
   EXPECT_EQ(mono.size(), 7u);
   EXPECT_FALSE(mono.contains("bottom.h5"));
+}
+
+TEST(VehicleLog, GivesWayToNoneThatTheDiskHasNoPlaceFor) {
+  const testing::TemporaryDirectory root;
+  const fs::path directory = root / "rec";
+  record(directory, "mono", true);
+  const auto before = files_of(directory);
+  for (const auto& [name, contents] : before) {
+    const fs::path partial = directory / (name + ".partial");
+    fs::create_symlink("/dev/full", partial);
+    EXPECT_THROW(record(directory, "stereo", true), IoError) << name;
+    fs::remove(partial);
+    EXPECT_EQ(files_of(directory), before) << name;
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "tools/commands/campaign_options.h"
 
+#include <algorithm>
 #include <iostream>
 #include <thread>
 

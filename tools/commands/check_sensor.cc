@@ -1,5 +1,4 @@
 // dodgesim check-sensor: self-tests of the event camera.
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>

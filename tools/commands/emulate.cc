@@ -195,7 +195,7 @@ void emulate(const EmulateArguments& arguments) {
   TimedEmulation timed(camera, spec.log_epsilon);
   Emulation emulation(camera, arguments.causes, timed, *writer);
   emulate(video, LightBetween(spec), emulation);
-  writer->finish();
+  writer->commit();
   report(video, camera, emulation.counts(), timed);
 }
 

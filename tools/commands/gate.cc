@@ -13,7 +13,6 @@
 #include <sstream>
 
 #include "sim/base/error.h"
-#include "sim/base/shell.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
 #include "sim/files/csv.h"

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "sim/base/error.h"
@@ -205,7 +204,7 @@ class Onlookers {
     }
     if (picture_) poster_.save(*picture_);
     if (events_) {
-      events_->finish();
+      events_->commit();
       EventTruthSums sums;
       sums.add(truth_.rows());
       std::cout << events_->count() << " events of the " << arguments_.camera
@@ -315,6 +314,22 @@ int replay(const ReplayArguments& arguments) {
   return kBelowBar;
 }
 
+void add_event_options(CLI::App& command, ReplayArguments& arguments) {
+  CLI::Option* events =
+      command
+          .add_option(
+              "--events", arguments.events,
+              "Write a camera's events with their causes (t, x, y, p, cause), as far as they\n"
+              "reach the computer before the flight ends, and print how well the pilot finds\n"
+              "an object's events. Causes: 0 the static scene, moved by ego-motion; 1 + i\n"
+              "object i; 253 leak; 254 shot noise; 255 a hot pixel. In .raw (Prophesee) without")
+          ->type_name("FILE.h5|.npy|.txt|.raw");
+  command.add_option("--camera", arguments.camera, "Whose events: top or bottom")
+      ->check(CLI::IsMember(std::vector<std::string>(kCameraNames.begin(), kCameraNames.end())))
+      ->needs(events)
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_replay_command(CLI::App& program, int& exit_code) {
@@ -347,22 +362,11 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       ->type_name("DIR2");
   command
       ->add_option("--picture", arguments->picture,
-                   "Write one picture: both flight paths and what the pilot first noticed")
+                   "Write one picture: both flight paths and what the pilot first noticed (if "
+                   "nothing, the\nclosest approach)")
       ->check(file_ending(".png"))
       ->type_name("FILE.png");
-  CLI::Option* events =
-      command
-          ->add_option(
-              "--events", arguments->events,
-              "Write a camera's events with their causes (t, x, y, p, cause), as far as they\n"
-              "reach the computer before the flight ends, and print how well the pilot finds\n"
-              "an object's events. Causes: 0 the static scene, moved by ego-motion; 1 + i\n"
-              "object i; 253 leak; 254 shot noise; 255 a hot pixel. In .raw (Prophesee) without")
-          ->type_name("FILE.h5|.npy|.txt|.raw");
-  command->add_option("--camera", arguments->camera, "Whose events: top or bottom")
-      ->check(CLI::IsMember(std::vector<std::string>(kCameraNames.begin(), kCameraNames.end())))
-      ->needs(events)
-      ->capture_default_str();
+  add_event_options(*command, *arguments);
   command
       ->add_option("--record", arguments->record,
                    "Write what the pilot gets (events and calibration of both cameras, IMU, state\n"

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "dodge/dodger.h"
+#include "sim/base/gravity.h"
 #include "sim/flight/setup.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/closed_loop/pictures/decoded.h"

@@ -61,6 +61,12 @@ TEST(Scenario, EventsMayComeLaterThanTheWindowIfTheTimeoutOrThePilotWaits) {
   EXPECT_NO_THROW(parse("dodger: {window: {event_timeout_us: 90000}}\n" + late));
   EXPECT_NO_THROW(parse("pilot: plugin\n" + late));
   EXPECT_NO_THROW(parse("pilot: oracle\n" + late));
+
+  const std::string lower = "delays: {lower_camera_us: 12000}\n";
+  EXPECT_THROW(parse(lower), ScenarioError);
+  EXPECT_NO_THROW(parse("dodger: {window: {camera_lag_us: 3000}}\n" + lower));
+  EXPECT_NO_THROW(parse("dodger: {position: {depth: mono}}\n" + lower));
+  EXPECT_NO_THROW(parse("pilot: oracle\n" + lower));
 }
 
 TEST(Scenario, DistributionsAreRead) {

@@ -185,6 +185,18 @@ TEST_F(ScenarioTree, APilotInNameOnlyIsRefused) {
   EXPECT_EQ(load("resolved.yaml", {set("pilot", "oracle")}).pilot, "oracle");
 }
 
+TEST_F(ScenarioTree, AKeyMayBeTakenAwayThatIsNotThere) {
+  write("base.yaml", "seed: 3\n");
+  const Scenario scenario = load("base.yaml", {set("stop", "~"), set("dodger", "~"),
+                                               set("sensors.imu", "~"), set("throw", "~")});
+  EXPECT_FALSE(scenario.stop.has_value());
+  EXPECT_FALSE(scenario.anyone_throws());
+  EXPECT_THAT(error_of("base.yaml", {set("stpo", "~")}),
+              ::testing::HasSubstr("stpo is not a known"));
+  write("empty.yaml", "seed: 3\nstop:\n");
+  EXPECT_THAT(error_of("empty.yaml", {}), ::testing::HasSubstr("stop is empty"));
+}
+
 TEST_F(ScenarioTree, BadSettingsAreRefused) {
   write("s.yaml", "seed: 1\n");
   EXPECT_THAT(error_of("s.yaml", {set("", "1")}), StartsWith("--set =1: A key is needed"));

@@ -89,7 +89,7 @@ TEST_P(WrittenRecording, ReadsBackOnTheClockOfItsOffset) {
     const auto writer = make_event_writer(root_ / name, recording);
     const std::vector<Cause> causes(has_causes ? events.size() : 0, Cause{254});
     writer->add(events, causes);
-    writer->finish();
+    writer->commit();
     Events expected = events;
     for (Event& event : expected) event.t_us += offset_us;
     EXPECT_TRUE(read(root_ / name) == expected) << has_causes;

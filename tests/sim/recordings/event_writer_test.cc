@@ -215,7 +215,7 @@ TEST(EventWriter, SaysWhyEachEventHappened) {
     writer->add({events.data(), half}, {causes.data(), half});
     writer->add({events.data() + half, events.size() - half},
                 {causes.data() + half, events.size() - half});
-    writer->finish();
+    writer->commit();
   }
   expect_hdf5(root / "a.h5", recording, events);
   EXPECT_EQ(Hdf5File(root / "a.h5").read<Cause>("events/cause", H5T_STD_U8LE), causes);
@@ -308,7 +308,7 @@ TEST(EventWriter, ReplacesAFileOnlyWithAWholeOne) {
     const auto writer = make_event_writer(root / ("a" + end), {4, 4, 0, 10});
     writer->add(Events{{1, 2, 3, 1}});
     EXPECT_EQ(contents(root / ("a" + end)), "old");
-    writer->finish();
+    writer->commit();
     EXPECT_NE(contents(root / ("a" + end)), "old");
   }
 }

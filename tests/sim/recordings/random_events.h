@@ -37,7 +37,7 @@ inline void write(const std::filesystem::path& path, const Recording& recording,
     writer->add({events.data() + i, n});
     i += n;
   }
-  writer->finish();
+  writer->commit();
 }
 
 inline Recording recording_of(const Events& events, TimeUs t_offset_us = 0) {

@@ -78,7 +78,8 @@ TEST(StaticPicture, HasTheDepthThatRaysFindInTheRoom) {
     for (int y = 3; y < camera.height; y += 7) {
       for (int x = 3; x < camera.width; x += 7) {
         const Vector3d ray_C((x - camera.cx()) / camera.f, (y - camera.cy()) / camera.f, 1);
-        const auto hit = room_along(world, X_WC.translation(), X_WC.linear() * ray_C);
+        const auto hit =
+            first_along(world, X_WC.translation(), X_WC.linear() * ray_C, kRoomGroup + 1);
         const double truth = hit ? 1 / hit->distance : 0;
         const double depth = inverse_depth[image.index(x, y)];
         if (std::abs(depth - truth) < 1e-4 + 1e-4 * truth) {

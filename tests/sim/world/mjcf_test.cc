@@ -20,6 +20,13 @@ TEST(MjcfTest, PrintsElementsOnTheLinesThatTheyHad) {
             "<a x=\"1\">\n<b/>\n\n<c><d y=\"2\" z=\"\"></d></c></a>");
 }
 
+TEST(MjcfTest, ScalesMeshesWithAndWithoutAScaleOrAnEndOfTheirOwn) {
+  auto tags = parse_mjcf("<a><mesh name='m'></mesh><mesh scale='2 2 2'/></a>", "test");
+  scale_body(tags, 0.5, 3, "test");
+  EXPECT_EQ(print_mjcf(tags),
+            "<a><mesh name=\"m\" scale=\"0.5 0.5 0.5\"></mesh><mesh scale=\"1 1 1\"/></a>");
+}
+
 TEST(MjcfTest, NamesTheLineOfWhatIsWrong) {
   const auto complaint = [](const std::string& text) -> std::string {
     return testing::complaint<ScenarioError>([&] { parse_mjcf(text, "test"); });

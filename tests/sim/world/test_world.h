@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/base/gravity.h"
 #include "sim/world/world.h"
 #include "tests/models.h"
 
