@@ -44,7 +44,7 @@ std::string_view without_plus(std::string_view text) {
 std::string to_text(double value) {
   std::array<char, 32> shortest, fixed;
   const auto a = std::to_chars(shortest.data(), shortest.data() + shortest.size(), value);
-  const std::string text(shortest.data(), a.ptr);
+  std::string text(shortest.data(), a.ptr);
   const auto b =
       std::to_chars(fixed.data(), fixed.data() + fixed.size(), value, std::chars_format::fixed);
   if (b.ec != std::errc()) return text;

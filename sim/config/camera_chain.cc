@@ -129,7 +129,7 @@ std::optional<Eigen::Isometry3d> transform_of(const YamlNode& camera, const char
                                               const std::string& path, ReadContext& context) {
   const YamlNode* const node = camera.find(key);
   if (node == nullptr) return std::nullopt;
-  const auto X = transform(*node);
+  auto X = transform(*node);
   if (!X) {
     context.problems.fail(node->at, path + "." + key + " must be four rows of four numbers, a " +
                                         "rotation and a translation in metres.");
