@@ -78,8 +78,8 @@ class Dodger : public Pilot {
   // carries an old state on at constant velocity, and it takes the angular rate of the state
   // estimate when the IMU has said nothing since the window began. An event is dropped if it is
   // older than one before it that the window still holds, or more than kMostAheadUs later than the
-  // update. When the clock is
-  // set back, what is later is forgotten. Nothing for a camera that is not used.
+  // update. When the clock is set back, what is later is forgotten. Nothing for a camera that is
+  // not used.
   static constexpr TimeUs kMostAheadUs = 10000;
   std::optional<TimeUs> newest_event_us(int camera) const;
   std::optional<TimeUs> newest_imu_us() const { return rates_.newest_us(); }
