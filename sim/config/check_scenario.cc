@@ -149,26 +149,25 @@ void check_height_monitor(const Scenario& scenario, ReadContext& context) {
 void check_transport(const Scenario& scenario, ReadContext& context) {
   const dodge::WindowConfig& window = scenario.dodger.window;
   if (!perceives(scenario.pilot) || scenario.pilot == kPluginPilot) return;
-  const std::int64_t lag_us = window.window_us + window.camera_lag_us;
-  if (scenario.dodger.position.depth == "stereo" && scenario.delays.lower_camera_us >= lag_us) {
-    context.add_problem(
-        "delays.lower_camera_us",
-        "delays.lower_camera_us is " + std::to_string(scenario.delays.lower_camera_us) +
-            ", but must be less than dodger.window.window_us and camera_lag_us together, which "
-            "are " +
-            std::to_string(lag_us) +
-            ": the pilot would never see with both cameras at once; raise the lag.");
+  const auto expect_less = [&](const std::string& delay, std::int64_t delay_us,
+                               const std::string& wait, std::int64_t wait_us,
+                               const std::string& otherwise) {
+    const std::int64_t most_us = window.window_us + wait_us;
+    if (delay_us < most_us) return;
+    context.add_problem(delay, delay + " is " + std::to_string(delay_us) +
+                                   ", but must be less than dodger.window.window_us and " + wait +
+                                   " together, which are " + std::to_string(most_us) + ": " +
+                                   otherwise);
+  };
+  if (scenario.dodger.position.depth == "stereo") {
+    expect_less("delays.lower_camera_us", scenario.delays.lower_camera_us, "camera_lag_us",
+                window.camera_lag_us,
+                "the pilot would never see with both cameras at once; raise the lag.");
   }
-  const std::int64_t oldest_us = window.window_us + window.event_timeout_us;
-  if (scenario.delays.transport_us < oldest_us) return;
-  context.add_problem(
-      "delays.transport_us",
-      "delays.transport_us is " + std::to_string(scenario.delays.transport_us) +
-          ", but must be less than dodger.window.window_us and event_timeout_us together, which "
-          "are " +
-          std::to_string(oldest_us) +
-          ": the pilot would never see an event; raise the timeout, or delay what it sees by "
-          "delays.perception_us instead.");
+  expect_less("delays.transport_us", scenario.delays.transport_us, "event_timeout_us",
+              window.event_timeout_us,
+              "the pilot would never see an event; raise the timeout, or delay what it sees by "
+              "delays.perception_us instead.");
 }
 
 void check_rate(const std::string& key, int rate_hz, ReadContext& context) {

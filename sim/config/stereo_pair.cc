@@ -20,16 +20,13 @@ double angle_between(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-double turn_between(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
-  return Eigen::AngleAxisd(a.transpose() * b).angle();
-}
-
 bool are_rectified(const dodge::CameraModel& upper, const dodge::CameraModel& lower) {
   const Vector3d down = upper.X_BC.inverse() * lower.X_BC.translation();
   const Eigen::Vector4d a(upper.fx, upper.fy, upper.cx, upper.cy);
   const Eigen::Vector4d b(lower.fx, lower.fy, lower.cx, lower.cy);
   return (a - b).norm() <= kRoundingOfText * upper.fx &&
-         turn_between(upper.X_BC.linear(), lower.X_BC.linear()) <= kRoundingOfText &&
+         Eigen::AngleAxisd(upper.X_BC.linear().transpose() * lower.X_BC.linear()).angle() <=
+             kRoundingOfText &&
          angle_between(down, Vector3d::UnitY()) <= kRoundingOfText;
 }
 
@@ -71,8 +68,6 @@ StereoPair rectified(const CameraCalibration& upper, const CameraCalibration& lo
   const Eigen::Matrix3d R_BC = common_axes(u, l);
   const double f = 0.25 * (u.fx + u.fy + l.fx + l.fy);
   const Eigen::Vector2d c = 0.5 * Eigen::Vector2d(u.cx + l.cx, u.cy + l.cy);
-  pair.upper_turn_rad = turn_between(R_BC, u.X_BC.linear());
-  pair.lower_turn_rad = turn_between(R_BC, l.X_BC.linear());
   for (dodge::CameraModel* camera : {&u, &l}) {
     camera->lens = {camera->fx, camera->fy, camera->cx, camera->cy,
                     R_BC.transpose() * camera->X_BC.linear()};

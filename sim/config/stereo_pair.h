@@ -8,8 +8,7 @@
 namespace dodgesim {
 
 struct StereoPair {
-  CameraCalibration upper, lower;                 // rectified
-  double upper_turn_rad = 0, lower_turn_rad = 0;  // 0 if they were so before
+  CameraCalibration upper, lower;  // with a lens (CameraModel::lens) unless they were rectified
 };
 
 // Turns both cameras' frames C to one orientation, in which the lower camera lies straight below

@@ -7,9 +7,8 @@
 // .npy  NumPy records t <i8 [us], x <u2, y <u2, p |i1 (+1 ON, -1 OFF).
 // .txt  A line "t x y p" an event: t [us] as an integer, p 1 (ON) or 0 (OFF). The columns are
 //       those of events.txt in the rpg data sets, where t is in seconds.
-// .raw  Prophesee's EVT 2.0, which its programs open: a header, then words of 32 bits
-// (evt_words.h).
-//       Its clock counts from "% t_offset_us" in the header. Up to 2048 x 2048 px.
+// .raw  Prophesee's EVT 2.0, which its programs open: a header, then words (evt_words.h). Its clock
+//       counts from "% t_offset_us" in the header. Up to 2048 x 2048 px.
 //
 // t is the absolute time in .npy and .txt. A file appears only when it is whole
 // (sim/files/staged_file.h).

@@ -119,12 +119,14 @@ Scenario load(const DetectArguments& arguments) {
 // Rectified, for stereo, if they are not.
 std::vector<CameraCalibration> as_pair(const CameraCalibration& upper,
                                        const CameraCalibration& lower) {
-  constexpr double kDeg = 180 / std::numbers::pi;
+  const auto turn_deg = [](const CameraCalibration& rectified) {
+    return Eigen::AngleAxisd(rectified.camera.lens->R_CL).angle() * 180 / std::numbers::pi;
+  };
   const StereoPair pair = rectified(upper, lower);
   if (pair.upper.camera.lens) {
     std::printf(
         "The cameras are rectified by their calibrations: turned by %.2f and %.2f degrees.\n",
-        kDeg * pair.upper_turn_rad, kDeg * pair.lower_turn_rad);
+        turn_deg(pair.upper), turn_deg(pair.lower));
   }
   return {pair.upper, pair.lower};
 }
