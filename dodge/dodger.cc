@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace dodge {
 
@@ -66,6 +67,7 @@ void Dodger::add_range(const RangeReading& reading) {
 }
 
 void Dodger::set_goal(const Goal& goal) {
+  if (!goal.p_WG.allFinite() || !std::isfinite(goal.speed_mps)) return;
   goal_ = goal;
   has_goal_ = true;
 }

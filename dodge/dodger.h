@@ -61,11 +61,12 @@ class Dodger : public Pilot {
   void add_imu(const ImuSample& sample) override { rates_.add(sample); }
   void add_state(const StateEstimate& state) override { states_.add(state); }
   void add_range(const RangeReading& reading) override;
-  void set_goal(const Goal& goal) override;
+  void set_goal(const Goal& goal) override;  // one that is not finite is none
 
   // Until the first state estimate the command is zero. A landing, once begun, goes on for ever.
   // Neither this nor handing over data allocates memory, unless images are captured, or a window
-  // has more events, or there are more obstacles, than ever before and than memory is reserved for.
+  // has more events, or there are more obstacles, or more pairs of a detection and an obstacle,
+  // than ever before and than memory is reserved for.
   VelocityCommand update(TimeUs now_us) override;
 
   std::span<const Detection> detections() const override { return detections_; }

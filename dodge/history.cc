@@ -9,9 +9,16 @@ namespace {
 constexpr std::size_t kSamples = 2048;   // half a second at 4 kHz
 constexpr double kUnitTolerance = 1e-3;  // of the square of q_WB's length
 
-// In place of the oldest one when the history is full.
+// A sample that is so much older than the one before is of a clock that was set back.
+constexpr TimeUs kSetBackUs = 100000;
+
+// In place of the oldest one when the history is full. Of a clock that was set back the new time
+// alone counts.
 template <class Sample>
 void keep(RingBuffer<Sample>& history, const Sample& sample) {
+  if (!history.empty() && sample.t_us < history.back().t_us - kSetBackUs) {
+    history.pop_front(history.size());
+  }
   if (history.size() == history.capacity()) history.pop_front();
   history.push_back(sample);
 }

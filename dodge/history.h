@@ -14,7 +14,8 @@ class RateHistory {
  public:
   RateHistory();
 
-  // In ascending time. A rate that is not finite is left out.
+  // In ascending time; one that is far older than the last begins a history of its own. A rate
+  // that is not finite is left out.
   void add(const ImuSample& sample);
 
   // Time-weighted mean of w_WB_B over [begin_us, end_us] [rad/s], linear between samples and
@@ -35,7 +36,8 @@ class StateHistory {
  public:
   StateHistory();
 
-  // In ascending time. One that is not finite, or whose q_WB is not of unit length, is left out.
+  // In ascending time, likewise. One that is not finite, or whose q_WB is not of unit length, is
+  // left out.
   void add(const StateEstimate& state);
 
   // The state at t_us: interpolated between two estimates, or carried on from the newest (oldest)

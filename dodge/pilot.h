@@ -17,8 +17,9 @@ class Pilot {
  public:
   virtual ~Pilot() = default;
 
-  // Data arrive late, and each kind (of events, each camera's) in the order of its time stamps;
-  // there is no order across kinds. The events are valid during the call only.
+  // Data arrive late, and each kind (of events, each camera's) in the order of its time stamps, but
+  // for events of recordings whose files are out of order (`dodgesim detect` says so); there is no
+  // order across kinds. The events are valid during the call only.
   virtual void add_events(int camera, std::span<const Event> events) = 0;
   virtual void add_imu(const ImuSample& sample) = 0;
   virtual void add_state(const StateEstimate& state) = 0;

@@ -57,8 +57,11 @@ struct VelocityCommand {
 
 // One obstacle measured in one update.
 struct Detection {
-  TimeUs t_us = 0;                     // the instant p_W and centre_W describe
-  std::array<Eigen::Vector3d, 6> p_W;  // four corners, near and far centre (eq. 12) [m]
+  TimeUs t_us = 0;  // the instant p_W and centre_W describe
+  // Four corners, near and far centre (eq. 12) [m].
+  std::array<Eigen::Vector3d, 6> p_W = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                        Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                        Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();  // [m]
   double depth_m = 0;                                  // along the camera's optical axis
   double depth_sigma_m = 0;                            // its standard deviation

@@ -99,15 +99,18 @@ bool contains(std::span<const TrackedObstacle> obstacles, int id) {
 
 }  // namespace
 
-// In strips along the axis of the smaller standard deviation, each of which is exact.
+// In strips along the axis of the smaller standard deviation, each of which is exact. Between two
+// of them nothing may fit, so that a deviation below a tenth of the radius counts as that.
 double hit_probability(const Meeting& meeting) {
+  constexpr double kLeastSigma = 0.1;
   const Vector3d a = meeting.along_W.unitOrthogonal(), b = meeting.along_W.cross(a);
   Eigen::Matrix<double, 3, 2> across;
   across << a, b;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
   axes.computeDirect(across.transpose() * meeting.covariance * across);
   if (!(axes.eigenvalues()[0] > 0)) return 0;
-  const Eigen::Vector2d sigma = axes.eigenvalues().cwiseSqrt();
+  const Eigen::Vector2d sigma =
+      axes.eigenvalues().cwiseSqrt().cwiseMax(kLeastSigma * meeting.radius_m);
   const Eigen::Vector2d miss =
       axes.eigenvectors().transpose() * across.transpose() * meeting.miss_W;
   double sum = 0;

@@ -37,7 +37,8 @@ struct EscapeConfig {
       "Radius of a ball around the vehicle: half the diagonal of its hull of 0.34 x 0.34 x 0.10 "
       "m.");
     v("control_sigma_m", control_sigma_m, 1e-3, 10.0,
-      "Standard deviation, per axis, of where the vehicle will be from where it is predicted.");
+      "Standard deviation, per axis, of where the vehicle will be from where it is predicted. With "
+      "the obstacle's it counts as no less than a tenth of both radii together.");
     v("min_probability", min_probability, 0.0, 1.0,
       "Least probability of a hit that starts an escape. The estimate of a far obstacle is so "
       "vague that no hit is probable; it earns its range as its covariance shrinks.");

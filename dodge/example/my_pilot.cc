@@ -31,6 +31,7 @@ class Sidestepper : public dodge::Pilot {
   void set_goal(const dodge::Goal& goal) override { goal_ = goal; }
 
   dodge::VelocityCommand update(dodge::TimeUs now_us) override {
+    if (alert_from_us_ < 0) alert_from_us_ = now_us + kLearnUs;
     for (; !window_.empty() && window_.front().t_us < now_us - kWindowUs; window_.pop_front()) {
       --count_[block_of(window_.front())];
     }
@@ -62,7 +63,7 @@ class Sidestepper : public dodge::Pilot {
 
   // For a block with too many events; then steps away from its side of the image, level.
   void look(dodge::TimeUs now_us) {
-    const bool alert = now_us > kLearnUs && w_radps_ < kTurningRadps;
+    const bool alert = now_us > alert_from_us_ && w_radps_ < kTurningRadps;
     for (std::size_t i = 0; i < count_.size(); ++i) {
       if (alert && count_[i] > kFewest + alarm_ratio_ * usual_[i]) {
         const bool on_the_right = i % columns_ >= columns_ / 2;
@@ -89,6 +90,7 @@ class Sidestepper : public dodge::Pilot {
   double w_radps_ = 0;
   dodge::StateEstimate state_;
   dodge::Goal goal_;
+  dodge::TimeUs alert_from_us_ = -1;
   dodge::TimeUs step_end_us_ = -1;
   Eigen::Vector3d step_W_ = Eigen::Vector3d::Zero();
 };

@@ -67,6 +67,9 @@ DirectoryLock::DirectoryLock(const fs::path& out) {
   whole.l_whence = SEEK_SET;
   if (::fcntl(fd_, F_SETLK, &whole) == 0) return;
   const int error = errno;
+  if (error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP || error == EINVAL) {
+    return;  // a disk without locks, as clusters have: nothing keeps others away there
+  }
   ::close(fd_);
   if (error != EACCES && error != EAGAIN) {
     throw IoError(path.string() + " could not be locked: " + std::strerror(error) + ".");

@@ -94,7 +94,6 @@ class RecordReader {
   }
 
   std::uint64_t at() const { return at_; }
-  std::uint64_t size() const { return size_; }
 
   [[noreturn]] void fail(const std::string& what) const {
     throw IoError(path_.string() + " " + what + ".");

@@ -31,8 +31,8 @@ Json machine_group() {
           {"system", machine.system}};
 }
 
-std::string manifest_json(const Scenario& scenario, const CampaignOptions& options,
-                          const CampaignSummary& summary, const std::string& started) {
+Json manifest_of(const Scenario& scenario, const CampaignOptions& options,
+                 const CampaignSummary& summary, const std::string& started) {
   const BuildInfo build = build_info();
   Json manifest;
   manifest["program"] = program_group();
@@ -60,7 +60,7 @@ std::string manifest_json(const Scenario& scenario, const CampaignOptions& optio
   if (summary.flown > 0 && summary.wall_s > 0) {
     manifest["time"]["throws_per_minute"] = 60.0 * summary.flown / summary.wall_s;
   }
-  return to_text(manifest, 2) + "\n";
+  return manifest;
 }
 
 }  // namespace dodgesim

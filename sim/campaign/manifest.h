@@ -13,8 +13,9 @@ namespace dodgesim {
 Json program_group();
 Json machine_group();
 
-std::string manifest_json(const Scenario& scenario, const CampaignOptions& options,
-                          const CampaignSummary& summary, const std::string& started);
+// Of a campaign that was merged: what merged it. merge.h adds the manifests of its parts.
+Json manifest_of(const Scenario& scenario, const CampaignOptions& options,
+                 const CampaignSummary& summary, const std::string& started);
 
 // "2026-01-31T12:00:00Z". For people; no result depends on it.
 std::string utc_now();

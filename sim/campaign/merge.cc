@@ -1,6 +1,7 @@
 #include "sim/campaign/merge.h"
 
 #include <map>
+#include <stdexcept>
 
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
@@ -11,6 +12,7 @@
 #include "sim/campaign/manifest.h"
 #include "sim/campaign/result_files.h"
 #include "sim/files/directory.h"
+#include "sim/files/input_file.h"
 #include "sim/files/output_file.h"
 
 namespace dodgesim {
@@ -42,7 +44,8 @@ const Source* better(const Source& a, const Source& b) {
 void add_directory(const fs::path& directory, bool first, Sources& sources) {
   const JournalIndex index = read_journal(directory / kJournalFile);
   if (first) sources.identity = index.identity;
-  if (index.damaged > 0) sources.damaged.push_back(directory.string());
+  const bool cut_off = index.end < fs::file_size(directory / kJournalFile);
+  if (index.damaged > 0 || cut_off) sources.damaged.push_back(directory.string());
   if (index.identity != sources.identity) {
     throw ScenarioError(directory.string() + " holds results " +
                         difference(index.identity, sources.identity) +
@@ -99,6 +102,21 @@ Sources collect(const std::vector<fs::path>& directories) {
   return sources;
 }
 
+// The manifests of the parts that have one: what flew them, where and when.
+Json manifests_of(const std::vector<fs::path>& directories) {
+  Json manifests = Json::array();
+  for (const fs::path& directory : directories) {
+    const fs::path path = directory / kManifestFile;
+    if (!fs::exists(path)) continue;
+    try {
+      manifests.push_back(parse_json(read_file(path)));
+    } catch (const std::invalid_argument& error) {
+      throw IoError(path.string() + " is no manifest of a campaign: " + error.what() + ".");
+    }
+  }
+  return manifests;
+}
+
 }  // namespace
 
 int expect_complete(const std::vector<fs::path>& directories) {
@@ -126,6 +144,7 @@ CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
                         " holds a campaign with the key stop, which has no parts to be merged.");
   }
   expect_all(scenario, sources);
+  Json manifests = manifests_of(directories);
 
   make_directory(options.out);
   for (const fs::path& directory : directories) {
@@ -152,7 +171,9 @@ CampaignSummary merge_campaigns(const std::vector<fs::path>& directories,
   CampaignOptions flown = options;
   flown.models = sources.identity.models;
   flown.plugin = sources.identity.plugin;
-  write_file(options.out / kManifestFile, manifest_json(scenario, flown, summary, started));
+  Json manifest = manifest_of(scenario, flown, summary, started);
+  manifest["parts"] = std::move(manifests);
+  write_file(options.out / kManifestFile, to_text(manifest, 2) + "\n");
   return summary;
 }
 

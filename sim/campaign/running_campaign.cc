@@ -125,7 +125,8 @@ CampaignSummary RunningCampaign::finish() {
   }
   write_result_files(options_.out, scenario_, index, options_.truth, summary_);
   summary_.wall_s = seconds_since(begin_);
-  write_file(options_.out / kManifestFile, manifest_json(scenario_, options_, summary_, started_));
+  write_file(options_.out / kManifestFile,
+             to_text(manifest_of(scenario_, options_, summary_, started_), 2) + "\n");
   return std::move(summary_);
 }
 

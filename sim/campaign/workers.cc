@@ -107,7 +107,8 @@ void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
 }
 
 // The life of a worker: tasks in, results out, until the campaign closes the socket.
-[[noreturn]] void serve(int fd, const WorkerTasks& tasks) {
+// What is thrown here must not reach the campaign's own code, whose process this is not.
+[[noreturn]] void serve(int fd, const WorkerTasks& tasks) noexcept {
   const pid_t worker = ::getpid();
   Task task;
   while (read_all(fd, &task, sizeof(task))) {

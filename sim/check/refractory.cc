@@ -6,6 +6,7 @@
 
 #include "sim/check/film.h"
 #include "sim/check/quantile.h"
+#include "sim/events/response.h"
 
 namespace dodgesim {
 
@@ -28,15 +29,15 @@ constexpr double kIntervalLimit = 0.02;
 constexpr double kRoundedUs = 1;  // both stamps of an interval are rounded
 constexpr double kRampSigmas = 4;
 
-double log_light(const EventCameraSpec& spec, double lux) {
-  return std::log(spec.log_epsilon + lux / spec.illuminance_lux);
+Response response_of(const EventCameraSpec& spec) {
+  return Response(spec.log_epsilon, spec.linear_below);
 }
 
-// ln(eps + I) of each pixel grows evenly for film_us, from an instant of its own on. These instants
-// are spread evenly over the time from one event to the next, and so are then the events of all
-// pixels, whatever the resolution of the clock.
+// The response of each pixel to light grows evenly for film_us, from an instant of its own on.
+// These instants are spread evenly over the time from one event to the next, and so are then the
+// events of all pixels, whatever the resolution of the clock.
 struct Ramp {
-  double from = 0;  // ln(eps + I)
+  double from = 0;  // the response, a logarithm but to little light
   double swing = 0;
   double takes_us = 0;  // for a threshold
   double film_us = 0;
@@ -65,7 +66,7 @@ Ramp ramp_for(const EventCameraSpec& spec) {
   }
   const double threshold = spec.contrast_threshold_on;
   Ramp ramp;
-  ramp.from = log_light(spec, from_lux);
+  ramp.from = response_of(spec).at(from_lux / spec.illuminance_lux);
   ramp.takes_us =
       std::max(kShortestTakesUs, kThresholdShare * static_cast<double>(spec.refractory_us));
   ramp.film_us = std::max(ramp.takes_us * kSwing / threshold,
@@ -78,12 +79,11 @@ Ramp ramp_for(const EventCameraSpec& spec) {
 }
 
 Scene growing_light(const EventCameraSpec& spec, const Ramp& ramp) {
-  return [=](TimeUs t_us, std::vector<float>& luminance) {
+  return [ramp, response = response_of(spec)](TimeUs t_us, std::vector<float>& luminance) {
     for (std::size_t i = 0; i < luminance.size(); ++i) {
       const double grown =
           std::clamp((static_cast<double>(t_us) - ramp.starts_us(i)) / ramp.film_us, 0.0, 1.0);
-      luminance[i] =
-          static_cast<float>(std::exp(ramp.from + ramp.swing * grown) - spec.log_epsilon);
+      luminance[i] = static_cast<float>(response.inverse(ramp.from + ramp.swing * grown));
     }
   };
 }
@@ -147,15 +147,15 @@ RampEvents measure_ramp(const EventCameraSpec& camera, std::uint64_t seed) {
 }
 
 Check judge(const RampEvents& measured, const EventCameraSpec& expected) {
-  Check check{
-      "Refractory period and clock",
-      "The light grows evenly in its logarithm, for every pixel from another instant on and "
-      "for so long that its low-passes settle. After each event a pixel is held for the "
-      "refractory period and then waits until the light has grown by its threshold: the "
-      "median time between two events of a pixel is the sum of both, in the median over "
-      "the pixels, and no two are nearer than the period. With the clock's resolution the "
-      "same events come later, by half of "
-      "it on average. Noise, jitter and the readout's limit are off."};
+  Check check{"Refractory period and clock",
+              "The light grows so that the response to it does evenly, for every pixel from "
+              "another instant on and "
+              "for so long that its low-passes settle. After each event a pixel is held for the "
+              "refractory period and then waits until the light has grown by its threshold: the "
+              "median time between two events of a pixel is the sum of both, in the median over "
+              "the pixels, and no two are nearer than the period. With the clock's resolution the "
+              "same events come later, by half of "
+              "it on average. Noise, jitter and the readout's limit are off."};
   const std::vector<double>& intervals = measured.intervals_us;
   const auto period_us = static_cast<double>(expected.refractory_us);
   const std::vector<double>& medians = measured.pixel_medians_us;

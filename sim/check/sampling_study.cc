@@ -66,6 +66,7 @@ class Accuracy {
     sum_.events += difference.events;
     sum_.reference_events += difference.reference_events;
     if (difference.reference_events < kLeastEvents) return;
+    ++sum_.judged_throws;
     sum_.worst_count = std::max(sum_.worst_count, std::abs(difference.count_ratio - 1));
     medians_us_.push_back(difference.median_us);
   }
@@ -201,6 +202,10 @@ Check judge(const std::vector<SamplingResult>& results) {
       "those of a camera that is sampled eight times finer and for which every picture is "
       "drawn anew. Noise and jitter are off."};
   const auto judge_part = [&check](const std::string& part, const SamplingAccuracy& accuracy) {
+    if (accuracy.judged_throws == 0) {
+      check.off(part, "no throw makes " + formatted("%g", kLeastEvents) + " events of it");
+      return;
+    }
     check.within(part + ".count", accuracy.count_ratio(), 1, kSamplingCountLimit, "of reference",
                  4);
     check.between(part + ".stamps", accuracy.median_us, 0, kSamplingStampLimitUs, "us", 1);

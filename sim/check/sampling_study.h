@@ -40,7 +40,8 @@ struct SamplingOptions {
 struct SamplingAccuracy {
   double events = 0, reference_events = 0;
   double worst_count = 0;      // the largest |ratio - 1| of a throw with 300 events and more
-  double median_us = 0;        // median over such throws of the median stamp difference
+  int judged_throws = 0;       // how many of these there are
+  double median_us = 0;        // median over them of the median stamp difference
   double worst_median_us = 0;  // the largest of them
   double count_ratio() const { return events / reference_events; }
 };

@@ -20,7 +20,7 @@ enum Shown : unsigned char { kNothing, kFixed, kDynamic, kOther };
 Shown merged(unsigned char before, Cause cause) {
   Shown now = kOther;
   if (cause == kCauseScene) now = kFixed;
-  if (cause >= kCauseFirstObject && cause <= kCauseLastObject) now = kDynamic;
+  if (of_object(cause)) now = kDynamic;
   return before == kNothing || before == now ? now : kOther;
 }
 

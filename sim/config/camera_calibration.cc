@@ -118,12 +118,13 @@ void drop_empty(YamlNode& map) {
 void expect_no_misspelling(const YamlNode& root, Problems& problems) {
   const std::vector<std::string> names = {"width",  "height", "intrinsics", "distortion",
                                           "p_BC_m", "R_BC",   "imu_axes",   "p_BR_m"};
+  const bool of_ros = root.find("image_width") != nullptr;
   const std::vector<std::string> kalibr = {"camera_model",      "resolution", "distortion_model",
                                            "distortion_coeffs", "T_cam_imu",  "T_imu_cam",
                                            "timeshift_cam_imu"};
   for (const YamlNode::Key& key : root.keys) {
     if (contains(names, key.name)) continue;
-    if (contains(kalibr, key.name)) {
+    if (!of_ros && contains(kalibr, key.name)) {
       problems.add(key.at, key.name +
                                " is a key of Kalibr's, which must stand below the name of its "
                                "camera, such as cam0.");
@@ -155,6 +156,13 @@ void read_camera_info(const YamlNode& root, ReadContext& context, CalibrationKey
     return;
   }
   keys.intrinsics = IntrinsicsKeys{K[0], K[4], K[2], K[5]};
+  const YamlNode* fisheye = root.find("fisheye_model");
+  if (fisheye != nullptr && fisheye->text != "0") {
+    context.problems.add(fisheye->at,
+                         "fisheye_model is " + fisheye->text +
+                             ", a lens that the pilots do not know: undistort the events, or "
+                             "calibrate the camera without it.");
+  }
   const std::size_t count = info.distortion_coefficients.data.size();
   if (count == 0) return;
   if (count != 4 && count != 5) {
@@ -252,9 +260,10 @@ CameraCalibration load_of_chain(const YamlNode& root, std::vector<std::string> c
 }  // namespace
 
 CameraCalibration load_camera_calibration(const std::string& path_and_camera) {
+  constexpr std::size_t kMostOfCalibration = 50000;  // OpenCV writes each corner that it has seen
   const auto [path, chosen] = path_and_name(path_and_camera);
   ReadContext context(path);
-  YamlNode root = parse_yaml(read_scenario_text(path), context.problems);
+  YamlNode root = parse_yaml(read_scenario_text(path), context.problems, 0, kMostOfCalibration);
   const std::vector<std::string> cameras = cameras_of_chain(root);
   if (!cameras.empty()) return load_of_chain(root, cameras, chosen, context);
   if (!chosen.empty()) throw ScenarioError(path + " holds one camera, and no " + chosen + ".");
@@ -263,10 +272,10 @@ CameraCalibration load_camera_calibration(const std::string& path_and_camera) {
   CalibrationKeys keys;
   Reader reader(root, "", context);
   keys.visit(reader);
+  expect_no_misspelling(root, context.problems);
   if (root.find("image_width") != nullptr) {
     read_camera_info(root, context, keys);
   } else {
-    expect_no_misspelling(root, context.problems);
     for (const char* key : {"width", "height"}) expect_given(key, context);
     for (const char* key : {"intrinsics.fx", "intrinsics.fy", "intrinsics.cx", "intrinsics.cy"}) {
       if (keys.intrinsics) expect_given(key, context);

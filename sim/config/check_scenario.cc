@@ -74,6 +74,16 @@ void check_throws(const Scenario& scenario, ReadContext& context) {
   }
 }
 
+// How many combinations of values there are; of too many, more than kMostCombinations.
+std::int64_t product(const VariedKeys& axes) {
+  std::int64_t count = 1;
+  for (const VariedKey& axis : axes) {
+    count *= static_cast<std::int64_t>(axis.values.size());
+    if (count > kMostCombinations) break;
+  }
+  return count;
+}
+
 // `stop` needs a single success rate, of throws that would have hit.
 void check_stop(const Scenario& scenario, ReadContext& context) {
   if (!scenario.stop) return;
@@ -85,7 +95,7 @@ void check_stop(const Scenario& scenario, ReadContext& context) {
                         "stop and sweep are both given, but the success rates of different sweep "
                         "values are not one.");
   }
-  if (cell_count(scenario) > 1) {
+  if (product(scenario.grid) > 1) {
     context.add_problem("stop",
                         "stop and grid are both given, but a campaign that ends within a round of "
                         "its cells has flown some oftener than others, and its interval would "
@@ -163,6 +173,17 @@ void check_transport(const Scenario& scenario, ReadContext& context) {
     expect_less("delays.lower_camera_us", scenario.delays.lower_camera_us, "camera_lag_us",
                 window.camera_lag_us,
                 "the pilot would never see with both cameras at once; raise the lag.");
+    const std::int64_t both_us = scenario.delays.transport_us + scenario.delays.lower_camera_us;
+    const std::int64_t most_us = window.window_us + window.event_timeout_us;
+    if (scenario.delays.transport_us < most_us && both_us >= most_us) {
+      context.add_problem("delays.lower_camera_us",
+                          "delays.transport_us and delays.lower_camera_us are " +
+                              std::to_string(both_us) +
+                              " together, but must be less than dodger.window.window_us and "
+                              "event_timeout_us together, which are " +
+                              std::to_string(most_us) +
+                              ": the pilot would never see an event of the lower camera.");
+    }
   }
   expect_less("delays.transport_us", scenario.delays.transport_us, "event_timeout_us",
               window.event_timeout_us,
@@ -254,15 +275,6 @@ void check_keys_together(const Scenario& scenario, ReadContext& context) {
   check_thrust(scenario, context);
   check_speed_limit(scenario, context);
   check_cruise_speed(scenario, context);
-}
-
-std::int64_t product(const VariedKeys& axes) {
-  std::int64_t count = 1;
-  for (const VariedKey& axis : axes) {
-    count *= static_cast<std::int64_t>(axis.values.size());
-    if (count > kMostCombinations) break;
-  }
-  return count;
 }
 
 // Whether there are so few combinations that the counts of expand.h do not overflow.

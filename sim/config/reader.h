@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -91,8 +92,9 @@ class Reader {
   void operator()(const char* key, std::optional<T>& value, const char*) {
     const YamlNode* map = take_map(key);
     if (map == nullptr) return;
-    if (!value) value.emplace();
-    read_nested(key, *map, *value);
+    T read = value.value_or(T());
+    read_nested(key, *map, read);
+    if (value || !gives_nothing(*map)) value = std::move(read);
   }
 
   // A list of up to T::kMost.
@@ -110,6 +112,11 @@ class Reader {
 
  private:
   static constexpr std::size_t kMostPoints = 100;
+
+  // Whether all that stands there are keys that are taken away.
+  static bool gives_nothing(const YamlNode& map) {
+    return !map.items.empty() && std::ranges::all_of(map.items, &YamlNode::taken_away);
+  }
 
   template <class T>
   void read_nested(const std::string& key, const YamlNode& map, T& value) {

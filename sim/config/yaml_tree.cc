@@ -23,7 +23,6 @@ namespace dodgesim {
 namespace {
 
 constexpr std::size_t kMostBytes = 256 * 1024;  // a long scenario has 10 kB
-constexpr std::size_t kMostNodes = 5000;
 constexpr std::size_t kDeepest = 16;
 
 // What yaml-cpp makes of !! in front of a tag.
@@ -33,6 +32,7 @@ constexpr std::string_view kYamlTags = "tag:yaml.org,2002:";
 struct Place {
   int source = 0;
   bool lines = true;  // whether they name line and column
+  std::size_t most_values = kMostValues;
 
   Position whole() const { return {0, 0, source}; }
   Position at(const YAML::Mark& mark) const {
@@ -92,9 +92,9 @@ class TreeBuilder : public YAML::EventHandler {
 
   YamlNode make(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag,
                 YAML::anchor_t anchor) {
-    if (++nodes_ > kMostNodes) {
-      throw Stop{position(mark), "There are more than " + std::to_string(kMostNodes) +
-                                     " values, which no scenario needs."};
+    if (++nodes_ > place_.most_values) {
+      throw Stop{position(mark), "There are more than " + std::to_string(place_.most_values) +
+                                     " values, which no such file needs."};
     }
     if (anchor != 0) {
       problems_.add(position(mark), "Anchors (&name) are not supported; write the value out.");
@@ -110,7 +110,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (!open_.empty()) require_key_if_due(node);
     if (open_.size() >= kDeepest) {
       throw Stop{node.at, "This is nested more than " + std::to_string(kDeepest) +
-                              " levels deep, which no scenario needs."};
+                              " levels deep, which no such file needs."};
     }
     open_.push_back({std::move(node)});
   }
@@ -148,8 +148,9 @@ class TreeBuilder : public YAML::EventHandler {
     }
     for (const YamlNode::Key& key : top.node.keys) {
       if (key.name != node.text) continue;
-      problems_.add(node.at, path() + node.text + " is given twice; it is already in line " +
-                                 std::to_string(key.at.line) + ".");
+      const std::string line = std::to_string(key.at.line);
+      problems_.add(node.at, path() + node.text + " is given twice" +
+                                 (place_.lines ? "; it is already in line " + line + "." : "."));
       break;
     }
     top.node.keys.push_back({node.text, node.at});
@@ -247,8 +248,8 @@ void check_quotes(std::string_view text, Problems& problems, const Place& place)
 YamlNode parse_document(std::string_view text, Problems& problems, const Place& place) {
   if (text.size() > kMostBytes) {
     problems.fail(place.whole(), "The file has " + std::to_string(text.size()) +
-                                     " bytes; a scenario has at most " +
-                                     std::to_string(kMostBytes) + ".");
+                                     " bytes; at most " + std::to_string(kMostBytes) +
+                                     " are read.");
   }
   check_encoding(text, problems, place);
   try {
@@ -303,8 +304,9 @@ std::optional<YamlNode> YamlNode::take(std::string_view key) {
   return value;
 }
 
-YamlNode parse_yaml(std::string_view text, Problems& problems, int source) {
-  const Place place{source};
+YamlNode parse_yaml(std::string_view text, Problems& problems, int source,
+                    std::size_t most_values) {
+  const Place place{source, true, most_values};
   YamlNode root = parse_document(text, problems, place);
   if (root.kind == YamlNode::Kind::kNull) problems.fail(place.whole(), "The file is empty.");
   if (root.kind != YamlNode::Kind::kMap) {
@@ -353,7 +355,7 @@ std::string read_scenario_text(const std::string& path) {
   if (!std::filesystem::is_regular_file(status)) {
     const bool directory = std::filesystem::is_directory(status);
     throw ScenarioError(path + ": This is " + (directory ? "a directory" : "not a regular file") +
-                        "; a scenario is a YAML file.");
+                        "; a YAML file is needed.");
   }
   const auto fail = [&path] {
     throw IoError(path + " could not be read: " + std::strerror(errno) + ".");
@@ -367,7 +369,7 @@ std::string read_scenario_text(const std::string& path) {
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (text.size() > kMostBytes) {
     throw ScenarioError(path + ": The file has more than " + std::to_string(kMostBytes) +
-                        " bytes, which no scenario needs.");
+                        " bytes, which no such file needs.");
   }
   return text;
 }

@@ -42,7 +42,9 @@ struct YamlNode {
 // anchors, aliases and merge keys are added to `problems`; what cannot be parsed at all (not UTF-8,
 // syntax, empty, several documents, too deep, too large) throws ScenarioError at once. Time and
 // memory are bounded by limits on size and depth.
-YamlNode parse_yaml(std::string_view text, Problems& problems, int source = 0);
+inline constexpr std::size_t kMostValues = 5000;  // of a scenario
+YamlNode parse_yaml(std::string_view text, Problems& problems, int source = 0,
+                    std::size_t most_values = kMostValues);
 
 // The same for a value of any kind, such as the `[1, 2]` of a command line. The positions name the
 // source only.
@@ -52,7 +54,7 @@ YamlNode parse_yaml_value(std::string_view text, Problems& problems, int source)
 std::string to_text(const YamlNode& node);
 
 // Whole contents of a file of bounded size. Throws ScenarioError when there is no such file or it
-// is a directory or too large for a scenario, and IoError when reading fails.
+// is a directory or too large, and IoError when reading fails.
 std::string read_scenario_text(const std::string& path);
 
 }  // namespace dodgesim

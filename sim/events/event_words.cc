@@ -49,8 +49,12 @@ void EventWords::sort_ties() {
   const auto time = [](std::uint64_t word) { return word >> kTimeShift; };
   std::uint64_t* const begin = words_.data();
   std::uint64_t* const end = begin + words_.size();
-  for (std::uint64_t* at = begin + 1; at < end; ++at) {
-    if (at[-1] <= at[0]) continue;
+  std::uint64_t* at = begin + 1;
+  while (at < end) {
+    if (at[-1] <= at[0]) {
+      ++at;
+      continue;
+    }
     std::uint64_t* first = at - 1;
     while (first > begin && time(first[-1]) == time(*at)) --first;
     while (at < end && time(*at) == time(*first)) ++at;

@@ -120,8 +120,12 @@ class FilteredSignal : public PixelSignal {
 
   double settles_in_us(std::size_t index, double rest) const override {
     if (order_ == 0) return 0;
+    // What two low-passes in a row still miss falls below this much of the most that either misses,
+    // times exp(-t / sum of their time constants): 2 / sqrt(e), when they are alike.
+    constexpr double kOfTwo = 1.2131;
     const Charge now = charge(u_, y_, z_, index);
-    const double missing = std::abs(now.u - now.z);
+    double missing = std::abs(now.u - now.z);
+    if (order_ > 1) missing = kOfTwo * std::max(missing, std::abs(now.u - now.y));
     if (missing <= rest) return 0;
     return natural_log(missing / rest) * photoreceptor_.lag_s(light_[index]) / kSecondsPerUs;
   }

@@ -1,6 +1,8 @@
 #include "sim/events/luminance_bounds.h"
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "sim/base/vector_level.h"
 
@@ -55,8 +57,12 @@ void LuminanceBounds::set(std::size_t pixel, double low_luminance, double high_l
   const double epsilon = epsilon_;
   const double low = (epsilon + low_luminance) * (1 + kMargin);
   const double high = (epsilon + high_luminance) * (1 - kMargin);
-  low_[pixel] = static_cast<std::uint16_t>(packed(static_cast<float>(low > 0 ? low : 0)));
-  high_[pixel] = static_cast<std::uint16_t>(packed(static_cast<float>(high > 0 ? high : 0)));
+  const auto stored = [](double bound) {
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    return static_cast<std::uint16_t>(packed(static_cast<float>(std::clamp(bound, 0.0, kLargest))));
+  };
+  low_[pixel] = stored(low);
+  high_[pixel] = stored(high);
 }
 
 void LuminanceBounds::scan(std::size_t first, std::size_t size, const float* luminance,

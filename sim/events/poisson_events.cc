@@ -1,8 +1,16 @@
 #include "sim/events/poisson_events.h"
 
+#include <algorithm>
+
 #include "sim/events/logarithm.h"
 
 namespace dodgesim {
+
+namespace {
+
+constexpr double kNeverUs = 1e18;  // 30,000 years, which a clock of 64 bits still holds
+
+}  // namespace
 
 PoissonEvents::PoissonEvents(const RandomStream& stream, const std::vector<PixelRate>& rates)
     : stream_(stream) {
@@ -40,6 +48,7 @@ void PoissonEvents::take_until(TimeUs t_us, std::vector<PoissonEvent>& out) {
 void PoissonEvents::draw() {
   const auto random = stream_.block(number_++);
   time_us_ -= mean_wait_us_ * natural_log(unit_interval(random[0]));
+  time_us_ = std::min(time_us_, kNeverUs);
   const std::uint32_t choice = choice_.pick(random[1], random[2]);
   next_.pixel = pixels_[choice / 2];
   next_.on = choice % 2 == 1;

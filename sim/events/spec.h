@@ -151,8 +151,9 @@ struct SamplingSpec {
       "Rate of the samples of the whole image when nothing moves; its inverse bounds how late an "
       "event is known.");
     v("min_interval_us", min_interval_us, 1, 1000000,
-      "Shortest time between two samples of the same object or of the room, which bounds the cost "
-      "of what fills the view. With 250 us and 0.5 px (max_displacement_px) what moves faster than "
+      "Shortest time between two samples of the same object or of the room that their motion asks "
+      "for, which bounds the cost of what fills the view. With 250 us and 0.5 px "
+      "(max_displacement_px) what moves faster than "
       "2000 px/s is under-sampled: an object that passes within about a metre, or the room while "
       "the vehicle turns at more than 5 to 10 rad/s.");
   }

@@ -34,15 +34,13 @@ Commands answer(const FlightLog& log, TimeUs from_us) {
   return {first, all.end()};
 }
 
-// Those before the contact, but at least the first.
 Commands before(TimeUs contact_us, Commands commands) {
-  const auto end = std::find_if(commands.begin() + 1, commands.end(),
-                                [&](const auto& command) { return command.t_us >= contact_us; });
+  const auto end = std::ranges::find_if(
+      commands, [&](const auto& command) { return command.t_us >= contact_us; });
   return {commands.begin(), end};
 }
 
-// See CollisionEvidence::command_W.
-Vector3d mean_evasion(Commands commands) {
+Vector3d mean_evasion_W(Commands commands) {
   Vector3d sum_W = Vector3d::Zero();
   int count = 0;
   for (const FlightLog::Command& command : commands) {
@@ -50,29 +48,34 @@ Vector3d mean_evasion(Commands commands) {
     sum_W += command.v_W;
     ++count;
   }
-  return sum_W / count - commands.front().vehicle_v_W;
+  return sum_W / count;
 }
 
-// See CollisionEvidence::commanded_path_W.
-Vector3d path(Commands commands, TimeUs contact_us) {
-  Vector3d path_W = Vector3d::Zero();
-  for (std::size_t i = 0; i < commands.size() && commands[i].t_us < contact_us; ++i) {
+// Of commands before the contact, the first of them evasive.
+CommandedWay commanded_way(Commands commands, TimeUs contact_us) {
+  const Vector3d& vehicle_v_W = commands.front().vehicle_v_W;
+  CommandedWay way;
+  way.mean_W = mean_evasion_W(commands) - vehicle_v_W;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
     const TimeUs next_us = i + 1 < commands.size() ? commands[i + 1].t_us : contact_us;
-    path_W += seconds(std::min(next_us, contact_us) - commands[i].t_us) *
-              (commands[i].v_W - commands.front().vehicle_v_W);
+    way.path_W += seconds(next_us - commands[i].t_us) * (commands[i].v_W - vehicle_v_W);
   }
-  return path_W;
+  way.last_W = commands.back().v_W - vehicle_v_W;
+  return way;
 }
 
-// See CollisionEvidence::turned.
-bool turned(Commands commands, const Encounter& undisturbed) {
+// See CollisionEvidence::turn.
+std::optional<CollisionEvidence::Turn> turn(Commands commands, const Encounter& undisturbed) {
   const auto across_W = [&](const FlightLog::Command& command) {
     return undisturbed.across_flight(command.v_W - commands.front().vehicle_v_W);
   };
   const Vector3d first_W = across_W(commands.front());
-  return std::ranges::any_of(commands, [&](const FlightLog::Command& command) {
+  const auto back = std::ranges::find_if(commands, [&](const FlightLog::Command& command) {
     return command.evading && across_W(command).dot(first_W) < 0;
   });
+  if (back == commands.end()) return std::nullopt;
+  return CollisionEvidence::Turn{back->t_us,
+                                 commanded_way({commands.begin(), back}, undisturbed.contact_us)};
 }
 
 // The pilot's answer to an object that it knows of. Commands arrive command_delay_us after their
@@ -83,13 +86,11 @@ void add_answer(const FlightLog& log, const FlightLog::Object& object, TimeUs co
   Commands commands = answer(log, *evidence.earliest_command_us);
   if (commands.empty()) return;
   evidence.command_us = commands.front().t_us;
-  if (evidence.undisturbed) commands = before(evidence.undisturbed->contact_us, commands);
-  evidence.command_W = mean_evasion(commands);
-  if (evidence.undisturbed) {
-    evidence.turned = turned(commands, *evidence.undisturbed);
-    evidence.commanded_path_W = path(commands, evidence.undisturbed->contact_us);
-    evidence.last_command_W = commands.back().v_W - commands.front().vehicle_v_W;
-  }
+  if (!evidence.undisturbed) return;
+  commands = before(evidence.undisturbed->contact_us, commands);
+  if (commands.empty()) return;
+  evidence.commanded = commanded_way(commands, evidence.undisturbed->contact_us);
+  evidence.turn = turn(commands, *evidence.undisturbed);
   for (const FlightLog::Object::Detection& detection : object.detections) {
     if (detection.output_us + command_delay_us <= *evidence.command_us) {
       evidence.position_error_W = detection.error_W;

@@ -111,9 +111,25 @@ void add_changed_rows(const CsvTable& before, const CsvTable& after, bool physic
     changed.push_back(before.name() + " had " + std::to_string(before.rows()) + " rows, has " +
                       std::to_string(after.rows()));
   }
+  const auto counts = [physics_only](const std::string& column) {
+    return !physics_only || column.starts_with("none_") || is_drawn(column);
+  };
+  std::vector<std::string> columns;  // of both
+  for (const std::string& column : before.columns()) {
+    if (!counts(column)) continue;
+    if (after.has(column)) {
+      columns.push_back(column);
+    } else {
+      changed.push_back(before.name() + " had a column " + column);
+    }
+  }
+  for (const std::string& column : after.columns()) {
+    if (counts(column) && !before.has(column)) {
+      changed.push_back(before.name() + " had no column " + column);
+    }
+  }
   for (std::size_t row = 0; row < std::min(before.rows(), after.rows()); ++row) {
-    for (const std::string& column : before.columns()) {
-      if (physics_only && column.rfind("none_", 0) != 0 && !is_drawn(column)) continue;
+    for (const std::string& column : columns) {
       const std::string &was = before.at(row, column), &is = after.at(row, column);
       if (was == is) continue;
       changed.push_back("throw " + before.at(row, "throw") + " " + column + " was " + was +
@@ -134,7 +150,7 @@ GateCheck bytes_equal(const CampaignTables& before, const CampaignTables& after,
   GateCheck check{physics_only ? "same bytes of the physics" : "same bytes", Result::kPassed, ""};
   if (changed.empty()) return check;
   return {check.name, Result::kFailed,
-          std::to_string(changed.size()) + " rows changed: " + list_of(changed)};
+          std::to_string(changed.size()) + " rows or columns changed: " + list_of(changed)};
 }
 
 }  // namespace

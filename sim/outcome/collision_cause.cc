@@ -5,10 +5,39 @@ namespace dodgesim {
 namespace {
 
 // Whether a vehicle that followed every command at once would have got out of the way.
-bool commanded_enough(const CollisionEvidence& evidence) {
+bool leads_out(const CommandedWay& way, const Encounter& encounter) {
+  return passes(encounter, encounter.across_flight(way.path_W),
+                encounter.across_flight(way.last_W));
+}
+
+// Of a command that came while some manoeuvre was left.
+CollisionCause cause_of_answer(const Agility& agility, const CollisionEvidence& evidence,
+                               double left_s) {
   const Encounter& encounter = *evidence.undisturbed;
-  return passes(encounter, encounter.across_flight(evidence.commanded_path_W),
-                encounter.across_flight(evidence.last_command_W));
+  const auto needed_s = [&](const CommandedWay& way) {
+    return least_time_to_escape_s(agility, encounter, way.mean_W);
+  };
+  const auto led_away = [left_s](const std::optional<double>& time_s) {
+    return time_s && left_s >= *time_s;
+  };
+  if (evidence.turn) {
+    const CommandedWay& way = evidence.turn->before;
+    const std::optional<double> time_s = needed_s(way);
+    if (led_away(time_s) && leads_out(way, encounter)) {
+      const bool early = seconds(evidence.turn->t_us - *evidence.command_us) < *time_s;
+      return early || !leads_out(evidence.commanded, encounter) ? CollisionCause::kDirectionTurned
+                                                                : CollisionCause::kNotEnoughThrust;
+    }
+  }
+  if (led_away(needed_s(evidence.commanded))) {
+    return leads_out(evidence.commanded, encounter) ? CollisionCause::kNotEnoughThrust
+                                                    : CollisionCause::kCommandedTooLittle;
+  }
+  Encounter believed = encounter;
+  believed.object.p_W += evidence.position_error_W;
+  return led_away(least_time_to_escape_s(agility, believed, evidence.commanded.mean_W))
+             ? CollisionCause::kWrongPosition
+             : CollisionCause::kWrongDirection;
 }
 
 }  // namespace
@@ -25,6 +54,8 @@ std::string to_text(CollisionCause cause) {
       return "second object";
     case CollisionCause::kNotEvaded:
       return "not evaded";
+    case CollisionCause::kEvadedLate:
+      return "evaded late";
     case CollisionCause::kSeenLate:
       return "seen late";
     case CollisionCause::kWrongPosition:
@@ -69,28 +100,14 @@ CollisionCause collision_cause(const Agility& agility, const CollisionEvidence& 
     return evidence.in_view_near ? CollisionCause::kNotDetected : CollisionCause::kSeenFarOnly;
   }
   if (!evidence.undisturbed) return CollisionCause::kWrongDirection;
-  const auto in_time = [&times](const std::optional<double>& needed_s) {
-    return times.left_s && needed_s && *times.left_s >= *needed_s;
-  };
   const TimeUs contact_us = evidence.undisturbed->contact_us;
-  const bool commanded = evidence.command_us && *evidence.command_us < contact_us;
-  if (!commanded && evidence.earliest_command_us && times.needed_s &&
-      seconds(contact_us - *evidence.earliest_command_us) >= *times.needed_s) {
-    return CollisionCause::kNotEvaded;
-  }
-  if (!in_time(times.needed_s)) return CollisionCause::kSeenLate;
-
-  const auto led_away = [&](const Encounter& encounter) {
-    return in_time(least_time_to_escape_s(agility, encounter, evidence.command_W));
+  const auto in_time = [&](const std::optional<TimeUs>& command_us) {
+    return command_us && times.needed_s && seconds(contact_us - *command_us) >= *times.needed_s;
   };
-  if (led_away(*evidence.undisturbed)) {
-    if (evidence.turned) return CollisionCause::kDirectionTurned;
-    return commanded_enough(evidence) ? CollisionCause::kNotEnoughThrust
-                                      : CollisionCause::kCommandedTooLittle;
-  }
-  Encounter believed = *evidence.undisturbed;
-  believed.object.p_W += evidence.position_error_W;
-  return led_away(believed) ? CollisionCause::kWrongPosition : CollisionCause::kWrongDirection;
+  if (in_time(evidence.command_us)) return cause_of_answer(agility, evidence, *times.left_s);
+  if (!in_time(evidence.earliest_command_us)) return CollisionCause::kSeenLate;
+  const bool commanded = evidence.command_us && *evidence.command_us < contact_us;
+  return commanded ? CollisionCause::kEvadedLate : CollisionCause::kNotEvaded;
 }
 
 }  // namespace dodgesim

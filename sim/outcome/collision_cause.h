@@ -11,17 +11,19 @@
 //   not evaded            a command sent at the first detection would have left some manoeuvre, but
 //                         none came before the object did: the pilot did not believe what it had
 //                         detected, or did not act on it
-//   seen late             when the evasive command arrived, or would have had it been sent at the
-//                         first detection, none of the manoeuvres that are tried would have brought
-//                         the vehicle out of the way in time; or a pilot that is told of objects
-//                         was not told of this one
+//   evaded late           likewise, but one came, when none of the manoeuvres that are tried would
+//                         have brought the vehicle out of the way in time
+//   seen late             not even a command sent at the first detection would have left one; or a
+//                         pilot that is told of objects was not told of this one
 //   wrong position        some manoeuvre was left, but none that led where the commands did, which
 //                         would have been right had the object been where it was detected
 //   wrong direction       some manoeuvre was left, but none that led where the commands did; or
 //                         nothing would have happened without the evasion
 //   direction turned      the commanded direction was right and the command early enough, but a
 //                         later command before the object came led back, more than a right angle
-//                         from the first: what the vehicle had gained was taken back
+//                         from the first: before the rotors could have brought the vehicle out of
+//                         the way, or so that even a vehicle that follows every command at once
+//                         would have been hit, which would have got away without
 //   commanded too little  the commanded direction was right and the command early enough, but even
 //                         a vehicle that follows every command at once would not have got out of
 //                         the way: the pilot asked for too low a speed, or stopped too early
@@ -49,6 +51,7 @@ enum class CollisionCause {
   kNotDetected,
   kSecondObject,
   kNotEvaded,
+  kEvadedLate,
   kSeenLate,
   kWrongPosition,
   kWrongDirection,
@@ -60,16 +63,33 @@ enum class CollisionCause {
   kFlewIntoTheRoom,
 };
 
-inline constexpr std::array kCollisionCauses = {
-    CollisionCause::kNotSeen,         CollisionCause::kSeenFarOnly,
-    CollisionCause::kNotDetected,     CollisionCause::kSecondObject,
-    CollisionCause::kNotEvaded,       CollisionCause::kSeenLate,
-    CollisionCause::kWrongPosition,   CollisionCause::kWrongDirection,
-    CollisionCause::kDirectionTurned, CollisionCause::kCommandedTooLittle,
-    CollisionCause::kNotEnoughThrust, CollisionCause::kLanding,
-    CollisionCause::kFledIntoTheRoom, CollisionCause::kFlewIntoTheRoom};
+inline constexpr std::array kCollisionCauses = {CollisionCause::kNotSeen,
+                                                CollisionCause::kSeenFarOnly,
+                                                CollisionCause::kNotDetected,
+                                                CollisionCause::kSecondObject,
+                                                CollisionCause::kNotEvaded,
+                                                CollisionCause::kEvadedLate,
+                                                CollisionCause::kSeenLate,
+                                                CollisionCause::kWrongPosition,
+                                                CollisionCause::kWrongDirection,
+                                                CollisionCause::kDirectionTurned,
+                                                CollisionCause::kCommandedTooLittle,
+                                                CollisionCause::kNotEnoughThrust,
+                                                CollisionCause::kLanding,
+                                                CollisionCause::kFledIntoTheRoom,
+                                                CollisionCause::kFlewIntoTheRoom};
 
 std::string to_text(CollisionCause cause);
+
+// Where commands ask to go, all less the vehicle's velocity when the first evasive one arrived.
+struct CommandedWay {
+  Eigen::Vector3d mean_W = Eigen::Vector3d::Zero();  // of the evasive commands
+  // How far the commands, evasive or not, lead from the course that the vehicle was on: their
+  // integral from the first to the contact of CollisionEvidence::undisturbed. Each holds until the
+  // next, the last to the contact.
+  Eigen::Vector3d path_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d last_W = Eigen::Vector3d::Zero();  // the last one
+};
 
 // What is known of a flight. "The object" is the one that hit or, of a flight that was not hit,
 // would have without evasion.
@@ -86,20 +106,15 @@ struct CollisionEvidence {
   bool another_known_before = false;
   std::optional<Encounter> undisturbed;  // empty: nothing would have happened
   std::optional<TimeUs> command_us;      // first evasive command from earliest_command_us on
-  // Mean of the evasive commands until the contact of `undisturbed`, less the vehicle's velocity
-  // when the first arrived.
-  Eigen::Vector3d command_W = Eigen::Vector3d::Zero();
-  // Whether an evasive command before that contact led back: across the flight of `undisturbed`,
-  // more than a right angle from the first one. Both count from the vehicle's velocity when the
-  // first arrived.
-  bool turned = false;
-  // How far the commands, evasive or not, lead from the course that the vehicle was on when that
-  // one arrived: the integral of commanded velocity less the vehicle's velocity at the first
-  // command, from then to the contact of `undisturbed`. Each command holds until the next, the last
-  // to the contact.
-  Eigen::Vector3d commanded_path_W = Eigen::Vector3d::Zero();
-  // The last command before that contact, likewise.
-  Eigen::Vector3d last_command_W = Eigen::Vector3d::Zero();
+  CommandedWay commanded;  // by it and those after it, until the contact of `undisturbed`
+  // The first evasive command of these that led back: across the flight of `undisturbed`, more than
+  // a right angle from the first one. Both count from the vehicle's velocity when the first
+  // arrived.
+  struct Turn {
+    TimeUs t_us = 0;
+    CommandedWay before;  // had the last command before it held
+  };
+  std::optional<Turn> turn;
   // Of the object's newest detection before that command: detected less true position. What lies
   // along the flight means that it was believed to come that much sooner or later.
   Eigen::Vector3d position_error_W = Eigen::Vector3d::Zero();

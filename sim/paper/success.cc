@@ -14,7 +14,8 @@ TimeInView time_in_view(const Passage& passage, const std::vector<DetectionRow>&
   std::vector<TimeUs> detected_us;
   for (const DetectionRow& row : detections) {
     const std::optional<ObjectView> view = passage.at(row.t_us);
-    if (view && bin.contains(view->range_m()) && on_outline(*view, position_of(row))) {
+    if (view && bin.contains(view->range_m()) && in_view(*view, visibility) &&
+        on_outline(*view, position_of(row))) {
       detected_us.push_back(row.t_us);
     }
   }

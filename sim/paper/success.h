@@ -29,7 +29,7 @@ inline constexpr TimeUs kLeastVisibleUs = 10000;
 // One object, while its distance lies in a bin.
 struct TimeInView {
   TimeUs visible_us = 0;  // counted in milliseconds
-  int detections = 0;     // of it (on_outline()), at an instant at which it was in the bin
+  int detections = 0;     // of it (on_outline()), at an instant at which it was in view in the bin
   // Pieces of kLeastVisibleUs in view without a gap, one after the other, and where those begin
   // that hold no detection of it.
   int pieces = 0;

@@ -117,6 +117,7 @@ void add(const LoadedCampaign& campaign, Selection selection, ErrorSample& sampl
 struct Setup {
   std::string name;
   bool mono = false;
+  Selection selection = Selection::kAll;
   ErrorSample sample;
   std::array<std::optional<ErrorStatistics>, kDepthBins.size()> statistics;
 
@@ -127,7 +128,7 @@ struct Setup {
 
 Setup setup(const std::string& name, bool mono, Selection selection,
             const std::vector<const LoadedCampaign*>& campaigns) {
-  Setup setup{name, mono, {}, {}};
+  Setup setup{name, mono, selection, {}, {}};
   for (const LoadedCampaign* campaign : campaigns) add(*campaign, selection, setup.sample);
   for (std::size_t bin = 0; bin < kDepthBins.size(); ++bin) {
     setup.statistics[bin] = error_statistics(setup.sample.errors[bin], "table1/" + name);
@@ -161,10 +162,13 @@ std::string setup_markdown(const Setup& setup) {
          fixed_text(setup.sample.depth_bias_m(bin), 3)});
   }
   const ErrorSample& sample = setup.sample;
-  return "### " + setup.name + "\n\n" + table.to_markdown() + "\n" +
-         std::to_string(sample.of_object) + " detections of the ball in " +
-         std::to_string(sample.throws) +
-         " throws; false detections: " + std::to_string(sample.elsewhere) + ".\n\n";
+  std::string text = "### " + setup.name + "\n\n" + table.to_markdown() + "\n" +
+                     std::to_string(sample.of_object) + " detections of the ball in " +
+                     std::to_string(sample.throws) + " throws";
+  if (setup.selection == Selection::kAll) {
+    text += "; false detections: " + std::to_string(sample.elsewhere);
+  }
+  return text + ".\n\n";
 }
 
 void add_to_csv(const Setup& setup, TextTable& csv) {

@@ -14,9 +14,12 @@ class ClockHigh {
  public:
   explicit ClockHigh(int bits) : range_(std::int64_t{1} << bits) {}
 
-  void set(std::int64_t bits) {
+  // Returns whether they are others than before.
+  bool set(std::int64_t bits) {
+    if (bits_ == bits) return false;
     if (bits_ && *bits_ - bits > range_ / 2) ++turns_;
     bits_ = bits;
+    return true;
   }
   bool known() const { return bits_.has_value(); }
   std::int64_t value() const { return turns_ * range_ + *bits_; }  // requires known()
@@ -89,8 +92,8 @@ class Evt3 {
     } else if (kind == kTimeLow) {
       low_us_ = bits;
     } else if (kind == kTimeHigh) {
-      high_.set(bits);
-      low_us_ = 0;
+      // It comes again every 16 us, which leaves the lower half as it is.
+      if (high_.set(bits)) low_us_ = 0;
     }
   }
 

@@ -42,7 +42,9 @@ void take_format(const std::string& value, Header& header) {
 void take_line(const std::string& keyword, const std::string& value, Header& header) {
   if (keyword == "format") take_format(value, header);
   // Older recordings say it with these two.
-  if (keyword == "evt" && header.format.empty()) header.format = "EVT" + value.substr(0, 1);
+  if (keyword == "evt" && header.format.empty()) {
+    header.format = "EVT" + (value.ends_with(".0") ? value.substr(0, value.size() - 2) : value);
+  }
   if (keyword == "geometry" && value.find('x') != std::string::npos) {
     const std::size_t x = value.find('x');
     header.image = {pixels(value.substr(0, x)), pixels(value.substr(x + 1))};

@@ -85,7 +85,8 @@ void TextColumns::read_names(const std::vector<std::string>& required) {
     separator_ = first == line_.npos ? ',' : line_[first];
     split(line_);
     names_.assign(cells_.begin(), cells_.end());
-    if (!remark || has(required.front())) break;
+    const auto named = [this](const std::string& name) { return has(name); };
+    if (!remark || std::ranges::all_of(required, named)) break;
     names_.clear();
   }
   if (names_.empty()) throw ScenarioError(path_ + " is empty: not even its columns have names.");

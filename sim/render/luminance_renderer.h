@@ -7,10 +7,11 @@
 // moves slowly changes it smoothly: analytically for ray-cast ellipsoids and the sides of cylinders
 // and capsules, by 64 rays a pixel for their ends and for thrown boxes, by 25 samples a pixel for
 // thrown meshes (mesh_painter.h), and by edge_smoother.h for what is static and made of triangles
-// (planes, boxes, cylinders, meshes). Not smoothed: the horizon and borders of an unbounded plane,
-// where a ray-cast solid cuts into something, and the outline of one in front of another whose
-// centre is nearer. Textures are read once a pixel (of thrown meshes once a sample), filtered as
-// RenderSpec::texture_filter says.
+// (planes, boxes, cylinders, meshes). Not smoothed: the horizon and borders of an unbounded plane
+// and where something cuts into one, where a solid that is ray-cast, a cylinder or a mesh cuts into
+// something, the outline of one in front of another whose centre is nearer, and that of what is
+// static in front of a thrown object. Textures are read once a pixel (of thrown meshes once a
+// sample), filtered as RenderSpec::texture_filter says.
 #pragma once
 
 #include <mujoco/mujoco.h>

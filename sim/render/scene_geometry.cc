@@ -9,19 +9,13 @@
 #include "sim/render/tessellation.h"
 #include "sim/world/compose.h"
 #include "sim/world/geom_color.h"
+#include "sim/world/mujoco_eigen.h"
 
 namespace dodgesim {
 
 namespace {
 
 using Eigen::Vector3d;
-
-Eigen::Isometry3d pose_of(const mjtNum* position, const mjtNum* rotation) {
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.translation() = Eigen::Map<const Vector3d>(position);
-  X.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation);
-  return X;
-}
 
 Vector3d rgb_of(const float* rgb) { return {rgb[0], rgb[1], rgb[2]}; }
 
@@ -86,12 +80,29 @@ void set_texture_mapping(const mjModel& m, int geom, const Vector3d& size, Surfa
   surface.texture_offset = {-0.5, -0.5, 0.0};
 }
 
+// "geom 'floor'" or "geom number 3".
+std::string name_of(const mjModel& m, int type, int id, const std::string& what) {
+  const char* name = mj_id2name(&m, type, id);
+  return what + (name ? " '" + std::string(name) + "'" : " number " + std::to_string(id));
+}
+
+// Luminance is not negative, and a number.
+void expect_light(const std::string& of, std::initializer_list<double> values) {
+  for (const double value : values) {
+    if (value >= 0 && std::isfinite(value)) continue;
+    throw ScenarioError("The " + of +
+                        " has a colour, emission or attenuation below 0; no light is.");
+  }
+}
+
 Surface make_surface(const mjModel& m, int geom, const Vector3d& size, SceneGeometry& scene) {
   Surface surface;
   const Vector3d color = rgb_of(geom_color(m, geom));
   const int material = m.geom_matid[geom];
   const int texture = material >= 0 ? m.mat_texid[material] : -1;
   if (material >= 0) surface.emission = m.mat_emission[material];
+  expect_light(name_of(m, mjOBJ_GEOM, geom, "geom"),
+               {color.x(), color.y(), color.z(), surface.emission});
   if (texture < 0) {
     surface.albedo = luminance_of(color);
     return surface;
@@ -127,9 +138,7 @@ std::vector<Vertex>& static_triangles(int texture, bool solid, SceneGeometry& sc
 }
 
 [[noreturn]] void reject(const mjModel& m, int geom) {
-  const char* name = mj_id2name(&m, mjOBJ_GEOM, geom);
-  throw ScenarioError("The geom " +
-                      (name ? "'" + std::string(name) + "'" : "number " + std::to_string(geom)) +
+  throw ScenarioError("The " + name_of(m, mjOBJ_GEOM, geom, "geom") +
                       (m.geom_type[geom] == mjGEOM_HFIELD ? ", a height field," : "") +
                       " cannot be seen by an event camera: only planes of the room, boxes, "
                       "spheres, ellipsoids, capsules, cylinders and meshes can. Put it in group 4 "
@@ -213,11 +222,18 @@ void add_lights(const mjModel& m, const mjData& d, SceneGeometry& scene) {
     light.exponent = cutoff_deg >= 180.0 ? 0.0 : m.light_exponent[i];
     light.attenuation =
         Eigen::Map<const Eigen::Vector3f>(m.light_attenuation + 3 * i).cast<double>();
+    const std::string name = name_of(m, mjOBJ_LIGHT, i, "light");
+    expect_light(name, {light.ambient, light.diffuse, light.attenuation.x(), light.attenuation.y(),
+                        light.attenuation.z()});
+    if (!light.directional && light.attenuation.isZero()) {
+      throw ScenarioError("The " + name + " has an attenuation of 0, and so shines without end.");
+    }
     scene.lights.push_back(light);
   }
   // The head light would move with the camera: only its ambient part lights the scene.
   if (m.vis.headlight.active) {
     scene.ambient = luminance_of(rgb_of(m.vis.headlight.ambient));
+    expect_light("headlight", {scene.ambient});
   } else if (scene.lights.empty()) {
     scene.ambient = 0.3;  // as OpenGL pictures of MuJoCo do without any light
   }
@@ -263,10 +279,10 @@ SceneGeometry collect_scene(const mjModel& model, const std::vector<int>& object
       if (model.body_weldid[object_bodies[i]] == root) object = static_cast<int>(i);
     }
     if (object < 0 && root != 0) continue;
-    Eigen::Isometry3d pose = pose_of(data->geom_xpos + 3 * geom, data->geom_xmat + 9 * geom);
+    Eigen::Isometry3d pose = frame(data->geom_xpos + 3 * geom, data->geom_xmat + 9 * geom);
     if (object >= 0) {
       // The frame of a thrown object has its origin at the centre of mass (Snapshot).
-      Eigen::Isometry3d X_WO = pose_of(data->xpos + 3 * root, data->xmat + 9 * root);
+      Eigen::Isometry3d X_WO = frame(data->xpos + 3 * root, data->xmat + 9 * root);
       X_WO.translation() = Eigen::Map<const Vector3d>(data->xipos + 3 * root);
       pose = X_WO.inverse() * pose;
     }

@@ -188,7 +188,8 @@ DODGESIM_INLINE void blend_row(const float* __restrict sum, const float* __restr
                                const float* __restrict t, int size, float* __restrict luminance) {
   for (int i = 0; i < size; ++i) {
     const bool shown = (coverage[i] > 0.0f) & (t[i] > 0.0f);
-    const float blended = sum[i] + (1.0f - coverage[i]) * luminance[i];
+    // A coverage that is summed up may be rounded to more than 1.
+    const float blended = larger(sum[i] + (1.0f - coverage[i]) * luminance[i], 0.0f);
     luminance[i] = shown ? blended : luminance[i];
   }
 }

@@ -161,10 +161,12 @@ void TrianglePainter::draw_unbounded(const Shot& shot) {
     Eigen::Vector3d foot = plane.pose.inverse() * shot.X_WC.translation();
     foot.z() = 0.0;
     foot = (plane.half_m.array() > 0).select(0.0, foot);  // borders stay where they are
-    // Textures repeat: whole periods are left out, so that floats suffice anywhere.
     Eigen::Vector3d shift =
         foot.cwiseProduct(plane.surface.texture_scale) + plane.surface.texture_offset;
-    shift -= shift.array().floor().matrix();
+    // Flat textures repeat: whole periods are left out, so that floats suffice anywhere.
+    const int texture = plane.surface.texture;
+    const bool cube = texture >= 0 && scene_.textures[static_cast<std::size_t>(texture)].cube;
+    if (!cube) shift -= shift.array().floor().matrix();
     use(shot, plane.surface.texture, plane.pose * Eigen::Translation3d(foot), shift, 0);
     draw(unbounded_buffers_[i], plane.surface.texture);
   }

@@ -288,6 +288,11 @@ std::string head_of(const LoadedCampaign& campaign) {
             ": a shard, or a campaign that was stopped.\n\n";
   }
   if (campaign.stop) text += campaign.stop->text() + "\n\n";
+  if (campaign.ended_early()) {
+    text +=
+        "The intervals of single rows are approximate: what was seen decided how many throws "
+        "there are.\n\n";
+  }
   return text;
 }
 

@@ -159,6 +159,7 @@ std::size_t most_contacts(const std::vector<MjcfTag>& object) {
 
 // Air drag is computed by World: MuJoCo's own fluid model stays off (density 0). The buffers hold
 // the vehicle's contacts and those of the objects, and no more: the defaults cost 14 MB each world.
+// Of several <size>s the last one holds, which is this one, whatever the models say.
 MjModelPtr compile(const std::string& inner_xml, const std::string& models_dir,
                    const std::string& label, std::size_t object_contacts) {
   thread_local CompiledModels models;
@@ -167,8 +168,8 @@ MjModelPtr compile(const std::string& inner_xml, const std::string& models_dir,
       "<mujoco model=\"dodgesim\"><compiler angle=\"degree\"/>"
       "<option gravity=\"0 0 " +
           std::to_string(-kGravityMps2) + "\" density=\"0\" viscosity=\"0\" timestep=\"" +
-          std::to_string(seconds(kTickUs)) + "\"/><size nconmax=\"" + std::to_string(contacts) +
-          "\" njmax=\"" + std::to_string(5 * contacts) + "\"/>" + inner_xml + "</mujoco>",
+          std::to_string(seconds(kTickUs)) + "\"/>" + inner_xml + "<size nconmax=\"" +
+          std::to_string(contacts) + "\" njmax=\"" + std::to_string(5 * contacts) + "\"/></mujoco>",
       models_dir, label);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "sim/base/mujoco.h"
 #include "sim/world/mujoco_eigen.h"
 
 namespace dodgesim {
@@ -14,13 +15,12 @@ double box_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& half_size) 
   return (p.cwiseAbs() - half_size).cwiseMax(0).norm();
 }
 
-// At most the distance from p_W to a geom of the room, whose body's frame is W.
-double geom_distance(const mjModel& model, int geom, const Eigen::Vector3d& p_W) {
-  const Eigen::Vector3d offset_W = p_W - ConstMap3(model.geom_pos + 3 * geom);
+// At most the distance from p_W to a geom that stands at X_WG.
+double geom_distance(const mjModel& model, int geom, const Eigen::Isometry3d& X_WG,
+                     const Eigen::Vector3d& p_W) {
+  const Eigen::Vector3d offset_W = p_W - X_WG.translation();
   const mjtNum* const size = model.geom_size + 3 * geom;
-  const auto local = [&] {
-    return Eigen::Vector3d(quaternion(model.geom_quat + 4 * geom).conjugate() * offset_W);
-  };
+  const auto local = [&] { return Eigen::Vector3d(X_WG.linear().transpose() * offset_W); };
   switch (model.geom_type[geom]) {
     case mjGEOM_PLANE:
       return local().z();  // MuJoCo's planes have no edges, and a solid below
@@ -45,6 +45,8 @@ ContactBound::ContactBound(const mjModel& model, const std::vector<int>& moving)
   for (const int body : moving) {
     moving_.push_back({model.jnt_qposadr[model.body_jntadr[body]]});
   }
+  const MjDataPtr data(mj_makeData(&model));
+  mj_kinematics(&model, data.get());
   for (int g = 0; g < model.ngeom; ++g) {
     if (!collides(model, g)) continue;
     margin_m_ = std::max(margin_m_, model.geom_margin[g]);
@@ -55,15 +57,17 @@ ContactBound::ContactBound(const mjModel& model, const std::vector<int>& moving)
       const double reach_m = ConstMap3(model.geom_pos + 3 * g).norm() + model.geom_rbound[g];
       radius_m = std::max(radius_m, reach_m);
     } else {
-      room_geoms_.push_back(g);
-      applies_ = applies_ && body == 0;
+      room_geoms_.push_back({g, frame(data->geom_xpos + 3 * g, data->geom_xmat + 9 * g)});
+      applies_ = applies_ && model.body_weldid[body] == 0;
     }
   }
 }
 
 double ContactBound::room_distance(const mjModel& model, const Eigen::Vector3d& p_W) const {
   double distance = std::numeric_limits<double>::infinity();
-  for (const int g : room_geoms_) distance = std::min(distance, geom_distance(model, g, p_W));
+  for (const RoomGeom& g : room_geoms_) {
+    distance = std::min(distance, geom_distance(model, g.geom, g.X_WG, p_W));
+  }
   return distance;
 }
 

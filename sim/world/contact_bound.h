@@ -37,7 +37,11 @@ class ContactBound {
 
   bool applies_ = true;  // the model has nothing that this class does not know of
   std::vector<MovingBody> moving_;
-  std::vector<int> room_geoms_;
+  struct RoomGeom {
+    int geom = 0;
+    Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
+  };
+  std::vector<RoomGeom> room_geoms_;
   double margin_m_ = 0;  // MuJoCo reports contacts from this distance on
 };
 

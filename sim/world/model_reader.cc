@@ -70,11 +70,11 @@ std::span<const double> ModelReader::numeric(const std::string& name, int count)
 }
 
 void ModelReader::check_margin(int geom) const {
-  if (!collides(model_, geom) || model_.geom_margin[geom] <= model_.geom_gap[geom]) return;
+  if (!collides(model_, geom) || model_.geom_margin[geom] == model_.geom_gap[geom]) return;
   throw ScenarioError(
       file_ + formatted(": a geom that can collide has a margin of %.3g m and a gap of %.3g m, but "
-                        "the gap must be no less than the margin: it would push away what has not "
-                        "touched it yet.",
+                        "they must be the same: a smaller gap pushes away what has not touched it "
+                        "yet, a greater one lets things sink in.",
                         model_.geom_margin[geom], model_.geom_gap[geom]));
 }
 
@@ -105,6 +105,10 @@ FreeBody ModelReader::free_body(int body) const {
                         "geoms are its own.");
   }
   const int dof = model_.jnt_dofadr[joint];
+  if (model_.jnt_stiffness[joint] != 0) {
+    throw ScenarioError(file_ + ": the free joint must have no stiffness, which would pull the " +
+                        "body back to where the file has it.");
+  }
   for (const mjtNum* of_joint :
        {model_.dof_damping, model_.dof_armature, model_.dof_frictionloss}) {
     if (std::any_of(of_joint + dof, of_joint + dof + 6, [](mjtNum v) { return v != 0; })) {

@@ -26,4 +26,12 @@ inline Eigen::Isometry3d pose(const mjtNum* p, const mjtNum* q) {
   return X;
 }
 
+// Of a rotation matrix, row by row.
+inline Eigen::Isometry3d frame(const mjtNum* p, const mjtNum* R) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R);
+  X.translation() = ConstMap3(p);
+  return X;
+}
+
 }  // namespace dodgesim

@@ -45,7 +45,7 @@ class World {
   // away, invisible and unable to collide.
   void reset(const Eigen::Vector3d& p_WB, double yaw_rad, const Eigen::Vector3d& v_W);
 
-  // Object i flies free from now on. It may be launched again.
+  // Object i flies free from now on.
   void launch(int i, const BodyState& state);
 
   // What object i is inside by more than a body that rests sinks in, now; nothing if it is free.

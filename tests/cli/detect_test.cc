@@ -246,7 +246,6 @@ TEST_F(DetectTest, SaysWhatIsWrongAndWritesNothing) {
   EXPECT_THAT(detect(events + " --set dodger.windo=3").output, HasSubstr("dodger.window"));
 }
 
-// An IMU whose x points to the camera's -y: what Kalibr says of it is followed.
 TEST_F(DetectTest, TakesWhatOthersRecord) {
   std::string events = "\xef\xbb\xbft_us, x, y, p\r\n# one stamp is damaged\r\n";
   for (int i = 0; i < 100; ++i) {
@@ -331,13 +330,33 @@ TEST_F(DetectTest, SaysWhetherTheRatesFitTheEvents) {
   EXPECT_THAT(detect(film + path("rest.csv")).output,
               HasSubstr("IMU: the camera turns too little, or sees too little, to tell"));
   // A chain has no imu_axes.
-  write("chain.yaml",
-        "cam0: {camera_model: pinhole, distortion_model: radtan, distortion_coeffs: [0, 0, 0, 0], "
-        "intrinsics: [40, 40, 31.5, 23.5], resolution: [64, 48]}");
+  const std::string chain =
+      "cam0: {camera_model: pinhole, distortion_model: radtan, distortion_coeffs: [0, 0, 0, 0], "
+      "intrinsics: [40, 40, 31.5, 23.5], resolution: [64, 48]";
+  write("chain.yaml", chain + "}");
   EXPECT_THAT(
       detect(path("e.csv") + " --calibration " + path("chain.yaml") + " --imu " + path("left.csv"))
           .output,
       ContainsRegex("IMU: with its axes [a-z]+ up [a-z]+ they would"));
+  // What Kalibr says of an IMU whose x points to the camera's -y, with a clock that is 50 ms ahead.
+  write("turned.yaml",
+        chain +
+            ", T_cam_imu: [[0, 1, 0, 0], [-1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "
+            "timeshift_cam_imu: 0.05}");
+  std::string turned = "t_us,wx,wy,wz\n";
+  for (int ms = 0; ms < 1500; ++ms) {
+    turned += std::to_string(1000 * (ms + 50)) + "," +
+              std::to_string(-6 * std::cos(12 * 1e-3 * ms)) + ",0,0\n";
+  }
+  write("turned.csv", turned);
+  const std::string of_kalibr = detect(path("e.csv") + " --calibration " + path("turned.yaml") +
+                                       " --imu " + path("turned.csv"))
+                                    .output;
+  const auto sharpness = [](const std::string& output) {
+    const std::size_t at = output.find("IMU: turned back by its rates");
+    return at == output.npos ? "" : output.substr(at, output.find('\n', at) - at);
+  };
+  EXPECT_EQ(sharpness(of_kalibr), sharpness(fits)) << of_kalibr;
 }
 
 // Real event cameras; skips where the recordings are absent.

@@ -274,7 +274,7 @@ TEST_F(DodgesimTest, WhatReadsACampaignSaysThatAFileIsNone) {
 TEST_F(DodgesimTest, SaysWhyAScenarioCannotBeRead) {
   const Outcome folder = dodgesim("validate " + root_.string());
   EXPECT_EQ(folder.exit_code, 2);
-  EXPECT_EQ(folder.output, root_.string() + ": This is a directory; a scenario is a YAML file.\n");
+  EXPECT_EQ(folder.output, root_.string() + ": This is a directory; a YAML file is needed.\n");
   const Outcome memory = dodgesim("validate /proc/self/mem");
   EXPECT_EQ(memory.exit_code, 4);
   EXPECT_EQ(memory.output, "/proc/self/mem could not be read: Input/output error.\n");

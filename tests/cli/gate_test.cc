@@ -63,6 +63,14 @@ TEST_F(GateCommandTest, NamesTheKeyThatMakesOtherThrows) {
   EXPECT_EQ(gate("--set stop.half_width=0.2 --set stop=~").exit_code, 0);
 }
 
+TEST_F(GateCommandTest, NoticesThrowsOfOtherCells) {
+  const std::string grid = "--set repeats=6 --set 'grid={delays.compute_us: [0, 3500]}'";
+  ASSERT_EQ(gate("--update " + grid).exit_code, 0);
+  const Outcome other = gate("--set repeats=4 --set 'grid={delays.compute_us: [0, 3500, 9000]}'");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.output, HasSubstr("Throw 2 is another one than in " + path("b")));
+}
+
 TEST_F(GateCommandTest, NoticesAnotherSecondObject) {
   ASSERT_EQ(gate("--update").exit_code, 0);
   edit("b/objects.csv", "\n0,2,ball,0.2,", "\n0,2,ball,0.21,");

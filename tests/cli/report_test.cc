@@ -106,6 +106,11 @@ TEST_F(ReportCommandTest, NothingIsWrittenOverACampaign) {
     EXPECT_EQ(table.output, "--out " + out + " would overwrite a file of a campaign.\n");
     EXPECT_EQ(dodgesim("report " + path("out") + " --out " + out).exit_code, 2);
   }
+  fs::copy(root_ / "out", root_ / "other");
+  const std::string other = path("other/report.html");
+  EXPECT_EQ(dodgesim("report " + path("out") + " --out " + other).output,
+            "--out " + other + " would overwrite a file of another campaign.\n");
+  EXPECT_EQ(dodgesim("report " + path("out") + " --out " + path("out/report.html")).exit_code, 0);
   fs::create_symlink(root_ / "out/results.bin", root_ / "link");
   EXPECT_EQ(dodgesim("table " + path("out") + " --out " + path("link")).exit_code, 2);
   EXPECT_EQ(contents(root_ / "out/results.bin"), results);

@@ -195,7 +195,7 @@ TEST_F(ScenarioCommandTest, BadSettingsAreUsageErrors) {
   EXPECT_EQ(values.exit_code, 2);
   EXPECT_THAT(values.output,
               AllOf(::testing::StartsWith("--over throw.speed_mps=!uniform [1, 8], "),
-                    HasSubstr("...: There are more than 5000 values, which no scenario needs.")));
+                    HasSubstr("...: There are more than 5000 values, which no such file needs.")));
 }
 
 TEST_F(ScenarioCommandTest, ASweepFliesTheSameThrowsAndItsTablesStayApart) {

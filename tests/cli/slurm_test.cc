@@ -117,7 +117,7 @@ TEST_F(SlurmTest, WhatTheJobsMergeIsWhatOneProcessWrites) {
                   fs::file_size(root_ / "out/shards/1.0/results.bin") - 5);
   const Outcome early = merge();
   EXPECT_EQ(early.exit_code, 3);
-  EXPECT_THAT(early.output, HasSubstr("1 of 6 throws are missing: 5."));
+  EXPECT_THAT(early.output, HasSubstr("1 of 6 throws are missing: 5; results.bin of"));
   EXPECT_THAT(early.output, HasSubstr("unfinished of 2 shards: 1\n"));
   EXPECT_EQ(script("status", quoted("out")).exit_code, 3);
 

@@ -174,8 +174,17 @@ TEST(ExplainThrow, AnEscapeThatTurnsBackIsNoLackOfThrust) {
             "direction turned");
   EXPECT_EQ(cause_of({{500000, true, up, still}, {520000, true, left + 0.1 * up, up}}),
             "not enough thrust");
+  // Long after it should have been away: whether it is led back there.
   EXPECT_EQ(cause_of({{500000, true, up, still}, {990000, true, left - 0.1 * up, up}}),
+            "not enough thrust");
+  EXPECT_EQ(cause_of({{500000, true, up, still}, {800000, true, -1.5 * up, up}}),
             "direction turned");
+  // Not far enough before it turned, either.
+  EXPECT_EQ(cause_of({{500000, true, 0.19 * up, still}, {520000, true, -0.2 * up, up}}),
+            "commanded too little");
+  // It corrects itself.
+  EXPECT_EQ(cause_of({{500000, true, {0, 0, -0.1}, still}, {504000, true, up, still}}),
+            "not enough thrust");
   // After the ball.
   EXPECT_EQ(cause_of({{500000, true, up, still}, {1000000, true, -up, up}}), "not enough thrust");
   // Not an evasive one; it only stops.

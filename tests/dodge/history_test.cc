@@ -41,6 +41,16 @@ TEST(RateHistory, KeepsTheNewestSamplesOfALongFlight) {
   EXPECT_EQ(rates.mean(4980000, 4990000).x(), 2);
 }
 
+TEST(RateHistory, ForgetsTheTimeBeforeTheClockWasSetBack) {
+  RateHistory rates;
+  for (TimeUs t = 0; t < 5000000; t += 1000) rates.add({.t_us = t, .w_WB_B = {1, 0, 0}});
+  for (TimeUs t = 0; t < 20000; t += 1000) rates.add({.t_us = t, .w_WB_B = {2, 0, 0}});
+  EXPECT_NEAR(rates.mean(0, 10000).x(), 2, 1e-12);
+  // A sample that is a little late is no such clock.
+  rates.add({.t_us = 17500, .w_WB_B = {2, 0, 0}});
+  EXPECT_NEAR(rates.mean(0, 10000).x(), 2, 1e-12);
+}
+
 StateEstimate state(TimeUs t_us, const Eigen::Vector3d& p, double yaw, const Eigen::Vector3d& v,
                     double yaw_rate) {
   StateEstimate s;
@@ -58,6 +68,13 @@ double yaw_of(const StateEstimate& s) {
 }
 
 TEST(StateHistory, IsEmptyWithoutEstimates) { EXPECT_FALSE(StateHistory().at(5).has_value()); }
+
+TEST(StateHistory, ForgetsTheTimeBeforeTheClockWasSetBack) {
+  StateHistory history;
+  for (TimeUs t = 0; t < 5000000; t += 4000) history.add(state(t, {9, 0, 0}, 0, {5, 0, 0}, 0));
+  history.add(state(1000, {1, 0, 0}, 0, {0, 0, 0}, 0));
+  EXPECT_EQ(history.at(0)->p_WB.x(), 1);
+}
 
 TEST(StateHistory, LeavesOutEstimatesThatAreNotFinite) {
   StateHistory history;

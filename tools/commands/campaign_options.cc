@@ -96,12 +96,26 @@ PlannedCampaign plan_campaign(const Scenario& scenario, CampaignOptions options)
 void fly_campaigns(const std::vector<PlannedCampaign>& plans, const CampaignListener& listener) {
   watch_stop_signals();
   run_campaigns(plans, listener);
+  watch_stop_signals_no_more();  // nobody asks for them any more
 }
 
 CampaignSummary fly_campaign(const Scenario& scenario, const CampaignOptions& options) {
   watch_stop_signals();
   const PlannedCampaign plan = plan_campaign(scenario, options);
   return run_campaign(scenario, plan.options, plan.fly);
+}
+
+int report_errors(const CampaignSummary& summary) {
+  if (summary.errors == 0) return kOk;
+  std::cerr << count_text(summary.errors, "throw")
+            << " could not be flown; see \"Errors\" in the table.";
+  const auto first = std::ranges::find_if(
+      summary.results, [](const ThrowResult& result) { return result.flown.failed(); });
+  if (first != summary.results.end()) {
+    std::cerr << " Throw " << first->index << ": " << first->flown.error;
+  }
+  std::cerr << "\n";
+  return kIncomplete;
 }
 
 int report_stop(const std::string& flown, const CampaignOptions& options) {

@@ -5,6 +5,7 @@
 
 #include "sim/campaign/merge.h"
 #include "sim/files/text_table.h"
+#include "tools/commands/campaign_options.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -29,7 +30,7 @@ int merge(const MergeArguments& arguments) {
     std::printf("%s from %zu directories\nResults: %s\n",
                 count_text(summary.wanted, "throw").c_str(), arguments.directories.size(),
                 arguments.options.out.c_str());
-    return summary.errors == 0 ? kOk : kIncomplete;
+    return report_errors(summary);
   } catch (const MissingThrows& error) {
     std::cerr << error.what() << "\n";
     return kIncomplete;

@@ -2,7 +2,9 @@
 #include <iostream>
 #include <memory>
 
+#include "sim/base/error.h"
 #include "sim/campaign/load_campaign.h"
+#include "sim/campaign/result_files.h"
 #include "sim/files/output_file.h"
 #include "sim/tables/report.h"
 #include "tools/commands/command.h"
@@ -17,9 +19,14 @@ struct ReportArguments {
 };
 
 int report(const ReportArguments& arguments) {
+  const std::string own = arguments.directory + "/" + kReportFile;
+  const std::string out = arguments.out.empty() ? own : arguments.out;
+  std::error_code neither_exists;
+  if (belongs_to_campaign(out) && out != own &&
+      !std::filesystem::equivalent(out, own, neither_exists)) {
+    throw ScenarioError("--out " + out + " would overwrite a file of another campaign.");
+  }
   const LoadedCampaign campaign = load_campaign(arguments.directory);
-  const std::string out =
-      arguments.out.empty() ? arguments.directory + "/" + kReportFile : arguments.out;
   write_file(out, report_html(campaign, arguments.directory));
   std::cout << "Report: " << out << "\n";
   return completeness(arguments.directory, campaign);

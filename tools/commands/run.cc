@@ -47,17 +47,6 @@ void warn_of_lost_events(const std::vector<ThrowResult>& results) {
       static_cast<long long>(lost), count_text(throws, "throw").c_str());
 }
 
-void report_errors(const CampaignSummary& summary) {
-  std::cerr << count_text(summary.errors, "throw")
-            << " could not be flown; see \"Errors\" in the table.";
-  const auto first = std::ranges::find_if(
-      summary.results, [](const ThrowResult& result) { return result.flown.failed(); });
-  if (first != summary.results.end()) {
-    std::cerr << " Throw " << first->index << ": " << first->flown.error;
-  }
-  std::cerr << "\n";
-}
-
 // Whether the bracket that opens the text is closed at its end only: [0.1, 0.2], but not [0, 0],
 // [1, 0].
 bool is_one_list(std::string text) {
@@ -118,9 +107,7 @@ int run(const RunArguments& arguments) {
   }
   warn_of_lost_events(summary.results);
   if (options.truth) std::cout << truth_text(summary.truth) << "\n";
-  if (summary.errors == 0) return kOk;
-  report_errors(summary);
-  return kIncomplete;
+  return report_errors(summary);
 }
 
 // What run and sweep share.

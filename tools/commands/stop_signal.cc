@@ -7,6 +7,8 @@ namespace dodgesim {
 
 namespace {
 
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+
 volatile std::sig_atomic_t stop_signal = 0;
 timespec stopped_at{};  // the handler's own
 
@@ -28,7 +30,6 @@ void ask_to_stop(int signal) {
 }  // namespace
 
 void watch_stop_signals() {
-  constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
   struct sigaction action {};
   action.sa_handler = ask_to_stop;
   for (const int signal : kSignals) sigaddset(&action.sa_mask, signal);
@@ -38,6 +39,14 @@ void watch_stop_signals() {
     // Under nohup, which ignores it, the program goes on without its terminal.
     if (signal == SIGHUP && before.sa_handler == SIG_IGN) continue;
     ::sigaction(signal, &action, nullptr);
+  }
+}
+
+void watch_stop_signals_no_more() {
+  for (const int signal : kSignals) {
+    struct sigaction now {};
+    ::sigaction(signal, nullptr, &now);
+    if (now.sa_handler == ask_to_stop) std::signal(signal, SIG_DFL);
   }
 }
 

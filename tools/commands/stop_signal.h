@@ -8,6 +8,9 @@ namespace dodgesim {
 // timeout(1) sends one to the program and one to its group.
 void watch_stop_signals();
 
+// Back to the default, where nothing asks for the end.
+void watch_stop_signals_no_more();
+
 bool asked_to_stop();
 
 }  // namespace dodgesim

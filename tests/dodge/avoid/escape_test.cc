@@ -82,6 +82,26 @@ TEST(HitProbability, AgreesWithTheIntegralOfTheNormalDistribution) {
   }
 }
 
+TEST(HitProbability, OfWhatIsKnownExactlyIsAllOrNothing) {
+  for (const double sigma : {0.05, 0.01, 0.001}) {
+    for (double miss = 0; miss < 2; miss += 0.01) {
+      Meeting meeting;
+      meeting.radius_m = 0.35;
+      meeting.along_W = Vector3d::UnitX();
+      meeting.miss_W = 0.35 * miss * Vector3d::UnitY();
+      meeting.covariance = std::pow(0.35 * sigma, 2) * Eigen::Matrix3d::Identity();
+      const double probability = hit_probability(meeting);
+      EXPECT_LT(probability, 1.001) << sigma << ", " << miss;
+      if (miss < 0.6) {
+        EXPECT_GT(probability, 0.99) << sigma << ", " << miss;
+      }
+      if (miss > 1.4) {
+        EXPECT_LT(probability, 0.01) << sigma << ", " << miss;
+      }
+    }
+  }
+}
+
 TEST(HitProbability, OfASmallDiscIsItsAreaTimesTheDensity) {
   Meeting meeting;
   meeting.radius_m = 0.01;

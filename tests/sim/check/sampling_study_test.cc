@@ -49,8 +49,8 @@ TEST(SamplingStudy, FindsTheDefaultsWithinTheirLimits) {
 
 SamplingResult good_result() {
   SamplingResult result;
-  result.object = {995, 1000, 0.02, 30, 60};
-  result.scene = {100900, 100000, 0.01, 40, 45};
+  result.object = {995, 1000, 0.02, 10, 30, 60};
+  result.scene = {100900, 100000, 0.01, 10, 40, 45};
   return result;
 }
 
@@ -67,6 +67,7 @@ TEST(SamplingStudy, FailsBeyondItsLimits) {
   EXPECT_TRUE(fails([](SamplingResult& r) { r.object.median_us = 51; }));
   EXPECT_TRUE(fails([](SamplingResult& r) { r.scene.events = 0.985 * r.scene.reference_events; }));
   EXPECT_TRUE(fails([](SamplingResult& r) { r.scene.median_us = 51; }));
+  EXPECT_FALSE(fails([](SamplingResult& r) { r.object = {}; }));  // there was nothing to judge
 }
 
 TEST(PrescribedThrow, MovesAsItsVelocitiesSay) {

@@ -61,6 +61,17 @@ const Extreme kExtremes[] = {
     {"latency", [](auto& spec) { spec.latency_us = 99000; }},
     {"log_epsilon", [](auto& spec) { spec.log_epsilon = 1000; }},
     {"linear", [](auto& spec) { spec.linear_below = 10; }},
+    {"linear_in_daylight",
+     [](auto& spec) {
+       spec.illuminance_lux = 200000;
+       spec.linear_below = 1000;
+       spec.contrast_threshold_on = 0.1;
+     }},
+    {"very_slow",
+     [](auto& spec) {
+       spec = event_camera_preset("ideal");
+       spec.follower_hz = 1e-4;
+     }},
     {"all_dead", [](auto& spec) { spec.dead_pixel_fraction = 1; }},
     {"jitter", [](auto& spec) { spec.jitter_us = 5000; }},
     {"shot_noise", [](auto& spec) { spec.shot_noise_on_hz = 1000; }},

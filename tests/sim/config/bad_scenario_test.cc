@@ -346,6 +346,12 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:1:27: delays.lower_camera_us is 12000, but must be less than "
      "dodger.window.window_us and camera_lag_us together, which are 12000: the pilot would never "
      "see with both cameras at once; raise the lag."},
+    {"LowerCameraTooLateWithItsTransport",
+     "delays: {lower_camera_us: 10000, transport_us: 15000}\n",
+     "bad.yaml:1:27: delays.transport_us and delays.lower_camera_us are 25000 together, but must "
+     "be "
+     "less than dodger.window.window_us and event_timeout_us together, which are 20000: the pilot "
+     "would never see an event of the lower camera."},
     {"ImuRateOffTheTicks", "sensors: {imu: {rate_hz: 300}}\n",
      "bad.yaml:1:26: sensors.imu.rate_hz is 300, but must divide 4000."},
     {"RangeSensorRateOffTheTicks", "sensors: {range: {rate_hz: 240}}\n",

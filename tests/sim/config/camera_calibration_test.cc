@@ -134,19 +134,27 @@ TEST_F(Calibration, OfRosIsRead) {
 }
 
 TEST_F(Calibration, OfOpenCvIsRead) {
-  const CameraCalibration read = load(
+  const std::string text =
       "%YAML:1.0\n---\ncalibration_time: \"Fri Mar 13 10:00:00 2020\"\nimage_width: 346\n"
       "image_height: 260\naspectRatio: 1.\n# flags: +fix_aspectRatio\nflags: 2\n"
       "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
       "   data: [ 2.501e+02, 0., 1.602e+02, 0., 251.,\n       120.7, 0., 0., 1. ]\n"
       "distortion_coefficients: !!opencv-matrix\n   rows: 5\n   cols: 1\n   dt: d\n"
-      "   data: [ -0.37, 0.15, 0.01, 0.02, -3.0e-02 ]\navg_reprojection_error: 2.1e-01\n");
+      "   data: [ -0.37, 0.15, 0.01, 0.02, -3.0e-02 ]\navg_reprojection_error: 2.1e-01\n";
+  const CameraCalibration read = load(text);
   EXPECT_EQ(read.camera.width, 346);
   EXPECT_EQ(read.camera.fx, 250.1);
   EXPECT_EQ(read.camera.fy, 251);
   EXPECT_EQ(read.camera.cy, 120.7);
   EXPECT_EQ(read.camera.k1, -0.37);
   EXPECT_EQ(read.camera.k3, -0.03);
+  // With the corners that it has seen, and of another lens.
+  std::string corners = "image_points: !!opencv-matrix\n   rows: 10\n   data: [0";
+  for (int i = 0; i < 10000; ++i) corners += ", 1.5";
+  EXPECT_EQ(load(text + "fisheye_model: 0\n" + corners + "]\n").camera.k1, -0.37);
+  EXPECT_THAT(refusal(text + "fisheye_model: 1\n"), HasSubstr("fisheye_model is 1, a lens that"));
+  EXPECT_THAT(refusal(text + "imu_axis: forward left up\n"),
+              HasSubstr("imu_axis is not a known key; did you mean imu_axes?"));
 }
 
 TEST_F(Calibration, SaysWhatIsMissingOrWrong) {

@@ -38,7 +38,7 @@ TEST(Problems, MoreValuesThanCanBeReadAgainAreRefused) {
   };
   EXPECT_EQ(error_of(speeds(200)), "");
   EXPECT_THAT(error_of(speeds(1640)),
-              StartsWith("bad.yaml:2:8: There are more than 5000 values, which no scenario needs. "
+              StartsWith("bad.yaml:2:8: There are more than 5000 values, which no such file needs. "
                          "That is so with every value spelled out."));
 }
 

@@ -191,6 +191,13 @@ TEST_F(ScenarioTree, AKeyMayBeTakenAwayThatIsNotThere) {
                                                set("sensors.imu", "~"), set("throw", "~")});
   EXPECT_FALSE(scenario.stop.has_value());
   EXPECT_FALSE(scenario.anyone_throws());
+  const Scenario quiet = load("base.yaml", {set("stop.confidence", "~"), set("throw.size_m", "~")});
+  EXPECT_FALSE(quiet.stop.has_value());
+  EXPECT_FALSE(quiet.anyone_throws());
+  EXPECT_TRUE(
+      load("base.yaml", {set("throw.size_m", "~"), set("throw.speed_mps", "4")}).anyone_throws());
+  EXPECT_THAT(error_of("base.yaml", {set("throw.sise_m", "~")}),
+              ::testing::HasSubstr("throw.sise_m is not a known"));
   EXPECT_THAT(error_of("base.yaml", {set("stpo", "~")}),
               ::testing::HasSubstr("stpo is not a known"));
   write("empty.yaml", "seed: 3\nstop:\n");

@@ -146,6 +146,21 @@ TEST(Cause, IsTheSceneAgainOnceASlowPixelHasLetGoOfTheObjectsLight) {
   }
 }
 
+// The object is there for a millisecond, which the second of two low-passes notices later: it still
+// rises when the object has left.
+TEST(Cause, OfWhatTwoLowPassesStillHandOnIsTheObjectThatHasLeft) {
+  const auto there = [](TimeUs t) { return t >= 500 && t < 1500; };
+  EventCameraSpec spec = event_camera_preset("ideal");
+  spec.photoreceptor_hz = 1e-9;
+  spec.photoreceptor_dark_hz = spec.follower_hz = 10;
+  spec.contrast_threshold_on = spec.contrast_threshold_off = 0.15;
+  const auto by_cause = counts(emulate(
+      spec, every(500, 60000), [&](int, int, TimeUs t) { return there(t); },
+      [&](int, int, TimeUs t) { return there(t) ? kCauseFirstObject : kCauseScene; }));
+  ASSERT_EQ(by_cause.size(), 1u);
+  EXPECT_GE(by_cause.at(kCauseFirstObject), kPixels);
+}
+
 TEST(Cause, IsKeptByRegionsToo) {
   EventCamera camera(event_camera_preset("ideal"), 4, 1, 1, 0, "top", true);
   const std::vector<float> dark = {1, 1, 1, 1}, bright = {1, 3, 3, 3};

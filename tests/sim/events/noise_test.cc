@@ -122,6 +122,15 @@ TEST(PoissonEvents, IsPoissonInTimeAndUniformOverThePixels) {
   EXPECT_NEAR(chi_square, 99, 3 * std::sqrt(2 * 99.0));
 }
 
+TEST(PoissonEvents, OfTheSmallestRatesDoNotComeWithinTheClock) {
+  for (const double rate_hz : {1e-20, 1e-300}) {
+    PoissonEvents activity(RandomStream(3, 0, "test"), {{7, rate_hz, rate_hz}});
+    std::vector<PoissonEvent> events;
+    activity.take_until(TimeUs{1} << 50, events);
+    EXPECT_TRUE(events.empty());
+  }
+}
+
 TEST(PoissonEvents, GivesEachListedPixelAndPolarityItsRate) {
   const std::vector<PixelRate> rates = {{7, 10, 0}, {3, 0, 0}, {5, 2, 30}};
   PoissonEvents activity(RandomStream(3, 0, "test"), rates);

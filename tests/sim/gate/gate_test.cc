@@ -167,6 +167,24 @@ TEST(Gate, HoldsTheBytesThatMustNotChange) {
   EXPECT_FALSE(passed("physics"));
 }
 
+TEST(Gate, AColumnThatHasGoneOrComeIsAChange) {
+  const ThrowResult plain = throw_that(0, 'd');
+  ThrowResult of_grid = plain;
+  of_grid.cell_values = {{"delays.compute_us", "0"}};
+  const auto reason = [](const ThrowResult& before, const ThrowResult& after,
+                         const char* must_equal) {
+    const Baseline baseline = {tables_of({before}), "", GateRules{}, "abc", "one kind"};
+    const GateVerdict verdict =
+        judge(baseline, tables_of({after}), "one kind", {0.05, 0.95, must_equal});
+    return check(verdict,
+                 must_equal == std::string("all") ? "same bytes" : "same bytes of the physics")
+        .reason;
+  };
+  EXPECT_THAT(reason(of_grid, plain, "all"), HasSubstr("had a column delays.compute_us"));
+  EXPECT_THAT(reason(plain, of_grid, "all"), HasSubstr("had no column delays.compute_us"));
+  EXPECT_EQ(reason(of_grid, plain, "physics"), "");
+}
+
 TEST(Gate, HoldsTheBytesOfEveryObject) {
   ThrowResult flown = throw_that(0, 'd');
   flown.object_rows.resize(1);
@@ -190,7 +208,7 @@ TEST(Gate, TellsButDoesNotJudgeBytesAcrossKindsOfMachines) {
   EXPECT_TRUE(verdict.passed());
   const GateCheck& bytes = check(verdict, "same bytes of the physics");
   EXPECT_EQ(bytes.result, GateCheck::Result::kLeftOut);
-  EXPECT_THAT(bytes.reason, HasSubstr("rows changed: throw 0 none_clearance_m"));
+  EXPECT_THAT(bytes.reason, HasSubstr("changed: throw 0 none_clearance_m"));
 }
 
 TEST(Gate, WritesJunitThatCountsItsFailures) {

@@ -38,7 +38,8 @@ inline ThrowResult quiet_flight_that(int index, bool evaded) {
 
 // With several objects, their rows too.
 inline CampaignTables tables_of(const std::vector<ThrowResult>& results) {
-  std::string throws = csv_header<ThrowResult>(), objects = csv_header<ObjectRow>();
+  std::string throws = csv_header(results.empty() ? ThrowResult() : results.front());
+  std::string objects = csv_header<ObjectRow>();
   for (const ThrowResult& result : results) {
     throws += csv_row(result);
     for (const ObjectRow& row : result.object_rows) objects += csv_row(row);

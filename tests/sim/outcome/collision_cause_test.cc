@@ -39,8 +39,8 @@ CollisionEvidence evidence(TimeUs command_us, const Vector3d& command_W) {
   evidence.earliest_command_us = 0;
   evidence.undisturbed = head_on();
   evidence.command_us = command_us;
-  evidence.command_W = command_W;
-  evidence.commanded_path_W = command_W.normalized();  // 1 m
+  evidence.commanded.mean_W = command_W;
+  evidence.commanded.path_W = command_W.normalized();  // 1 m
   return evidence;
 }
 
@@ -63,7 +63,8 @@ TEST(CollisionCause, TellsWhatWasNotPerceived) {
 }
 
 TEST(CollisionCause, TooLateIsWhenNoManoeuvreIsLeft) {
-  const CollisionEvidence late = evidence(last_us() + 2, kUp);
+  CollisionEvidence late = evidence(last_us() + 2, kUp);
+  late.earliest_command_us = late.command_us;
   EXPECT_EQ(cause(late), CollisionCause::kSeenLate);
   const EscapeTimes times = escape_times(kAgility, late);
   EXPECT_NEAR(*times.left_s, *times.needed_s, 4e-6);
@@ -80,7 +81,9 @@ TEST(CollisionCause, WithoutACommandTheFirstDetectionTellsWhetherItWasSeenLate) 
   none.command_us = kContactUs;  // no answer either
   EXPECT_EQ(cause(none), CollisionCause::kNotEvaded);
   none.command_us = kContactUs - 1;
-  EXPECT_EQ(cause(none), CollisionCause::kSeenLate);
+  EXPECT_EQ(cause(none), CollisionCause::kEvadedLate);
+  none.command_us = last_us() + 2;
+  EXPECT_EQ(cause(none), CollisionCause::kEvadedLate);
   none.command_us.reset();
   none.earliest_command_us = last_us() + 2;
   EXPECT_EQ(cause(none), CollisionCause::kSeenLate);
@@ -98,9 +101,9 @@ TEST(CollisionCause, ADirectionThatTakesTooLongIsWrongWhereAnotherWouldNot) {
 // To the left the ball's radius and the hull's reach are 0.27 m.
 TEST(CollisionCause, CommandsThatLeadTooShortAWayAreTooLittle) {
   CollisionEvidence timid = evidence(500000, kLeft);
-  timid.commanded_path_W = 0.271 * kLeft;
+  timid.commanded.path_W = 0.271 * kLeft;
   EXPECT_EQ(cause(timid), CollisionCause::kNotEnoughThrust);
-  timid.commanded_path_W = 0.269 * kLeft;
+  timid.commanded.path_W = 0.269 * kLeft;
   EXPECT_EQ(cause(timid), CollisionCause::kCommandedTooLittle);
   timid.undisturbed->object.p_W.y() = -0.01;  // the ball comes from the right
   EXPECT_EQ(cause(timid), CollisionCause::kNotEnoughThrust);
@@ -109,37 +112,69 @@ TEST(CollisionCause, CommandsThatLeadTooShortAWayAreTooLittle) {
 // The ball needs 17 ms from the contact to the box's middle.
 TEST(CollisionCause, TheLastCommandGoesOnWhileTheBallPasses) {
   CollisionEvidence going_on = evidence(500000, kLeft);
-  going_on.commanded_path_W = 0.25 * kLeft;
+  going_on.commanded.path_W = 0.25 * kLeft;
   EXPECT_EQ(cause(going_on), CollisionCause::kCommandedTooLittle);
-  going_on.last_command_W = 5 * kLeft;
+  going_on.commanded.last_W = 5 * kLeft;
   EXPECT_EQ(cause(going_on), CollisionCause::kNotEnoughThrust);
 }
 
 TEST(CollisionCause, TheCommandedWayAlongTheFlightDoesNotCount) {
   CollisionEvidence swerving = evidence(500000, kLeft);
-  swerving.commanded_path_W = {-3, 0.2, 0};
+  swerving.commanded.path_W = {-3, 0.2, 0};
   EXPECT_EQ(cause(swerving), CollisionCause::kCommandedTooLittle);
-  swerving.commanded_path_W = {-3, 0.3, 1};
+  swerving.commanded.path_W = {-3, 0.3, 1};
   EXPECT_EQ(cause(swerving), CollisionCause::kNotEnoughThrust);
-  swerving.commanded_path_W = {0, -0.2, 0};
+  swerving.commanded.path_W = {0, -0.2, 0};
   EXPECT_EQ(cause(swerving), CollisionCause::kCommandedTooLittle);
 }
 
+// To the left until `turn_us`, then back so far that all commands together lead nowhere.
+CollisionEvidence turned_back(TimeUs command_us, TimeUs turn_us) {
+  CollisionEvidence evidence = dodgesim::evidence(command_us, {-5, 0, 0});
+  evidence.commanded.path_W.setZero();
+  evidence.turn = {turn_us, {kLeft, kLeft, kLeft}};
+  return evidence;
+}
+
 TEST(CollisionCause, CommandsThatLeadBackAreTurned) {
-  CollisionEvidence turned = evidence(last_us(kLeft) - 2, kLeft);
-  turned.turned = true;
+  const TimeUs in_time_us = last_us(kLeft) - 2;
+  const CollisionEvidence turned = turned_back(in_time_us, in_time_us + 20000);
   EXPECT_EQ(cause(turned), CollisionCause::kDirectionTurned);
-  turned.commanded_path_W.setZero();
-  EXPECT_EQ(cause(turned), CollisionCause::kDirectionTurned);
-  turned.command_us = last_us(kLeft) + 2;
-  EXPECT_EQ(cause(turned), CollisionCause::kWrongDirection);
+  // The first way was too short, or too late, all the same.
+  CollisionEvidence timid = turned;
+  timid.turn->before.path_W = timid.turn->before.last_W = 0.1 * kLeft;
+  EXPECT_EQ(cause(timid), CollisionCause::kWrongDirection);
+  EXPECT_EQ(cause(turned_back(last_us(kLeft) + 2, in_time_us + 20000)),
+            CollisionCause::kWrongDirection);
+}
+
+TEST(CollisionCause, AWrongDirectionThatIsCorrectedIsNotTurned) {
+  CollisionEvidence corrected = evidence(500000, kLeft);
+  corrected.turn = {504000, {{-5, 0, 0}, {-3, 0, 0}, {-5, 0, 0}}};
+  EXPECT_EQ(cause(corrected), CollisionCause::kNotEnoughThrust);
+  corrected.commanded.path_W = 0.1 * kLeft;
+  EXPECT_EQ(cause(corrected), CollisionCause::kCommandedTooLittle);
+}
+
+// The rotors could have brought the vehicle out of the way before the turn: that they did not is
+// why it was hit, unless it would have been led back there.
+TEST(CollisionCause, ATurnThatComesWhenTheVehicleShouldBeAwayIsNoCause) {
+  const TimeUs needed_us = kContactUs - last_us(kLeft);
+  CollisionEvidence late = turned_back(500000, 500000 + needed_us + 1000);
+  late.commanded.path_W = kLeft;
+  EXPECT_EQ(cause(late), CollisionCause::kNotEnoughThrust);
+  late.turn->t_us = 500000 + needed_us - 1000;
+  EXPECT_EQ(cause(late), CollisionCause::kDirectionTurned);
+  late.turn->t_us = 500000 + needed_us + 1000;
+  late.commanded.path_W.setZero();
+  EXPECT_EQ(cause(late), CollisionCause::kDirectionTurned);
 }
 
 TEST(CollisionCause, TooLateOrTheWrongWayIsNotTooLittle) {
   for (const TimeUs command_us : {last_us() + 2, last_us(kLeft) + 2}) {
     CollisionEvidence late = evidence(command_us, kLeft);
     const CollisionCause before = cause(late);
-    late.commanded_path_W.setZero();
+    late.commanded.path_W.setZero();
     EXPECT_EQ(cause(late), before);
   }
 }

@@ -74,10 +74,28 @@ TEST(TimeInView, TakesDetectionsOfTheBallInTheBin) {
   // 20 cm too far is an error of the ball's distance; 20 cm aside is something else.
   EXPECT_EQ(of(detection(1000000, {0.8, 0, 0}, ball, 0.6), kMiddleBin), 1);
   EXPECT_EQ(of(detection(1000000, {0.6, 0.2, 0}, ball, 0.6), kMiddleBin), 0);
-  // 0.4 s earlier the ball was at y = 0.8 m, one metre away.
-  const Vector3d before(0.6, 0.8, 0);
-  EXPECT_EQ(of(detection(600000, before, before, 0.6), kMiddleBin), 0);
-  EXPECT_EQ(of(detection(600000, before, before, 0.6), kFarBin), 1);
+  // 0.3 s before it passes at 0.95 m a ball is at y = 0.6 m, 1.1 m away.
+  const Vector3d before(0.95, 0.6, 0);
+  const auto far = [&](const RangeBin& bin) {
+    return crossing(0.95, 0.1, bin, Visibility::kCentre, {detection(700000, before, before, 0.95)})
+        .detections;
+  };
+  EXPECT_EQ(far(kMiddleBin), 0);
+  EXPECT_EQ(far(kFarBin), 1);
+}
+
+// The view ends 0.5 m to the left: a ball of 10 cm at 0.48 m has its centre in view alone.
+TEST(TimeInView, ADetectionOfTheBallOutOfViewIsNone) {
+  const auto at = [](double y_m, Visibility visibility) {
+    const Vector3d ball(0.6, y_m, 0);
+    const TimeUs t_us = 500000 + std::lround(1e6 * (1 - y_m) / kSpeedMps);
+    return crossing(0.6, 0.1, kMiddleBin, visibility, {detection(t_us, ball, ball, 0.6)})
+        .detections;
+  };
+  EXPECT_EQ(at(0.52, Visibility::kCentre), 0);
+  EXPECT_EQ(at(0.48, Visibility::kCentre), 1);
+  EXPECT_EQ(at(0.48, Visibility::kWhole), 0);
+  EXPECT_EQ(at(0.42, Visibility::kWhole), 1);
 }
 
 TEST(TimeInView, IsCutIntoPiecesOfOneWindow) {

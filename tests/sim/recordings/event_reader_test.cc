@@ -308,6 +308,7 @@ TEST_F(Reading, TakesEvt3) {
   EXPECT_THAT(
       read(file("e.raw", raw<std::uint16_t>(kEvt3, {0x2805,  // before the clock
                                                     0x8001, 0x6010, 0x0009, 0x2807,  // ON
+                                                    0x8001,                          // again
                                                     0x2008, 0xa101, 0xe001,          // OFF
                                                     0x3864, 0x4801, 0x5082,          // 100 to 119
                                                     0x8002, 0x0809, 0x2001, 0x1004, 0x2002,
@@ -354,6 +355,7 @@ TEST_F(Reading, RefusesRawOfAnotherImageOrFormat) {
               HasSubstr("its header says width 1280, but the calibration says 640."));
   EXPECT_THAT(refused("% format EVT21;height=480;width=640\n% end\n"),
               HasSubstr("must have a header that names the format EVT2 or EVT3, but names EVT21."));
+  EXPECT_THAT(refused("% evt 2.1\n% geometry 640x480\n% end\n"), HasSubstr("but names EVT2.1."));
   EXPECT_THAT(refused(""), HasSubstr("but names none."));
   EXPECT_THAT(refused(std::string("% ") + std::string(5000, 'x')), HasSubstr("but names none."));
   EXPECT_THAT(refused("% evt 3.0\n% t_offset_us 9000000000000000000\n% end\n"),

@@ -249,6 +249,36 @@ TEST(LuminanceRenderer, BlendsAnOutlineWithWhatIsBehindIt) {
   }
 }
 
+// A coverage that is rounded to more than 1 must not take light away that is not there.
+TEST(LuminanceRenderer, ABlackBallIsNowhereDarkerThanBlack) {
+  RenderSpec spec;
+  spec.sky_luminance = 0.9;
+  Scene scene(std::string(kWhiteLight) + "<worldbody>" +
+                  thrown(0, "<geom type='sphere' size='.05' rgba='0 0 0 1'/>") + "</worldbody>",
+              spec);
+  for (int k = 0; k < 60; ++k) {
+    scene.snapshot().objects[0].p_W = {2.5 + 0.05 * k, 0.013 * k, 0.007 * k};
+    const Image image = scene.render(forward_camera());
+    for (const float luminance : image.luminance) ASSERT_GE(luminance, 0) << k;
+  }
+}
+
+TEST(LuminanceRenderer, ACubeTextureStaysWhereItIsOnAnUnboundedPlane) {
+  Scene scene(std::string(kWhiteLight) +
+              "<asset><texture name='t' type='cube' builtin='checker' rgb1='1 1 1' rgb2='0 0 0' "
+              "width='64' height='384'/><material name='m' texture='t'/></asset>"
+              "<worldbody><geom type='plane' size='0 0 1' pos='0 0 -1' material='m'/></worldbody>");
+  Eigen::Isometry3d before = forward_camera(), after = before;
+  before.translation().x() = 0.9999;
+  after.translation().x() = 1.0001;
+  const Image a = scene.render(before), b = scene.render(after);
+  int differ = 0;
+  for (std::size_t i = 0; i < a.luminance.size(); ++i) {
+    differ += std::abs(a.luminance[i] - b.luminance[i]) > 0.2 ? 1 : 0;
+  }
+  EXPECT_LT(differ, 50);
+}
+
 TEST(LuminanceRenderer, DrawsWhatIsNearAndLeavesTheFarToTheSky) {
   RenderSpec spec;
   spec.sky_luminance = 0.25;
@@ -293,6 +323,22 @@ TEST(LuminanceRenderer, RejectsAGeomThatItCannotDraw) {
   EXPECT_THROW(Scene("<asset><hfield name='h' nrow='4' ncol='4' size='1 1 1 1'/></asset><worldbody>"
                      "<geom type='hfield' hfield='h'/></worldbody>"),
                ScenarioError);
+}
+
+TEST(LuminanceRenderer, RejectsLightBelowZero) {
+  const char* const ball = "<worldbody><geom type='sphere' size='1' material='m'/>";
+  for (const char* material : {"emission='-1'", "rgba='1 -1 1 1'"}) {
+    EXPECT_THROW(Scene(std::string("<asset><material name='m' ") + material + "/></asset>" + ball +
+                       "</worldbody>"),
+                 ScenarioError)
+        << material;
+  }
+  for (const char* light : {"diffuse='-1 0 0'", "ambient='0 -1 0'", "attenuation='0 0 0'"}) {
+    EXPECT_THROW(Scene(std::string("<worldbody><light pos='0 0 1' dir='0 0 -1' ") + light +
+                       "/></worldbody>"),
+                 ScenarioError)
+        << light;
+  }
 }
 
 }  // namespace

@@ -106,6 +106,7 @@ TEST_F(ModelReaderTest, NothingPushesBeforeItIsTouched) {
       HasSubstr("own.xml: a geom that can collide has a margin of 0.05 m and a gap of 0 m"));
   EXPECT_THAT(with("margin='0.05' gap='0.04'"), HasSubstr("a gap of 0.04 m"));
   EXPECT_EQ(with("margin='0.05' gap='0.05'"), "");
+  EXPECT_THAT(with("gap='0.05'"), HasSubstr("lets things sink in"));
   EXPECT_EQ(with(""), "");
 
   const auto refused = [&](const std::string& file, const std::string& geom) {
@@ -135,6 +136,8 @@ TEST_F(ModelReaderTest, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfM
     EXPECT_THAT(with("<freejoint/>", std::string("<joint type='free' ") + of_joint + "='0.1'/>"),
                 HasSubstr("must have no damping, armature"));
   }
+  EXPECT_THAT(with("<freejoint/>", "<joint type='free' stiffness='5'/>"),
+              HasSubstr("must have no stiffness"));
   EXPECT_THAT(with("inertial pos='0 0 0'", "inertial pos='0 0.1 0'"), HasSubstr("centre of mass"));
   EXPECT_THAT(with("<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>", ""),
               HasSubstr("must have an <inertial>"));
