@@ -265,10 +265,13 @@ TEST(LuminanceRenderer, ABlackBallIsNowhereDarkerThanBlack) {
 
 TEST(LuminanceRenderer, ACubeTextureStaysWhereItIsOnAnUnboundedPlane) {
   Scene scene(std::string(kWhiteLight) +
-              "<asset><texture name='t' type='cube' builtin='checker' rgb1='1 1 1' rgb2='0 0 0' "
-              "width='64' height='384'/><material name='m' texture='t'/></asset>"
+              "<asset><texture name='t' type='cube' builtin='flat' mark='edge' rgb1='0 0 0' "
+              "markrgb='1 1 1' width='16' height='96'/><material name='m' texture='t'/></asset>"
               "<worldbody><geom type='plane' size='0 0 1' pos='0 0 -1' material='m'/></worldbody>");
-  Eigen::Isometry3d before = forward_camera(), after = before;
+  // Between two faces there is a line from the origin, half to the left.
+  Eigen::Isometry3d before = forward_camera();
+  before.linear() = Eigen::AngleAxisd(0.7, Vector3d::UnitZ()) * before.linear();
+  Eigen::Isometry3d after = before;
   before.translation().x() = 0.9999;
   after.translation().x() = 1.0001;
   const Image a = scene.render(before), b = scene.render(after);
@@ -277,6 +280,7 @@ TEST(LuminanceRenderer, ACubeTextureStaysWhereItIsOnAnUnboundedPlane) {
     differ += std::abs(a.luminance[i] - b.luminance[i]) > 0.2 ? 1 : 0;
   }
   EXPECT_LT(differ, 50);
+  EXPECT_GT(std::ranges::count_if(a.luminance, [](float l) { return l > 0.5f; }), 500);
 }
 
 TEST(LuminanceRenderer, DrawsWhatIsNearAndLeavesTheFarToTheSky) {
