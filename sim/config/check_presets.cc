@@ -53,7 +53,7 @@ void check_set_preset(const Preset& preset, const YamlNode& file, const YamlNode
   context.add_problem(now.empty() ? preset.group : preset.key,
                       preset.key + change + before +
                           " by its name only: the file sets all keys of " + preset.group +
-                          " itself. Put --set " + preset.group + "=~ in front to take them away.");
+                          " itself. Put --set '" + preset.group + "=~' in front to take them away.");
 }
 
 bool varies(const Scenario& scenario, const std::string& key) {
