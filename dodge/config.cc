@@ -47,6 +47,32 @@ void check_not_more(const Parameter& smaller, const Parameter& larger) {
   if (smaller.value > larger.value) refuse_order(smaller, "not exceed", larger);
 }
 
+// A hit whose place is as uncertain as this is no more probable.
+void check_escape(const EscapeConfig& config, double max_size_m) {
+  check_not_more({"escape.keep_probability", config.keep_probability},
+                 {"escape.min_probability", config.min_probability});
+  const double radii = (config.hull_radius_m + 0.5 * max_size_m) / config.control_sigma_m;
+  const double most = 1 - std::exp(-0.5 * radii * radii);
+  if (config.law == "potential_field" || config.min_probability < most) return;
+  std::ostringstream sentence;
+  sentence << "The parameter escape.min_probability is " << config.min_probability
+           << " but must be less than " << most
+           << ": with escape.control_sigma_m no hit of anything up to position.max_size_m is more "
+              "probable.";
+  fail(sentence.str());
+}
+
+// Who brakes less than this flies on after an escape as if it never ended.
+void check_calm(const VelocityLimitConfig& config) {
+  constexpr double kLeastMps2 = 0.1;
+  const double calm_mps2 = config.calm_acceleration_mps2;
+  if (calm_mps2 == 0 || calm_mps2 >= kLeastMps2) return;
+  std::ostringstream sentence;
+  sentence << "The parameter velocity_limit.calm_acceleration_mps2 is " << calm_mps2
+           << " but must be 0 (at once) or at least " << kLeastMps2 << ".";
+  fail(sentence.str());
+}
+
 void check_repulsive(const RepulsiveConfig& config) {
   if (config.field != "khosla" || config.gamma >= 1) return;
   std::ostringstream sentence;
@@ -136,16 +162,24 @@ void validate(const Config& config) {
              {"position.max_range_m", config.position.max_range_m});
   check_less({"position.min_size_m", config.position.min_size_m},
              {"position.max_size_m", config.position.max_size_m});
+  if (config.position.depth == "mono") {  // a cluster's size is taken to be the known one
+    check_less({"position.min_size_m", config.position.min_size_m},
+               {"position.known_size_m", config.position.known_size_m});
+    check_less({"position.known_size_m", config.position.known_size_m},
+               {"position.max_size_m", config.position.max_size_m});
+  }
+  check_not_more({"cluster.min_points", 1.0 * config.cluster.min_points},
+                 {"cluster.max_groups", 1.0 * config.cluster.max_groups});
   check_less({"range_sensor.min_range_m", config.range_sensor.min_range_m},
              {"range_sensor.max_range_m", config.range_sensor.max_range_m});
   check_repulsive(config.repulsive);
-  check_not_more({"escape.keep_probability", config.escape.keep_probability},
-                 {"escape.min_probability", config.escape.min_probability});
+  check_escape(config.escape, config.position.max_size_m);
   if (config.escape.law != "potential_field" && decay_lifetime_s(config.repulsive) <= 0) {
     // By any law an obstacle is remembered until its repulsive constant has decayed.
     refuse_order({"repulsive.k_r0", config.repulsive.k_r0}, "exceed",
                  {"repulsive.k_tau", config.repulsive.k_tau});
   }
+  check_calm(config.velocity_limit);
   check_less({"velocity_limit.evading_threshold_mps", config.velocity_limit.evading_threshold_mps},
              {"velocity_limit.max_speed_mps", config.velocity_limit.max_speed_mps});
   check_not_more({"landing.touchdown_mps", config.landing.touchdown_mps},

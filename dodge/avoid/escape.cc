@@ -15,6 +15,7 @@ constexpr int kDirections = 24;  // of escape, across the obstacle's line of fli
 constexpr int kStrips = 32;      // of the disc over which a probability is integrated
 constexpr double kNoSpeedMps = 1e-9;
 constexpr double kNoDistanceM = 1e-9;
+constexpr double kRounding = 1e-9;  // of a unit vector
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Where a vehicle will be whose velocity changes from v to another at constant acceleration, after
@@ -241,7 +242,7 @@ Vector3d EscapePlanner::best_direction(TimeUs now_us, const VehicleMotion& vehic
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2 * std::numbers::pi * i / kDirections;
     const Vector3d direction_W = std::cos(angle) * up + std::sin(angle) * left;
-    if (direction_W.z() < lowest_z_) continue;
+    if (direction_W.z() < lowest_z_ - kRounding) continue;
     const double sigmas = clearance(direction_W);
     if (sigmas <= best) continue;
     best = sigmas;

@@ -39,7 +39,7 @@ struct EscapeConfig {
     v("control_sigma_m", control_sigma_m, 1e-3, 10.0,
       "Standard deviation, per axis, of where the vehicle will be from where it is predicted. With "
       "the obstacle's it counts as no less than a tenth of both radii together.");
-    v("min_probability", min_probability, 0.0, 1.0,
+    v("min_probability", min_probability, 0.0, 0.99,
       "Least probability of a hit that starts an escape. The estimate of a far obstacle is so "
       "vague that no hit is probable; it earns its range as its covariance shrinks.");
     v("keep_probability", keep_probability, 0.0, 1.0,

@@ -38,7 +38,7 @@ struct StereoConfig {
       "How far from the centres' disparity the correlation looks, and on while it grows: about the "
       "size of an object.");
     v("min_correlation", min_correlation, 0, 1, "A pair whose rho images agree less is no match.");
-    v("min_share_of_best", min_share_of_best, 0, 1,
+    v("min_share_of_best", min_share_of_best, 0, 0.99,
       "A pair whose rho images agree less than this share of the best agreement along the whole "
       "columns is no match: one with another part of the scene, which looks like it. 0: not looked "
       "for, as nothing of the kind is in the paper.");

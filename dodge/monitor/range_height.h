@@ -19,7 +19,7 @@ struct RangeSensorConfig {
       "Readings nearer than this are not used (TeraRanger Evo 60m: 0.5 m).");
     v("max_range_m", max_range_m, 0.0, 1000.0,
       "Readings farther than this are not used (TeraRanger Evo 60m: 60 m).");
-    v("max_tilt_deg", max_tilt_deg, 0.0, 80.0,
+    v("max_tilt_deg", max_tilt_deg, 1.0, 80.0,
       "Readings at more tilt are not used: the sensor then looks at what is beside the vehicle, at "
       "30 deg 1.2 m away from 2 m up, and an error of the attitude weighs more.");
   }

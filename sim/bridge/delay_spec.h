@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <numeric>
 
 #include "sim/base/time.h"
 
@@ -42,6 +43,24 @@ struct DelaySpec {
     const TimeUs sent_us = cycle_start_us - transport_us;
     const TimeUs into_packet_us = (sent_us % packet_us + packet_us) % packet_us;
     return sent_us - into_packet_us;
+  }
+
+  // Age of a camera's newest packet at a cycle that gets it as early as any does: packets end and
+  // cycles start at whole multiples of theirs.
+  TimeUs least_event_age_us(int camera) const {
+    const TimeUs step_us = std::gcd(packet_us, period_us());
+    return (transport_us_of(camera) + step_us - 1) / step_us * step_us;
+  }
+
+  // By how much the lower camera's newest packet is older than the upper one's at a cycle at which
+  // they are nearest: whole packets.
+  TimeUs least_lag_us() const {
+    const TimeUs step_us = std::gcd(packet_us, period_us());
+    // The longest that the upper camera's newest packet may have waited.
+    const TimeUs waited_us = packet_us - step_us + least_event_age_us(0) - transport_us;
+    const TimeUs packets = lower_camera_us / packet_us;
+    const TimeUs rest_us = lower_camera_us % packet_us;
+    return (packets + (rest_us > waited_us ? 1 : 0)) * packet_us;
   }
 
   template <class Visitor>

@@ -52,12 +52,12 @@ class RowFiles {
     for (const EventTruthRow& row : result.truth_rows) truth_->write(csv_row(row));
   }
 
+  // All or none: what the disk has no place for is known before the first is there.
   void commit() {
-    throws_.commit();
-    objects_.commit();
-    detections_.commit();
-    timing_.commit();
-    if (truth_) truth_->commit();
+    std::vector<OutputFile*> files = {&throws_, &objects_, &detections_, &timing_};
+    if (truth_) files.push_back(&*truth_);
+    for (OutputFile* file : files) file->finish();
+    for (OutputFile* file : files) file->commit();
   }
 
  private:

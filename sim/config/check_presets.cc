@@ -50,10 +50,10 @@ void check_set_preset(const Preset& preset, const YamlNode& file, const YamlNode
   if (before.empty() || preset.same(now, before) || !gives_all_keys(preset, context)) return;
   const std::string change =
       now.empty() ? " is left out instead of " : " is " + now + " instead of ";
-  context.add_problem(now.empty() ? preset.group : preset.key,
-                      preset.key + change + before +
-                          " by its name only: the file sets all keys of " + preset.group +
-                          " itself. Put --set '" + preset.group + "=~' in front to take them away.");
+  context.add_problem(
+      now.empty() ? preset.group : preset.key,
+      preset.key + change + before + " by its name only: the file sets all keys of " +
+          preset.group + " itself. Put --set '" + preset.group + "=~' in front to take them away.");
 }
 
 bool varies(const Scenario& scenario, const std::string& key) {

@@ -24,6 +24,19 @@ bool stereo(const Scenario& scenario) { return scenario.dodger.position.depth ==
 bool may_measure_mono(const Scenario& s) { return s.pilot == kPluginPilot || !stereo(s); }
 bool may_measure_stereo(const Scenario& s) { return s.pilot == kPluginPilot || stereo(s); }
 
+bool correlates(const Scenario& s) {
+  return s.pilot == kPluginPilot || s.dodger.position.stereo.disparity != "centres";
+}
+bool gates_by_metres(const Scenario& s) {
+  return s.pilot == kPluginPilot || s.dodger.association.gate_sigmas == 0;
+}
+bool monitors(const Scenario& s) {
+  return s.pilot == kPluginPilot || s.dodger.height_monitor.enabled;
+}
+
+constexpr const char* kCentres = "dodger.position.stereo.disparity is centres";
+constexpr const char* kGates = "dodger.association.gate_sigmas is not 0";
+constexpr const char* kNoMonitor = "dodger.height_monitor.enabled is false";
 constexpr const char* kStereo = "dodger.position.depth is stereo";
 constexpr const char* kMono = "dodger.position.depth is mono";
 
@@ -37,6 +50,17 @@ const IdleRule kRules[] = {
        return s.pilot == kPluginPilot || s.dodger.escape.law != "potential_field";
      },
      "dodger.escape.law is potential_field"},
+    {"dodger.position.stereo.search_px", "", correlates, kCentres},
+    {"dodger.position.stereo.min_correlation", "", correlates, kCentres},
+    {"dodger.position.stereo.min_share_of_best", "", correlates, kCentres},
+    {"dodger.association.first_radius_m", "", gates_by_metres, kGates},
+    {"dodger.association.first_speed_mps", "", gates_by_metres, kGates},
+    {"dodger.association.radius_m", "", gates_by_metres, kGates},
+    {"dodger.window.camera_lag_us", "", may_measure_stereo, kMono},
+    {"sensors.range", "", monitors, kNoMonitor},
+    {"dodger.landing", "", monitors, kNoMonitor},
+    {"dodger.range_sensor", "", monitors, kNoMonitor},
+    {"dodger.height_monitor", "dodger.height_monitor.enabled", monitors, kNoMonitor},
     {"dodger.position.known_size_m", "", may_measure_mono, kStereo},
     {"dodger.position.side_sigma_px", "", may_measure_mono, kStereo},
     {"dodger.position.stereo", "", may_measure_stereo, kMono},
@@ -45,6 +69,15 @@ const IdleRule kRules[] = {
     {"sensors.render.flicker_depth", "",
      [](const Scenario& s) { return s.sensors.render.flicker.flicker_hz > 0; },
      "sensors.render.flicker_hz is 0"},
+    {"sensors.events.hot_pixel_hz", "",
+     [](const Scenario& s) { return s.sensors.events.hot_pixel_fraction > 0; },
+     "sensors.events.hot_pixel_fraction is 0"},
+    {"sensors.events.photoreceptor_dark_hz", "",
+     [](const Scenario& s) { return s.sensors.events.photoreceptor_hz > 0; },
+     "sensors.events.photoreceptor_hz is 0"},
+    {"sensors.state_estimate.height_drift_start_s", "",
+     [](const Scenario& s) { return s.sensors.state_estimate.height_drift_mps != 0; },
+     "sensors.state_estimate.height_drift_mps is 0"},
     {"mission.waypoint_radius_m", "",
      [](const Scenario& s) { return s.mission.type == "waypoints"; },
      "mission.type is not waypoints"},

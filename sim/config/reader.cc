@@ -1,5 +1,6 @@
 #include "sim/config/reader.h"
 
+#include <cmath>
 #include <filesystem>
 #include <type_traits>
 
@@ -134,6 +135,12 @@ bool Reader::read_number(const YamlNode& node, const std::string& name, Number& 
   }
   const std::optional<Number> parsed = parse_number<Number>(node.text);
   if (!parsed || *parsed < min || *parsed > max) return refuse(node, name, "must be " + range);
+  // What is divided by less would not be finite.
+  if constexpr (std::is_same_v<Number, double>) {
+    if (*parsed != 0 && std::abs(*parsed) < 1e-300) {
+      return refuse(node, name, "must be 0 or at least 1e-300");
+    }
+  }
   value = *parsed;
   return true;
 }

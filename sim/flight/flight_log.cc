@@ -16,7 +16,7 @@ Eigen::Vector3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2
 FlightLogger::FlightLogger(const World& world, const Setup& setup) : setup_(setup) {
   log_.objects.resize(static_cast<std::size_t>(world.object_count()));
   Trajectory& trajectory = log_.trajectory;
-  trajectory.start_us = setup.start_us;
+  trajectory.start_us = std::max(setup.start_us, kTickUs);  // nobody observes the instant 0
   const TimeUs even_us = (setup.end_us - setup.start_us) / kMostSamples / kTickUs * kTickUs;
   trajectory.period_us = std::max(kPeriodUs, even_us + kTickUs);
   for (int i = 0; i < world.object_count(); ++i) {

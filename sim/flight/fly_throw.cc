@@ -125,7 +125,8 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
   result.none_after_room = std::ranges::any_of(result.object_rows, &ObjectRow::none_after_room);
   if (own.result.ok()) {
     explain_throw(plan, none.result.ok() ? &none.record : nullptr, own.record, result);
-    result.trajectory = to_bytes(own.record.log.trajectory);
+    const Trajectory& trajectory = own.record.log.trajectory;  // empty if it ended before
+    if (!trajectory.samples.empty()) result.trajectory = to_bytes(trajectory);
   }
   return result;
 }

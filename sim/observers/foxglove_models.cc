@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "sim/base/mujoco.h"
 #include "sim/world/compose.h"
 #include "sim/world/geom_color.h"
 #include "sim/world/mujoco_eigen.h"
@@ -41,10 +42,9 @@ Json mesh_triangles(const mjModel& model, int mesh, const Json& pose, const Colo
   return triangles(pose, corners, colour);
 }
 
-void add_geom(const mjModel& model, int geom, const Colour& colour, Json& entity) {
+void add_geom(const mjModel& model, int geom, const Vector3d& p, const Eigen::Quaterniond& q,
+              const Colour& colour, Json& entity) {
   const mjtNum* size = model.geom_size + 3 * geom;
-  const Vector3d p = ConstMap3(model.geom_pos + 3 * geom);
-  const Eigen::Quaterniond q = dodgesim::quaternion(model.geom_quat + 4 * geom);
   const Json X = pose(p, q);
   switch (model.geom_type[geom]) {
     case mjGEOM_PLANE:
@@ -81,7 +81,20 @@ void add_geom(const mjModel& model, int geom, const Colour& colour, Json& entity
 void add_body(const mjModel& model, int body, const std::optional<Colour>& colour, Json& entity) {
   for (int geom = 0; geom < model.ngeom; ++geom) {
     if (model.geom_bodyid[geom] != body || model.geom_group[geom] > kVehicleGroup) continue;
-    add_geom(model, geom, colour ? *colour : colour_of(model, geom), entity);
+    add_geom(model, geom, ConstMap3(model.geom_pos + 3 * geom),
+             dodgesim::quaternion(model.geom_quat + 4 * geom),
+             colour ? *colour : colour_of(model, geom), entity);
+  }
+}
+
+void add_room(const mjModel& model, const Colour& colour, Json& entity) {
+  const MjDataPtr data(mj_makeData(&model));
+  mj_kinematics(&model, data.get());
+  for (int geom = 0; geom < model.ngeom; ++geom) {
+    const bool fixed = model.body_weldid[model.geom_bodyid[geom]] == 0;
+    if (!fixed || model.geom_group[geom] > kVehicleGroup) continue;
+    const auto X_WG = frame(data->geom_xpos + 3 * geom, data->geom_xmat + 9 * geom);
+    add_geom(model, geom, X_WG.translation(), Eigen::Quaterniond(X_WG.linear()), colour, entity);
   }
 }
 

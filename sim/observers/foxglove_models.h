@@ -13,4 +13,7 @@ namespace dodgesim::foxglove {
 // outline. In the model's colours or in the given one.
 void add_body(const mjModel& model, int body, const std::optional<Colour>& colour, Json& entity);
 
+// The same of all that never moves, in the world.
+void add_room(const mjModel& model, const Colour& colour, Json& entity);
+
 }  // namespace dodgesim::foxglove

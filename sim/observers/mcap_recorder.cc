@@ -117,7 +117,7 @@ void McapRecorder::begin(const World& world) {
   shown_.assign(now_.objects.size(), false);
   paths_.resize(1 + now_.objects.size());
   Json room = foxglove::entity(now_.t_us, "world", "room");
-  foxglove::add_body(world.model(), 0, kRoom, room);
+  foxglove::add_room(world.model(), kRoom, room);
   write("/scene/room", now_.t_us, foxglove::scene_update({room}));
   Json vehicle = foxglove::entity(now_.t_us, "vehicle", "vehicle");
   foxglove::add_body(world.model(), world.vehicle_body(), std::nullopt, vehicle);

@@ -6,7 +6,6 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "sim/base/error.h"
 #include "sim/files/output_file.h"
 #include "sim/files/png.h"
 #include "sim/observers/stage_panels.h"
@@ -25,8 +24,8 @@ const Eigen::Vector4f kVehicleColour(0.1F, 0.6F, 1.0F, 1.0F);
 const Eigen::Vector4f kObjectColour(1.0F, 0.35F, 0.1F, 1.0F);
 
 // What the top camera has in view, as a grey picture [BGR] of log luminance.
-cv::Mat3b log_picture(const World& world, const Intrinsics& intrinsics) {
-  LuminanceRenderer renderer(world, intrinsics, RenderSpec{});
+cv::Mat3b log_picture(const World& world, const Intrinsics& intrinsics, const RenderSpec& spec) {
+  LuminanceRenderer renderer(world, intrinsics, spec);
   cv::Mat1f luminance(intrinsics.height, intrinsics.width);
   const Snapshot& now = world.snapshot();
   renderer.render(now, now.vehicle.pose() * world.vehicle().X_BC.front(),
@@ -52,13 +51,20 @@ void Poster::on_tick(const World& world) {
   if (std::isinf(distance_m)) return;
   const PictureView& view = chase_camera_.follow(now.vehicle);
   const bool dot = now.t_us % kDotEveryUs == 0;
-  if (dot) trail_.push_back({now.vehicle.p_W, 0.015, kVehicleColour});
-  for (std::size_t i = 0; i < now.objects.size(); ++i) {
-    if (dot && now.launched[i]) trail_.push_back({now.objects[i].p_W, 0.015, kObjectColour});
-  }
+  if (dot) extend_trail(now);
   if (distance_m >= nearest_m_) return;
   nearest_m_ = distance_m;
   if (dot) draw_scene(world, view);
+}
+
+void Poster::extend_trail(const Snapshot& now) {
+  trail_.push_back({now.vehicle.p_W, 0.015, kVehicleColour});
+  for (std::size_t i = 0; i < now.objects.size(); ++i) {
+    if (now.launched[i]) trail_.push_back({now.objects[i].p_W, 0.015, kObjectColour});
+  }
+  const std::size_t over =
+      trail_.size() - std::min<std::size_t>(trail_.size(), ScenePictures::kMaxDots);
+  trail_.erase(trail_.begin(), trail_.begin() + static_cast<std::ptrdiff_t>(over));
 }
 
 void Poster::draw_scene(const World& world, const PictureView& view) {
@@ -77,18 +83,18 @@ void Poster::on_dodger_cycle(TimeUs /*now_us*/, const dodge::Dodger& dodger) {
   constexpr int kWidth = kPosterSceneWidth / kPanels;
   const std::vector<cv::Mat3b> stages = stage_panels(dodger, 0, kWidth);
   if (stages.empty()) return;
-  const cv::Mat3b seen = titled_panel(log_picture(*world_, intrinsics_), kWidth, "luminance");
+  const cv::Mat3b seen =
+      titled_panel(log_picture(*world_, intrinsics_, render_), kWidth, "luminance");
   cv::hconcat(std::vector<cv::Mat3b>{seen, stages[0], stages[2], stages[4]}, strip_);
 }
 
-void Poster::save(OutputFile& file) const {
-  if (scene_.empty()) {
-    throw ScenarioError("There is no picture to make: nothing was thrown.");
-  }
+bool Poster::save(OutputFile& file) const {
+  if (scene_.empty()) return false;
   cv::Mat picture = scene_;
   if (!strip_.empty()) cv::vconcat(scene_, strip_, picture);
   file.write(png_of(picture));
   file.commit();
+  return true;
 }
 
 }  // namespace dodgesim

@@ -12,25 +12,30 @@
 #include "sim/observers/chase_camera.h"
 #include "sim/observers/dodger_observer.h"
 #include "sim/render/scene_pictures.h"
+#include "sim/render/spec.h"
 
 namespace dodgesim {
 
 class Poster : public DodgerObserver {
  public:
-  explicit Poster(const Intrinsics& intrinsics) : intrinsics_(intrinsics) {}
+  Poster(const Intrinsics& intrinsics, const RenderSpec& render)
+      : intrinsics_(intrinsics), render_(render) {}
 
   void on_tick(const World& world) override;
   void on_first_detection() override { detected_ = true; }
   void on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) override;
 
-  // Writes and commits the file. Throws IoError if that fails, ScenarioError if nothing was thrown.
-  // Of a pilot that is no dodge::Dodger there are the flight paths only.
-  void save(OutputFile& file) const;
+  // Writes and commits the file; false if nothing was thrown, so that there is nothing to show.
+  // Throws IoError if that fails. Of a pilot that is no dodge::Dodger there are the flight paths
+  // only.
+  bool save(OutputFile& file) const;
 
  private:
+  void extend_trail(const Snapshot& now);
   void draw_scene(const World& world, const PictureView& view);
 
   Intrinsics intrinsics_;
+  RenderSpec render_;
   std::unique_ptr<ScenePictures> scenes_;
   ChaseCamera chase_camera_{3.6};
   std::vector<PictureDot> trail_;

@@ -85,7 +85,9 @@ struct Sums {
     const CameraRig rig = camera_rig(pilot.scenario);
     const double range_m = pilot.scenario.dodger.position.max_range_m;
     for_each_flown(pilot, oracle_in_view, [&](const ThrowResult& flown, const ThrowResult& seen) {
-      const auto near = first_within(range_m, trajectory_from_bytes(flown.trajectory), rig);
+      const auto near = flown.trajectory.empty()
+                            ? std::nullopt
+                            : first_within(range_m, trajectory_from_bytes(flown.trajectory), rig);
       const bool visible = near && centre_in_image(rig.intrinsics, near->p_C);
       (visible ? in_view : not_in_view).add(flown, seen);
       all.add(flown, seen);

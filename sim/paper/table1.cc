@@ -98,7 +98,7 @@ void add(const DetectionRow& row, const ObjectView& view, int course, ErrorSampl
 void add(const LoadedCampaign& campaign, Selection selection, ErrorSample& sample) {
   const CameraRig rig = camera_rig(campaign.scenario);
   for (const ThrowResult& result : campaign.results) {
-    if (!result.flown.ok()) continue;
+    if (!result.flown.ok() || result.trajectory.empty()) continue;
     ++sample.throws;
     const Passage passage(trajectory_from_bytes(result.trajectory), rig);
     for (const DetectionRow& row : result.detection_rows) {

@@ -99,7 +99,7 @@ std::vector<PassageCase> passages(const LoadedCampaign& campaign, const Reading&
   const CameraRig rig = camera_rig(campaign.scenario);
   std::vector<PassageCase> cases;
   for (const ThrowResult& result : campaign.results) {
-    if (!result.flown.ok()) continue;
+    if (!result.flown.ok() || result.trajectory.empty()) continue;
     const Passage passage(trajectory_from_bytes(result.trajectory), rig);
     for (std::size_t range = 0; range < kRanges; ++range) {
       const TimeInView seen =

@@ -37,7 +37,10 @@ struct RenderSpec {
   void visit(Visitor& v) {
     v("near_m", near_m, 0.001, 0.5,
       "Nothing of the room and of meshes nearer to the camera than this depth is drawn.");
-    v("far_m", far_m, 10.0, 100000.0, "Unbounded planes end at this distance, the horizon.");
+    v("far_m", far_m, 10.0, 100000.0,
+      "Unbounded planes end at this distance, the horizon; what else stands farther than twice as "
+      "far "
+      "is not drawn either, but for spheres, ellipsoids and capsules.");
     v("sky_luminance", sky_luminance, 0.0, 1000.0,
       "Luminance of the background where the room has no sky texture; 1 is a white surface under "
       "full light.");

@@ -45,8 +45,8 @@ struct StateEstimateSpec {
     v("velocity_white_mps", velocity_white_mps, 0, 10,
       "White noise of the velocity, per axis and estimate (assumed).");
     v("yaw_walk_rad_sqrts", yaw_walk_rad_sqrts, 0, 1,
-      "Random walk of the heading's error, unobservable to odometry: 0.4 deg after a minute "
-      "(assumed).");
+      "Random walk of the heading's error: 0.4 deg after a minute (assumed). It turns attitude and "
+      "velocity, but not the position, so that an error of a radian makes the vehicle spiral.");
     v("tilt_error_rad", tilt_error_rad, 0, 1,
       "Standard deviation of the roll and pitch error, which gravity bounds (assumed).");
     v("tilt_error_correlation_s", tilt_error_correlation_s, 0.001, 10000,

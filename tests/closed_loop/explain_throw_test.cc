@@ -278,15 +278,25 @@ TEST(ExplainThrow, NobodyBlamesThePilotThatDoesNothing) {
 TEST(ExplainThrow, TheTrajectoryShowsTheFlightUntilTheHit) {
   const ThrowResult result = fly_throw(head_on("none", "speed_mps: 8"), 0);
   const Trajectory trajectory = trajectory_from_bytes(result.trajectory);
-  EXPECT_EQ(trajectory.start_us, 0);  // 0.1 s before the launch
+  EXPECT_EQ(trajectory.start_us, kTickUs);  // 0.1 s before the launch, but for the first tick
   EXPECT_EQ(trajectory.end_us, *result.flown.hit_us);
   EXPECT_EQ(trajectory.sizes_m, std::vector<double>{0.2});
   const Trajectory::Sample& last = trajectory.samples.back();
   const double reach_m = (last.p_W - last.objects[0].value()).norm();
   EXPECT_GT(reach_m, 0.1);
   EXPECT_LT(reach_m, 0.1 + 0.26);  // ball and hull
-  EXPECT_FALSE(trajectory.samples[3].objects[0]);
-  EXPECT_TRUE(trajectory.samples[6].objects[0]);
+  ASSERT_EQ(trajectory.period_us, 20000);
+  EXPECT_FALSE(trajectory.samples[4].objects[0]);
+  // Sample i is of the instant start + i * period: between the ball's places on its way.
+  const double speed_mps = 8, launch_s = 0.1;
+  const auto flown_m = [&](std::size_t i) {
+    const double t_s = seconds(trajectory.start_us) + 0.02 * static_cast<double>(i);
+    return speed_mps * (t_s - launch_s);
+  };
+  const auto x_m = [&](std::size_t i) { return trajectory.samples[i].objects[0].value().x(); };
+  EXPECT_NEAR(x_m(6) - x_m(5), flown_m(5) - flown_m(6), 0.02);
+  EXPECT_NEAR(x_m(5), x_m(9) + flown_m(9) - flown_m(5), 0.05);
+  EXPECT_NEAR(x_m(5) - trajectory.samples[5].p_W.x(), 2 - flown_m(5), 0.05);
   EXPECT_LT(result.trajectory.size(), 400u);
 }
 

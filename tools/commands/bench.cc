@@ -3,12 +3,14 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 #include "sim/base/error.h"
 #include "sim/bench/bench.h"
 #include "sim/files/output_file.h"
 #include "sim/render/osmesa_context.h"
 #include "tools/commands/command.h"
+#include "tools/commands/stop_signal.h"
 
 namespace dodgesim {
 
@@ -39,8 +41,10 @@ void run(const BenchArguments& arguments, const std::string& command_line) {
   }
   std::optional<OutputFile> json;  // opened first, so that a failure shows at once
   if (!arguments.json.empty()) json.emplace(arguments.json);
+  if (json) watch_stop_signals();
   const auto measurements = measure(cases, arguments.options, [](const Measurement& measurement) {
     std::cout << line(measurement) << std::endl;
+    if (asked_to_stop()) throw std::runtime_error("Stopped; nothing is written.");
   });
   if (!json) return;
   const std::string gl_renderer = OsmesaContext(GlProfile::kCore33, 1, 1).renderer();

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 
 #include "sim/base/error.h"
 #include "sim/campaign/progress.h"
@@ -14,6 +15,7 @@
 #include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 #include "tools/commands/command.h"
+#include "tools/commands/stop_signal.h"
 
 namespace dodgesim {
 
@@ -64,9 +66,11 @@ int check_sensor(const CheckSensorArguments& arguments, const std::string& comma
     make_checks.push_back([scenario] { return judge(measure_time_statistics(scenario, kThrow)); });
     report.emplace(make_directory(arguments.out) / "report.html");
   }
+  if (report) watch_stop_signals();
   std::vector<Check> checks;
   bool failed = false;
   for (const auto& make_check : make_checks) {
+    if (asked_to_stop()) throw std::runtime_error("Stopped; nothing is written.");
     checks.push_back(make_check());
     failed = failed || checks.back().failed();
     for (const CheckLine& line : checks.back().lines) std::cout << line_text(line) << std::endl;

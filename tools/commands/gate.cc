@@ -95,15 +95,19 @@ void expect_same_throws(const Scenario& scenario, const Baseline& baseline, cons
 }
 
 void list_changes(const std::string& heading, const std::vector<ChangedThrow>& changes,
-                  const std::string& replay, std::ostream& text) {
+                  const Scenario& scenario, const std::string& replay, std::ostream& text) {
   if (changes.empty()) return;
+  // Of a quiet flight there is no picture.
+  const bool thrown = scenario.anyone_throws();
+  const std::string show = thrown ? " --picture throw" : " --video flight";
+  const std::string ending = thrown ? ".png" : ".mp4";
   constexpr std::size_t kMost = 10;
   text << heading << ":\n";
   for (std::size_t i = 0; i < std::min(changes.size(), kMost); ++i) {
     const ChangedThrow& change = changes[i];
     text << "  throw " << change.number << " (" << change.label << "): " << change.before
-         << ", now " << change.after << "\n    " << replay << change.number << " --picture throw"
-         << change.number << ".png\n";
+         << ", now " << change.after << "\n    " << replay << change.number << show << change.number
+         << ending << "\n";
   }
   if (changes.size() <= kMost) return;
   text << "  and throws";
@@ -123,8 +127,8 @@ std::string verdict_text(const GateArguments& arguments, const Scenario& scenari
                           arguments.baseline.string() + " (commit " + baseline.commit + ")",
                           arguments.options.out.string());
   const std::string replay = replay_line(arguments.options.out.string(), scenario);
-  list_changes("Lost", verdict.comparison.lost, replay, text);
-  list_changes("Gained", verdict.comparison.gained, replay, text);
+  list_changes("Lost", verdict.comparison.lost, scenario, replay, text);
+  list_changes("Gained", verdict.comparison.gained, scenario, replay, text);
   for (const GateCheck& check : verdict.checks) {
     const char* result = check.result == GateCheck::Result::kPassed   ? "passed"
                          : check.result == GateCheck::Result::kFailed ? "FAILED"

@@ -152,7 +152,9 @@ class Onlookers {
   // `duration_us`: how long the flight is, if known.
   Onlookers(const Scenario& scenario, const ReplayArguments& arguments,
             std::optional<TimeUs> duration_us)
-      : arguments_(arguments), poster_(intrinsics(scenario.sensors.camera)) {
+      : arguments_(arguments),
+        tells_truth_(scenario.pilot != kPluginPilot),
+        poster_(intrinsics(scenario.sensors.camera), scenario.sensors.render) {
     observers_.add(&stopper_);
     if (duration_us) observers_.add(&progress_.emplace(*duration_us));
     const Intrinsics camera = intrinsics(scenario.sensors.camera);
@@ -202,14 +204,13 @@ class Onlookers {
       if (more) std::cerr << "Of a flight that fails --mcap alone shows something.\n";
       return !more;
     }
-    if (picture_) poster_.save(*picture_);
     if (events_) {
       events_->commit();
       EventTruthSums sums;
       sums.add(truth_.rows());
       std::cout << events_->count() << " events of the " << arguments_.camera
-                << " camera: " << arguments_.events << "\n"
-                << truth_text(sums) << "\n";
+                << " camera: " << arguments_.events << "\n";
+      if (tells_truth_) std::cout << truth_text(sums) << "\n";
     }
     if (log_) {
       log_->finish();
@@ -223,11 +224,14 @@ class Onlookers {
       std::cout << stages_->pictures() << " pictures of the pilot's stages: " << arguments_.stages
                 << "\n";
     }
-    return true;
+    if (!picture_ || poster_.save(*picture_)) return true;
+    std::cerr << "There is no picture to make: the flight ended before anything was thrown.\n";
+    return false;
   }
 
  private:
   const ReplayArguments& arguments_;
+  bool tells_truth_;  // of its windows, which of a plug-in nobody knows
   Observers observers_;
   Stopper stopper_;
   std::optional<FlightProgress> progress_;
@@ -268,8 +272,24 @@ void expect_showable(const Scenario& scenario, const ReplayArguments& arguments)
     refuse({events}, "with dodger.position.depth mono there are no events of the camera " +
                          arguments.camera + ".");
   }
+  if (scenario.pilot == kPluginPilot) {
+    refuse({stages}, "the pilot of throw " + number + " is a plug-in, whose stages nobody knows.");
+  }
   if (!scenario.anyone_throws()) {
     refuse({picture, stages}, "in throw " + number + " nobody throws.");
+  }
+}
+
+// A recording may be replaced, but no other file of the user's.
+void expect_recording_or_nothing(const std::filesystem::path& directory) {
+  expect_no_campaign(directory, "--record");
+  if (std::filesystem::exists(directory / "top.h5")) return;
+  for (const char* name : {"top.yaml", "bottom.yaml", "bottom.h5", "imu.csv", "state.csv",
+                           "range.csv", "scenario.yaml", "truth.csv"}) {
+    if (!std::filesystem::exists(directory / name)) continue;
+    throw ScenarioError("--record " + directory.string() + " would overwrite " +
+                        (directory / name).string() +
+                        ", which is of no recording; choose another directory.");
   }
 }
 
@@ -287,7 +307,7 @@ int replay(const ReplayArguments& arguments) {
   try_models({campaign});
   if (!campaign.plugin.file.empty() || scenario.pilot == kPluginPilot) try_plugin(campaign);
   expect_showable(scenario, arguments);
-  if (!arguments.record.empty()) expect_no_campaign(arguments.record, "--record");
+  if (!arguments.record.empty()) expect_recording_or_nothing(arguments.record);
   const std::optional<ThrowResult> recorded =
       recorded_result(directory, index, arguments.throw_index);
 

@@ -30,7 +30,7 @@ class PosterTest : public ::testing::Test {
   PosterTest()
       : world_({scenario_.models_dir, "room", "qav_rxl", {{"ball", 0.2}}}),
         pilot_(config()),
-        poster_(intrinsics(scenario_.sensors.camera)) {
+        poster_(intrinsics(scenario_.sensors.camera), scenario_.sensors.render) {
     world_.reset({-2, 0, 2}, 0, Eigen::Vector3d::Zero());
     poster_.on_start(pilot_);
     for (TimeUs t_us = 0; t_us <= 20000; t_us += 1000) {
@@ -57,7 +57,7 @@ class PosterTest : public ::testing::Test {
     poster_.on_cycle(0, pilot_);
     const std::string file = (directory_ / "poster.png").string();
     OutputFile output(file);
-    poster_.save(output);
+    EXPECT_TRUE(poster_.save(output));
     const cv::Mat picture = testing::decoded(file).at(0);
     return picture.rowRange(600, picture.rows).clone();
   }

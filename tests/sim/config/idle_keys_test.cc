@@ -8,6 +8,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::SizeIs;
 
 std::vector<std::string> notes_on(const std::string& yaml) {
   return idle_keys(parse_scenario(yaml, "s.yaml", ""));
@@ -60,7 +61,22 @@ TEST(IdleKeys, AreThoseOfTheOtherDepth) {
                           "s.yaml:2:44: vehicle_overrides.lower_camera_turn_deg has no effect: "
                           "dodger.position.depth is mono."));
   // A plug-in may use all keys of dodger, but gets no events of a second camera either.
-  EXPECT_THAT(notes_on("pilot: plugin\n" + stereo + "mono, known_size_m: 1}}\n").size(), 2);
+  EXPECT_THAT(notes_on("pilot: plugin\n" + stereo + "mono, known_size_m: 0.5}}\n").size(), 2);
+}
+
+TEST(IdleKeys, OfWhatIsSwitchedOffAreNamed) {
+  for (const char* yaml :
+       {"dodger: {position: {stereo: {disparity: centres, search_px: 8}}}\n",
+        "pilot: dodgesim\ndodger: {association: {radius_m: 1}}\n",
+        "dodger: {height_monitor: {enabled: false, learn_readings: 10}}\n",
+        "dodger: {height_monitor: {enabled: false}, landing: {fresh_us: 200000}}\n",
+        "dodger: {height_monitor: {enabled: false}}\nsensors: {range: {rate_hz: 100}}\n",
+        "sensors: {events: {preset: ideal, hot_pixel_hz: 500}}\n",
+        "sensors: {events: {preset: ideal, photoreceptor_dark_hz: 10}}\n",
+        "sensors: {state_estimate: {height_drift_start_s: 1}}\n"}) {
+    EXPECT_THAT(notes_on(yaml), SizeIs(1)) << yaml;
+    EXPECT_THAT(notes_on(std::string("plugin_parameters: x\n") + yaml), SizeIs(2)) << yaml;
+  }
 }
 
 TEST(IdleKeys, OfAFlickerAreNamedWithoutOne) {

@@ -165,9 +165,10 @@ TEST_F(ScenarioTree, APilotInNameOnlyIsRefused) {
   write("mine.yaml", "pilot: falanga2020\n");
   write("resolved.yaml", to_yaml(load("mine.yaml")));
   EXPECT_EQ(load("mine.yaml", {set("pilot", "dodgesim")}).dodger.position.max_range_m, 5);
-  EXPECT_EQ(error_of("resolved.yaml", {set("pilot", "dodgesim")}),
-            "--set pilot=dodgesim: pilot is dodgesim instead of falanga2020 by its name only: the "
-            "file sets all keys of dodger itself. Put --set 'dodger=~' in front to take them away.");
+  EXPECT_EQ(
+      error_of("resolved.yaml", {set("pilot", "dodgesim")}),
+      "--set pilot=dodgesim: pilot is dodgesim instead of falanga2020 by its name only: the "
+      "file sets all keys of dodger itself. Put --set 'dodger=~' in front to take them away.");
   EXPECT_EQ(error_of("resolved.yaml", {set("sensors.events.preset", "noisy")}),
             "--set sensors.events.preset=noisy: sensors.events.preset is noisy instead of sees1 by "
             "its name only: the file sets all keys of sensors.events itself. Put --set '"
