@@ -14,30 +14,27 @@ bool leads_out(const CommandedWay& way, const Encounter& encounter) {
 CollisionCause cause_of_answer(const Agility& agility, const CollisionEvidence& evidence,
                                double left_s) {
   const Encounter& encounter = *evidence.undisturbed;
-  const auto needed_s = [&](const CommandedWay& way) {
-    return least_time_to_escape_s(agility, encounter, way.mean_W);
-  };
-  const auto led_away = [left_s](const std::optional<double>& time_s) {
-    return time_s && left_s >= *time_s;
+  const auto led_away = [&](const Encounter& from, const CommandedWay& way) {
+    const auto needed_s = least_time_to_escape_s(agility, from, way.mean_W);
+    return needed_s && left_s >= *needed_s;
   };
   if (evidence.turn) {
     const CommandedWay& way = evidence.turn->before;
-    const std::optional<double> time_s = needed_s(way);
-    if (led_away(time_s) && leads_out(way, encounter)) {
-      const bool early = seconds(evidence.turn->t_us - *evidence.command_us) < *time_s;
-      return early || !leads_out(evidence.commanded, encounter) ? CollisionCause::kDirectionTurned
-                                                                : CollisionCause::kNotEnoughThrust;
+    const double left_to_turn_s = seconds(encounter.contact_us - evidence.turn->t_us);
+    const bool followed = left_to_turn_s > agility.lag_s + agility.delay_s;
+    if ((followed || !leads_out(evidence.commanded, encounter)) && led_away(encounter, way) &&
+        leads_out(way, encounter)) {
+      return CollisionCause::kDirectionTurned;
     }
   }
-  if (led_away(needed_s(evidence.commanded))) {
+  if (led_away(encounter, evidence.commanded)) {
     return leads_out(evidence.commanded, encounter) ? CollisionCause::kNotEnoughThrust
                                                     : CollisionCause::kCommandedTooLittle;
   }
   Encounter believed = encounter;
   believed.object.p_W += evidence.position_error_W;
-  return led_away(least_time_to_escape_s(agility, believed, evidence.commanded.mean_W))
-             ? CollisionCause::kWrongPosition
-             : CollisionCause::kWrongDirection;
+  return led_away(believed, evidence.commanded) ? CollisionCause::kWrongPosition
+                                                : CollisionCause::kWrongDirection;
 }
 
 }  // namespace

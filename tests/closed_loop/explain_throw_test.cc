@@ -174,7 +174,7 @@ TEST(ExplainThrow, AnEscapeThatTurnsBackIsNoLackOfThrust) {
             "direction turned");
   EXPECT_EQ(cause_of({{500000, true, up, still}, {520000, true, left + 0.1 * up, up}}),
             "not enough thrust");
-  // Long after it should have been away: whether it is led back there.
+  // Too late for the rotors, or so that it is led back.
   EXPECT_EQ(cause_of({{500000, true, up, still}, {990000, true, left - 0.1 * up, up}}),
             "not enough thrust");
   EXPECT_EQ(cause_of({{500000, true, up, still}, {800000, true, -1.5 * up, up}}),

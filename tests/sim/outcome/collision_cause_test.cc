@@ -156,16 +156,16 @@ TEST(CollisionCause, AWrongDirectionThatIsCorrectedIsNotTurned) {
   EXPECT_EQ(cause(corrected), CollisionCause::kCommandedTooLittle);
 }
 
-// The rotors could have brought the vehicle out of the way before the turn: that they did not is
-// why it was hit, unless it would have been led back there.
-TEST(CollisionCause, ATurnThatComesWhenTheVehicleShouldBeAwayIsNoCause) {
-  const TimeUs needed_us = kContactUs - last_us(kLeft);
-  CollisionEvidence late = turned_back(500000, 500000 + needed_us + 1000);
-  late.commanded.path_W = kLeft;
+// A turn that the rotors' lag keeps from the vehicle is no cause, unless even one that follows at
+// once would have been led back.
+TEST(CollisionCause, ATurnThatTheRotorsDoNotFollowAnyMoreIsNoCause) {
+  const TimeUs lag_us = 40000;
+  CollisionEvidence late = turned_back(500000, kContactUs - lag_us + 1000);
+  late.commanded.path_W = late.commanded.mean_W = kLeft;
   EXPECT_EQ(cause(late), CollisionCause::kNotEnoughThrust);
-  late.turn->t_us = 500000 + needed_us - 1000;
+  late.turn->t_us = kContactUs - lag_us - 1000;
   EXPECT_EQ(cause(late), CollisionCause::kDirectionTurned);
-  late.turn->t_us = 500000 + needed_us + 1000;
+  late.turn->t_us = kContactUs - lag_us + 1000;
   late.commanded.path_W.setZero();
   EXPECT_EQ(cause(late), CollisionCause::kDirectionTurned);
 }
