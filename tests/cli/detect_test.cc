@@ -126,6 +126,14 @@ TEST_F(DetectTest, FindsInARecordedFlightWhatThePilotFoundInIt) {
   EXPECT_EQ(
       dodgesim("replay " + path("campaign") + " --throw 0 --record " + path("campaign")).exit_code,
       2);
+  // Nor over what is no recording.
+  fs::create_directory(root_ / "mine");
+  write("mine/scenario.yaml", "seed: 1\n");
+  const Outcome mine =
+      dodgesim("replay " + path("campaign") + " --throw 0 --record " + path("mine"));
+  EXPECT_EQ(mine.exit_code, 2);
+  EXPECT_THAT(mine.output, HasSubstr("would overwrite " + path("mine/scenario.yaml")));
+  EXPECT_EQ(contents("mine/scenario.yaml"), "seed: 1\n");
 }
 
 // The lower camera is turned by 3 degrees, of which its calibration knows. Without, there is hardly

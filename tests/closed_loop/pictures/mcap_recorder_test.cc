@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sim/base/mujoco.h"
 #include "sim/files/json.h"
 #include "sim/flight/setup.h"
 #include "sim/loop.h"
+#include "sim/observers/foxglove_models.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/closed_loop/pictures/decoded.h"
 #include "tests/sim/files/mcap_reader.h"
@@ -127,6 +129,22 @@ TEST_F(McapRecorderTest, ShowsEverythingWhereItTrulyIs) {
     EXPECT_EQ(std::abs(point["y"].get<double>()), 4);
     EXPECT_EQ(point["z"], 0);
   }
+}
+
+TEST(FoxgloveModels, OfARoomShowWhatStandsInBodiesWhereItStands) {
+  const MjModelPtr model = compile_model(
+      "<mujoco><worldbody><geom type='sphere' size='.1' pos='0 0 1'/>"
+      "<body pos='2 0 0' euler='0 0 90'><geom type='box' size='.1 .2 .3' pos='0 1 0'/></body>"
+      "<body><freejoint/><geom type='sphere' size='.1' mass='1'/></body></worldbody></mujoco>",
+      ".", "test");
+  Json room = foxglove::entity(0, "world", "room");
+  foxglove::add_room(*model, foxglove::Colour::Ones(), room);
+  ASSERT_EQ(room["cubes"].size(), 1u);
+  EXPECT_LT((vector_of(room["cubes"][0]["pose"]["position"]) - Eigen::Vector3d(1, 0, 0)).norm(),
+            1e-9);
+  ASSERT_EQ(room["spheres"].size(), 1u);  // what flies is none of it
+  EXPECT_LT((vector_of(room["spheres"][0]["pose"]["position"]) - Eigen::Vector3d(0, 0, 1)).norm(),
+            1e-9);
 }
 
 TEST_F(McapRecorderTest, TellsWhatHappened) {
