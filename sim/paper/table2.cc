@@ -2,7 +2,6 @@
 #include <array>
 #include <limits>
 #include <map>
-#include <ranges>
 #include <tuple>
 
 #include "sim/base/error.h"
@@ -240,8 +239,8 @@ PaperTables analyse_table2(const std::vector<LoadedCampaign>& campaigns) {
   tables.markdown = "Detected / visible (rate, 95 % interval).\n\n";
   const std::vector<PassageCase> cases = passages(campaign, kReadings.front());
   add(kReadings.front().name, count_passages(cases));
-  for (const Reading& reading : kReadings | std::views::drop(1)) {
-    add(reading.name, count_passages(passages(campaign, reading)));
+  for (std::size_t i = 1; i < kReadings.size(); ++i) {
+    add(kReadings[i].name, count_passages(passages(campaign, kReadings[i])));
   }
   add("bins of distance, centre in view, each 10 ms by itself", count_pieces(cases));
 
