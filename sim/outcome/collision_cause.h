@@ -21,9 +21,10 @@
 //                         nothing would have happened without the evasion
 //   direction turned      the commanded direction was right and the command early enough, but a
 //                         later command before the object came led back, more than a right angle
-//                         from the first, early enough for the rotors to follow it; a vehicle that
-//                         follows at once would have got away without. (Whether this one would have
-//                         only another flight can tell.)
+//                         from the first, early enough for the rotors to follow it, or so far that
+//                         even a vehicle that follows at once would have been hit; such a one would
+//                         have got away without. (Whether this one would have only another flight
+//                         can tell.)
 //   commanded too little  the commanded direction was right and the command early enough, but even
 //                         a vehicle that follows every command at once would not have got out of
 //                         the way: the pilot asked for too low a speed, or stopped too early
