@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kSceneWidth = 640, kSceneHeight = 480;
 constexpr double kSceneDistanceM = 4.2;
-constexpr std::size_t kMaxTrail = 2000;
 constexpr TimeUs kTrailEveryUs = 4000;
 constexpr TimeUs kLongestShownUs = 4000;  // events that no others follow
 constexpr int kPicturesPerS = 25;
@@ -46,7 +45,7 @@ Film::Film(const std::string& path, const Intrinsics& intrinsics, double slow)
 
 void Film::on_tick(const World& world) {
   const Snapshot& now = world.snapshot();
-  if (now.t_us % kTrailEveryUs == 0) extend_trail(now);
+  if (now.t_us % kTrailEveryUs == 0) trail_.extend(now);
   if (now.t_us % picture_every_us_ != 0) return;
   if (!scene_) scene_ = std::make_unique<ScenePictures>(world, kSceneWidth, kSceneHeight);
   compose(now);
@@ -71,18 +70,9 @@ void Film::on_cycle(TimeUs /*now_us*/, const dodge::Pilot& pilot) {
 
 void Film::on_command(TimeUs /*now_us*/, bool evading) { evading_ = evading; }
 
-void Film::extend_trail(const Snapshot& now) {
-  trail_.push_back({now.vehicle.p_W, 0.012, {0.1F, 0.7F, 1.0F, 1.0F}});
-  for (std::size_t i = 0; i < now.objects.size(); ++i) {
-    if (now.launched[i]) trail_.push_back({now.objects[i].p_W, 0.012, {1.0F, 0.3F, 0.1F, 1.0F}});
-  }
-  const std::size_t over = trail_.size() - std::min(trail_.size(), kMaxTrail);
-  trail_.erase(trail_.begin(), trail_.begin() + static_cast<std::ptrdiff_t>(over));
-}
-
 void Film::compose(const Snapshot& snapshot) {
   cv::Mat3b scene(kSceneHeight, kSceneWidth);
-  scene_->draw(snapshot, chase_camera_.follow(snapshot.vehicle), trail_, scene.data);
+  scene_->draw(snapshot, chase_camera_.follow(snapshot.vehicle), trail_.dots(), scene.data);
   cv::cvtColor(scene, scene, cv::COLOR_RGB2BGR);
   scene.copyTo(picture_(cv::Rect(0, 0, kSceneWidth, kSceneHeight)));
   const int width = picture_.cols - kSceneWidth, height = kSceneHeight / 2;

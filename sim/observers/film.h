@@ -10,6 +10,7 @@
 #include "sim/files/mp4_file.h"
 #include "sim/flight/flight_observer.h"
 #include "sim/observers/chase_camera.h"
+#include "sim/observers/trail.h"
 #include "sim/render/scene_pictures.h"
 
 namespace dodgesim {
@@ -57,7 +58,6 @@ class Film : public FlightObserver {
     bool shown = false;  // in a picture of the video
   };
 
-  void extend_trail(const Snapshot& now);
   void compose(const Snapshot& snapshot);
   void caption(const Snapshot& snapshot);
 
@@ -65,7 +65,7 @@ class Film : public FlightObserver {
   std::unique_ptr<ScenePictures> scene_;
   ChaseCamera chase_camera_;
   std::vector<Eye> eyes_;
-  std::vector<PictureDot> trail_;  // the newest
+  Trail trail_{0.012, 2000};
   bool evading_ = false;
   int detections_ = 0;
   cv::Mat3b picture_;

@@ -20,9 +20,6 @@ constexpr TimeUs kDotEveryUs = 10000;
 // As long as nothing is detected, the pilot is looked at again when an object is so much nearer.
 constexpr double kNearer = 0.9;
 
-const Eigen::Vector4f kVehicleColour(0.1F, 0.6F, 1.0F, 1.0F);
-const Eigen::Vector4f kObjectColour(1.0F, 0.35F, 0.1F, 1.0F);
-
 // What the top camera has in view, as a grey picture [BGR] of log luminance.
 cv::Mat3b log_picture(const World& world, const Intrinsics& intrinsics, const RenderSpec& spec) {
   LuminanceRenderer renderer(world, intrinsics, spec);
@@ -51,32 +48,22 @@ void Poster::on_tick(const World& world) {
   if (std::isinf(distance_m)) return;
   const PictureView& view = chase_camera_.follow(now.vehicle);
   const bool dot = now.t_us % kDotEveryUs == 0;
-  if (dot) extend_trail(now);
+  if (dot) trail_.extend(now);
   if (distance_m >= nearest_m_) return;
   nearest_m_ = distance_m;
   if (dot) draw_scene(world, view);
-}
-
-void Poster::extend_trail(const Snapshot& now) {
-  trail_.push_back({now.vehicle.p_W, 0.015, kVehicleColour});
-  for (std::size_t i = 0; i < now.objects.size(); ++i) {
-    if (now.launched[i]) trail_.push_back({now.objects[i].p_W, 0.015, kObjectColour});
-  }
-  const std::size_t over =
-      trail_.size() - std::min<std::size_t>(trail_.size(), ScenePictures::kMaxDots);
-  trail_.erase(trail_.begin(), trail_.begin() + static_cast<std::ptrdiff_t>(over));
 }
 
 void Poster::draw_scene(const World& world, const PictureView& view) {
   if (!scenes_)
     scenes_ = std::make_unique<ScenePictures>(world, kPosterSceneWidth, kPosterSceneHeight);
   scene_.create(kPosterSceneHeight, kPosterSceneWidth);
-  scenes_->draw(world.snapshot(), view, trail_, scene_.data);
+  scenes_->draw(world.snapshot(), view, trail_.dots(), scene_.data);
   cv::cvtColor(scene_, scene_, cv::COLOR_RGB2BGR);
 }
 
 void Poster::on_dodger_cycle(TimeUs /*now_us*/, const dodge::Dodger& dodger) {
-  if (world_ == nullptr || looked_last_ || trail_.empty()) return;
+  if (world_ == nullptr || looked_last_ || trail_.dots().empty()) return;
   looked_last_ = detected_;
   if (!detected_ && nearest_m_ > kNearer * looked_at_m_) return;
   looked_at_m_ = nearest_m_;

@@ -11,6 +11,7 @@
 #include "sim/files/output_file.h"
 #include "sim/observers/chase_camera.h"
 #include "sim/observers/dodger_observer.h"
+#include "sim/observers/trail.h"
 #include "sim/render/scene_pictures.h"
 #include "sim/render/spec.h"
 
@@ -31,14 +32,13 @@ class Poster : public DodgerObserver {
   bool save(OutputFile& file) const;
 
  private:
-  void extend_trail(const Snapshot& now);
   void draw_scene(const World& world, const PictureView& view);
 
   Intrinsics intrinsics_;
   RenderSpec render_;
   std::unique_ptr<ScenePictures> scenes_;
   ChaseCamera chase_camera_{3.6};
-  std::vector<PictureDot> trail_;
+  Trail trail_{0.015, ScenePictures::kMaxDots};
   const World* world_ = nullptr;  // of the running flight
   double nearest_m_ = 1e9;        // of the object so far
   double looked_at_m_ = 1e9;      // the same when the pilot was looked at last

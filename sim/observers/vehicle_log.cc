@@ -4,6 +4,7 @@
 #include <list>
 #include <optional>
 
+#include "sim/base/error.h"
 #include "sim/config/camera_calibration.h"
 #include "sim/files/csv.h"
 #include "sim/flight/setup.h"
@@ -38,6 +39,18 @@ TrueBody true_body(const BodyState& body) {
 }
 
 }  // namespace
+
+void expect_recording_or_nothing(const std::filesystem::path& directory,
+                                 const std::string& option) {
+  if (std::filesystem::exists(directory / "top.h5")) return;
+  for (const char* name : {"top.yaml", "bottom.yaml", "bottom.h5", "imu.csv", "state.csv",
+                           "range.csv", "scenario.yaml", "truth.csv"}) {
+    if (!std::filesystem::exists(directory / name)) continue;
+    throw ScenarioError(option + " " + directory.string() + " would overwrite " +
+                        (directory / name).string() +
+                        ", which is of no recording; choose another directory.");
+  }
+}
 
 VehicleLog::VehicleLog(const std::filesystem::path& directory, const Scenario& scenario)
     : directory_(directory),

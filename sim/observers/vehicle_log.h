@@ -26,6 +26,10 @@
 
 namespace dodgesim {
 
+// A recording may be replaced, but no other file of the user's: throws ScenarioError if the
+// directory has one of a log's names and no events. `option` named the directory.
+void expect_recording_or_nothing(const std::filesystem::path& directory, const std::string& option);
+
 class VehicleLog : public FlightObserver {
  public:
   // All functions throw IoError; without finish() no file appears, and an earlier recording in the

@@ -280,19 +280,6 @@ void expect_showable(const Scenario& scenario, const ReplayArguments& arguments)
   }
 }
 
-// A recording may be replaced, but no other file of the user's.
-void expect_recording_or_nothing(const std::filesystem::path& directory) {
-  expect_no_campaign(directory, "--record");
-  if (std::filesystem::exists(directory / "top.h5")) return;
-  for (const char* name : {"top.yaml", "bottom.yaml", "bottom.h5", "imu.csv", "state.csv",
-                           "range.csv", "scenario.yaml", "truth.csv"}) {
-    if (!std::filesystem::exists(directory / name)) continue;
-    throw ScenarioError("--record " + directory.string() + " would overwrite " +
-                        (directory / name).string() +
-                        ", which is of no recording; choose another directory.");
-  }
-}
-
 int replay(const ReplayArguments& arguments) {
   const std::string& directory = arguments.directory;
   const JournalIndex index = read_journal(std::filesystem::path(directory) / kJournalFile);
@@ -307,7 +294,10 @@ int replay(const ReplayArguments& arguments) {
   try_models({campaign});
   if (!campaign.plugin.file.empty() || scenario.pilot == kPluginPilot) try_plugin(campaign);
   expect_showable(scenario, arguments);
-  if (!arguments.record.empty()) expect_recording_or_nothing(arguments.record);
+  if (!arguments.record.empty()) {
+    expect_no_campaign(arguments.record, "--record");
+    expect_recording_or_nothing(arguments.record, "--record");
+  }
   const std::optional<ThrowResult> recorded =
       recorded_result(directory, index, arguments.throw_index);
 

@@ -20,4 +20,12 @@ inline std::string repeat(const std::string& text, int times) {
   return all;
 }
 
+struct BadScenario {
+  const char* name;
+  std::string yaml;
+  std::string message;  // the whole of it, or its start
+};
+
+inline void PrintTo(const BadScenario& bad, std::ostream* out) { *out << bad.name; }
+
 }  // namespace dodgesim
