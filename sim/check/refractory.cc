@@ -147,15 +147,14 @@ RampEvents measure_ramp(const EventCameraSpec& camera, std::uint64_t seed) {
 }
 
 Check judge(const RampEvents& measured, const EventCameraSpec& expected) {
-  Check check{"Refractory period and clock",
-              "The light grows so that the response to it does evenly, for every pixel from "
-              "another instant on and "
-              "for so long that its low-passes settle. After each event a pixel is held for the "
-              "refractory period and then waits until the light has grown by its threshold: the "
-              "median time between two events of a pixel is the sum of both, in the median over "
-              "the pixels, and no two are nearer than the period. With the clock's resolution the "
-              "same events come later, by half of "
-              "it on average. Noise, jitter and the readout's limit are off."};
+  Check check{
+      "Refractory period and clock",
+      "The light grows so that the response to it does evenly, for every pixel from another "
+      "instant on and for so long that its low-passes settle. After each event a pixel is held "
+      "for the refractory period and then waits until the light has grown by its threshold: the "
+      "median time between two events of a pixel is the sum of both, in the median over the "
+      "pixels, and no two are nearer than the period. With the clock's resolution the same events "
+      "come later, by half of it on average. Noise, jitter and the readout's limit are off."};
   const std::vector<double>& intervals = measured.intervals_us;
   const auto period_us = static_cast<double>(expected.refractory_us);
   const std::vector<double>& medians = measured.pixel_medians_us;

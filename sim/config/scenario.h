@@ -132,8 +132,7 @@ struct ThrowSpec {
     v("distance_m", distance_m, 0.5, 20,
       "Distance over the ground from the launch to the aim point, where the vehicle will be on "
       "arrival. Nothing of the room may stand between launch and vehicle, or the throw is an "
-      "error, "
-      "not a miss.");
+      "error, not a miss.");
     v("bearing_deg", bearing_deg, -180, 180,
       "Where the throw comes from, seen from the vehicle: 0 ahead, positive to the left.");
     v("aim_offset_m", aim_offset_m, -2, 2,

@@ -38,11 +38,12 @@ struct YamlNode {
   std::optional<YamlNode> take(std::string_view key);
 };
 
+inline constexpr std::size_t kMostValues = 5000;  // of a scenario
+
 // Parses one document whose root is a map; its positions have the given source. Duplicate keys,
 // anchors, aliases and merge keys are added to `problems`; what cannot be parsed at all (not UTF-8,
 // syntax, empty, several documents, too deep, too large) throws ScenarioError at once. Time and
 // memory are bounded by limits on size and depth.
-inline constexpr std::size_t kMostValues = 5000;  // of a scenario
 YamlNode parse_yaml(std::string_view text, Problems& problems, int source = 0,
                     std::size_t most_values = kMostValues);
 

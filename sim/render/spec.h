@@ -39,8 +39,7 @@ struct RenderSpec {
       "Nothing of the room and of meshes nearer to the camera than this depth is drawn.");
     v("far_m", far_m, 10.0, 100000.0,
       "Unbounded planes end at this distance, the horizon; what else stands farther than twice as "
-      "far "
-      "is not drawn either, but for spheres, ellipsoids and capsules.");
+      "far is not drawn either, but for spheres, ellipsoids and capsules.");
     v("sky_luminance", sky_luminance, 0.0, 1000.0,
       "Luminance of the background where the room has no sky texture; 1 is a white surface under "
       "full light.");
