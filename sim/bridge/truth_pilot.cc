@@ -18,8 +18,8 @@ bool has_passed(const BodyState& object, const BodyState& vehicle) {
 TruthPilot::TruthPilot(Setup setup, const dodge::Avoider& avoider)
     : setup_(std::move(setup)), avoider_(avoider) {}
 
-void TruthPilot::observe(const Snapshot& truth) {
-  if (!setup_.blind) light_.push_back(truth);
+void TruthPilot::observe(const Snapshot& truth, const FrameDrift& drift) {
+  if (!setup_.blind) light_.push_back({truth, drift});
 }
 
 bool TruthPilot::sees(const Snapshot& truth, std::size_t object) const {
@@ -32,7 +32,8 @@ bool TruthPilot::sees(const Snapshot& truth, std::size_t object) const {
   return p_C.z() > 0 && setup_.intrinsics.contains(setup_.intrinsics.project(p_C));
 }
 
-void TruthPilot::see(const Snapshot& truth) {
+void TruthPilot::see(const Light& light) {
+  const auto& [truth, drift] = light;
   for (std::size_t i = 0; i < truth.objects.size(); ++i) {
     const int id = static_cast<int>(i);
     if (!sees(truth, i)) continue;
@@ -40,8 +41,8 @@ void TruthPilot::see(const Snapshot& truth) {
       std::erase_if(obstacles_, [&](const auto& o) { return o.obstacle.id == id; });
       continue;
     }
-    const auto known = dodge::known_obstacle(id, truth.t_us, truth.objects[i].p_W,
-                                             truth.objects[i].v_W, setup_.sizes_m[i]);
+    const auto known = dodge::known_obstacle(id, truth.t_us, truth.objects[i].p_W + drift.p_W,
+                                             truth.objects[i].v_W + drift.v_W, setup_.sizes_m[i]);
     const auto old =
         std::ranges::find_if(obstacles_, [&](const auto& o) { return o.obstacle.id == id; });
     if (old == obstacles_.end()) {
@@ -54,7 +55,7 @@ void TruthPilot::see(const Snapshot& truth) {
 
 dodge::VelocityCommand TruthPilot::update(TimeUs now_us) {
   const TimeUs newest_us = setup_.delays.newest_packet_end_us(now_us) - setup_.latency_us;
-  for (; !light_.empty() && light_.front().t_us <= newest_us; light_.pop_front()) {
+  for (; !light_.empty() && light_.front().truth.t_us <= newest_us; light_.pop_front()) {
     see(light_.front());
   }
   std::erase_if(obstacles_, [&](const auto& o) {

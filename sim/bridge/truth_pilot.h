@@ -14,6 +14,7 @@
 #include "sim/bridge/delay_spec.h"
 #include "sim/bridge/oracle_spec.h"
 #include "sim/camera/camera.h"
+#include "sim/sensors/readings.h"
 #include "sim/world/snapshot.h"
 
 namespace dodgesim {
@@ -33,8 +34,9 @@ class TruthPilot : public dodge::Pilot {
 
   TruthPilot(Setup setup, const dodge::Avoider& avoider);
 
-  // The true state at each tick.
-  void observe(const Snapshot& truth);
+  // The true state at each tick, and how the frame of the state estimates has drifted: the pilot is
+  // told of objects in that frame, in which it flies and would see them.
+  void observe(const Snapshot& truth, const FrameDrift& drift);
 
   void add_events(int, std::span<const dodge::Event>) override {}
   void add_imu(const dodge::ImuSample&) override {}
@@ -45,12 +47,17 @@ class TruthPilot : public dodge::Pilot {
   std::span<const dodge::Obstacle> obstacles() const override { return seen_; }
 
  private:
+  struct Light {
+    Snapshot truth;
+    FrameDrift drift;
+  };
+
   bool sees(const Snapshot& truth, std::size_t object) const;
-  void see(const Snapshot& truth);
+  void see(const Light& light);
 
   Setup setup_;
   dodge::Avoider avoider_;
-  std::deque<Snapshot> light_;  // on its way
+  std::deque<Light> light_;  // on its way
   std::optional<dodge::StateEstimate> state_;
   dodge::Goal goal_;
   std::vector<dodge::TrackedObstacle> obstacles_;

@@ -15,7 +15,8 @@ DetectionLogger::DetectionLogger(const World& world, TimeUs output_delay_us)
   log_.first_of_object.resize(static_cast<std::size_t>(world.object_count()));
 }
 
-bool DetectionLogger::find(TimeUs now_us, std::span<const dodge::Detection> detections) {
+bool DetectionLogger::find(TimeUs now_us, std::span<const dodge::Detection> detections,
+                           const Eigen::Vector3d& drift_W) {
   const bool found_before = found_object_;
   for (const dodge::Detection& detection : detections) {
     DetectionRow row;
@@ -26,7 +27,7 @@ bool DetectionLogger::find(TimeUs now_us, std::span<const dodge::Detection> dete
     row.size_m = detection.size_m;
     row.depth_m = detection.depth_m;
     row.depth_sigma_m = detection.depth_sigma_m;
-    const Found found = with_truth(detection, row);
+    const Found found = with_truth(detection, drift_W, row);
     found_object_ = found_object_ || found.true_object;
     found_.push(now_us, found);
   }
@@ -36,6 +37,7 @@ bool DetectionLogger::find(TimeUs now_us, std::span<const dodge::Detection> dete
 // Beside the object that was nearest; without one, or if nobody knows that instant any more, as it
 // is.
 DetectionLogger::Found DetectionLogger::with_truth(const dodge::Detection& detection,
+                                                   const Eigen::Vector3d& drift_W,
                                                    DetectionRow row) const {
   const std::optional<Snapshot> truth = history_.at(detection.t_us);
   if (!truth) return {row};
@@ -43,10 +45,11 @@ DetectionLogger::Found DetectionLogger::with_truth(const dodge::Detection& detec
   for (std::size_t i = 0; i < truth->objects.size(); ++i) {
     if (!truth->launched[i]) continue;
     const Eigen::Vector3d& p_W = truth->objects[i].p_W;
-    const double error_m = (detection.centre_W - p_W).norm();
+    const Eigen::Vector3d drifted_p_W = p_W + drift_W;
+    const double error_m = (detection.centre_W - drifted_p_W).norm();
     if (row.position_error_m && error_m >= *row.position_error_m) continue;
     row.object = static_cast<int>(i);
-    row.true_p_W = to_array(p_W);
+    row.true_p_W = to_array(drifted_p_W);
     row.position_error_m = error_m;
     row.true_depth_m = (X_WC.inverse() * p_W).z();
   }

@@ -39,8 +39,11 @@ class DetectionLogger {
   // Call after each tick.
   void observe(const Snapshot& now) { history_.add(now); }
 
-  // Of the pilot's cycle that starts now. Returns whether it is the first to detect an object.
-  bool find(TimeUs now_us, std::span<const dodge::Detection> detections);
+  // Of the pilot's cycle that starts now, in the frame of its state estimates, which has drifted by
+  // drift_W [m] and in which the truth is put beside them. Returns whether it is the first to
+  // detect an object.
+  bool find(TimeUs now_us, std::span<const dodge::Detection> detections,
+            const Eigen::Vector3d& drift_W);
 
   // Logs what the pilot has given out by now, and calls logged(row, true_object) for each:
   // true_object says whether the detection is one of row.object.
@@ -61,7 +64,8 @@ class DetectionLogger {
     double distance_m = 0;  // of that object, from the camera
   };
 
-  Found with_truth(const dodge::Detection& detection, DetectionRow row) const;
+  Found with_truth(const dodge::Detection& detection, const Eigen::Vector3d& drift_W,
+                   DetectionRow row) const;
   void add(const Found& found);
 
   const World& world_;

@@ -179,7 +179,7 @@ void Flight::sense() {
 
 void Flight::see() {
   const Snapshot& now = world_.snapshot();
-  if (truth_pilot_ != nullptr) truth_pilot_->observe(now);
+  if (truth_pilot_ != nullptr) truth_pilot_->observe(now, state_estimator_.drift());
   if (!rig_) return;
   require_packet();
   rig_->advance(before_, now, [this](int camera, const Packet& packet) {
@@ -254,7 +254,10 @@ double Flight::true_range_m() const {
 
 void Flight::note_cycle() {
   const dodge::Pilot& pilot = computer_.pilot();
-  if (detection_logger_.find(now_us(), pilot.detections())) observer_.on_first_detection();
+  const Eigen::Vector3d& drift_W = state_estimator_.drift().p_W;
+  if (detection_logger_.find(now_us(), pilot.detections(), drift_W)) {
+    observer_.on_first_detection();
+  }
   if (truth_pilot_ != nullptr) {  // it detects nothing: it is told
     for (const dodge::Obstacle& obstacle : truth_pilot_->obstacles()) {
       flight_logger_.add_told(obstacle.id, now_us() + scenario_.delays.pilot_us());

@@ -99,7 +99,8 @@ struct ObjectRow : DrawnThrow {
   }
 };
 
-// One detection, beside the truth at its time.
+// One detection, beside the truth at its time. Positions are in the frame of the state estimate,
+// which drifts from the world's.
 struct DetectionRow {
   int throw_index = 0;
   TimeUs t_us = 0;       // the instant the position speaks of

@@ -22,6 +22,14 @@ struct StateReading {
   Eigen::Vector3d w_B = Eigen::Vector3d::Zero();            // [rad/s]
 };
 
+// How the frame of the state estimates has drifted from the world: what is at p in the world, is at
+// p + p_W in theirs, and seems to be faster by v_W. The white noise of each estimate is not part of
+// it, nor is the error of the heading.
+struct FrameDrift {
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  // [m]
+  Eigen::Vector3d v_W = Eigen::Vector3d::Zero();  // [m/s]
+};
+
 struct RangeReading {
   TimeUs t_us = 0;
   double range_m = 0;  // along -z of B

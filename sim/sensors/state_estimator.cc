@@ -21,9 +21,18 @@ StateEstimator::StateEstimator(const StateEstimateSpec& spec, std::uint64_t seed
       attitude_white_(seed, throw_index, "state/attitude/white"),
       rate_white_(seed, throw_index, "state/rate/white") {}
 
+void StateEstimator::step_drift(TimeUs t_us, double dt_s) {
+  drift_.p_W = position_walk_.step(dt_s);
+  const double drifting_s = seconds(t_us) - spec_.height_drift_start_s;
+  if (drifting_s <= 0) return;
+  drift_.p_W.z() += spec_.height_drift_mps * drifting_s;
+  drift_.v_W.z() = spec_.height_drift_mps;
+}
+
 StateReading StateEstimator::sample(const Snapshot& truth) {
   const double dt_s = last_us_ < 0 ? 0 : seconds(truth.t_us - last_us_);
   last_us_ = truth.t_us;
+  step_drift(truth.t_us, dt_s);
   const Eigen::Quaterniond yaw_error = rotation(Eigen::Vector3d(0, 0, yaw_walk_.step(dt_s)[0]));
   const Eigen::Vector2d tilt = tilt_error_.step(dt_s);
   const Eigen::Quaterniond tilt_error =
@@ -32,16 +41,11 @@ StateReading StateEstimator::sample(const Snapshot& truth) {
 
   StateReading reading;
   reading.t_us = truth.t_us;
-  reading.p_W = truth.vehicle.p_W + position_walk_.step(dt_s) +
-                spec_.position_white_m * normal_vector<3>(position_white_);
+  reading.p_W =
+      truth.vehicle.p_W + drift_.p_W + spec_.position_white_m * normal_vector<3>(position_white_);
   reading.q_W = (tilt_error * yaw_error * truth.vehicle.q_W).normalized();
-  reading.v_W = yaw_error * truth.vehicle.v_W + velocity_bias_.step(dt_s) +
+  reading.v_W = yaw_error * truth.vehicle.v_W + drift_.v_W + velocity_bias_.step(dt_s) +
                 spec_.velocity_white_mps * normal_vector<3>(velocity_white_);
-  const double drifting_s = seconds(truth.t_us) - spec_.height_drift_start_s;
-  if (drifting_s > 0) {
-    reading.p_W.z() += spec_.height_drift_mps * drifting_s;
-    reading.v_W.z() += spec_.height_drift_mps;
-  }
   reading.w_B = truth.vehicle.q_W.conjugate() * truth.vehicle.w_W +
                 spec_.rate_white_radps * normal_vector<3>(rate_white_);
   return reading;

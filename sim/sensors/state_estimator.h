@@ -76,7 +76,12 @@ class StateEstimator {
   // Call at increasing instants.
   StateReading sample(const Snapshot& truth);
 
+  // At the last sample.
+  const FrameDrift& drift() const { return drift_; }
+
  private:
+  void step_drift(TimeUs t_us, double dt_s);
+
   StateEstimateSpec spec_;
   SampleClock clock_;
   GaussMarkov<3> position_walk_;
@@ -87,6 +92,7 @@ class StateEstimator {
   RandomStream velocity_white_;
   RandomStream attitude_white_;
   RandomStream rate_white_;
+  FrameDrift drift_;
   TimeUs last_us_ = -1;
 };
 

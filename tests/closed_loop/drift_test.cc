@@ -79,6 +79,40 @@ TEST_P(DriftRate, EndsAtFloorOrCeilingWithoutAMonitor) {
   expect_crash_at(where_m, fly_as("none", hover(GetParam())));
 }
 
+// A ball at a vehicle that believes to be 0.75 m higher than it is.
+Scenario thrown_at_drifted() {
+  return scenario(
+      "mission: {start_m: [-2, 0, 2.75]}\n"
+      "throw: {distance_m: 3, speed_mps: 5, size_m: 0.2, launch_height_m: 1.7, launch_s: 1.5}\n"
+      "after_s: 0.1\n"
+      "dodger: {position: {max_range_m: 3}, height_monitor: {enabled: false}}\n"
+      "sensors: {state_estimate: {height_drift_mps: 0.5}}\n");
+}
+
+TEST(Drift, DetectionsAreHeldAgainstTheTruthWhereTheEstimateHasIt) {
+  const Scenario s = thrown_at_drifted();
+  FlightPlan plan = plan_throw(s, 0);
+  plan.end_us = plan.launches.at(0).drawn.launch_us + 400000;  // at 1 m; what is near costs time
+  Diary diary;
+  const FlightRecord record = fly(s, plan, &diary);
+  ASSERT_TRUE(record.detections.first);
+  ASSERT_GT(record.detections.rows.size(), 2u);
+  for (const DetectionRow& row : record.detections.rows) {
+    EXPECT_LT(*row.position_error_m, 0.5);
+    const Eigen::Map<const Eigen::Vector3d> logged_W(row.true_p_W->data());
+    const Eigen::Vector3d drift_W = logged_W - diary.at(row.t_us).objects[0].p_W;
+    EXPECT_NEAR(drift_W.z(), 0.5 * seconds(row.output_us), 0.02);
+    EXPECT_LT(drift_W.head<2>().norm(), 0.02);
+  }
+}
+
+TEST(Drift, TheOracleIsToldOfObjectsWhereTheEstimateHasThem) {
+  const FlightRecord record = fly_as("oracle", thrown_at_drifted());
+  EXPECT_TRUE(record.first_command_us);
+  EXPECT_FALSE(record.verdict.nearest.hit);
+  EXPECT_FALSE(record.verdict.crashed);
+}
+
 TEST(Drift, TheMonitorCanBeSwitchedOff) {
   expect_crash_at(kTouchingFloorM, fly_as("falanga2020", hover(0.9, "enabled: false")));
 }

@@ -16,7 +16,8 @@ constexpr const char* kThrow =
     "dodger: {position: {max_range_m: 3}}\n";
 
 TEST(PaperPilot, DetectsAThrowThenEvades) {
-  const Scenario s = scenario(kThrow);
+  Scenario s = scenario(kThrow);
+  s.sensors.state_estimate.position_walk_m_sqrts = 0;  // then the world's frame is the estimate's
   FlightPlan plan = plan_throw(s, 0);
   plan.end_us = plan.launches.at(0).drawn.launch_us + 400000;  // at 1 m; what is near costs time
   const Throw& drawn = plan.launches.at(0).drawn;

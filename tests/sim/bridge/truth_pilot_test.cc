@@ -83,7 +83,7 @@ Snapshot aimed(const Eigen::Vector3d& p_W) {
 
 bool sees(const TruthPilot::Setup& s, const Eigen::Vector3d& p_W) {
   const auto p = pilot(s);
-  p->observe(aimed(p_W));
+  p->observe(aimed(p_W), {});
   p->update(kDelayUs);
   return p->obstacles().size() == 1;
 }
@@ -99,7 +99,7 @@ TEST(TruthPilot, StaysWhereItIsUntilItKnowsWhereThatIs) {
 TEST(TruthPilot, SeesAnObjectWithItsTrueStateAfterTheDelay) {
   const auto p = pilot(setup());
   const Eigen::Vector3d ball_W = from_camera(2, 0.1, 0.2);
-  p->observe(scene(1000, {ball_W}));
+  p->observe(scene(1000, {ball_W}), {});
   p->update(1000 + kDelayUs - 1);
   EXPECT_TRUE(p->obstacles().empty());
   p->update(1000 + kDelayUs);
@@ -109,6 +109,18 @@ TEST(TruthPilot, SeesAnObjectWithItsTrueStateAfterTheDelay) {
   EXPECT_EQ(seen.v_WO, kBall_v_W);
   EXPECT_EQ(seen.size_m, kSizeM);
   EXPECT_EQ(seen.t_us, 1000);
+}
+
+// As a detection of a vehicle that believes to be elsewhere is elsewhere, too.
+TEST(TruthPilot, SeesAnObjectInTheFrameOfTheStateEstimates) {
+  const auto p = pilot(setup());
+  const Eigen::Vector3d ball_W = from_camera(2, 0.1, 0.2);
+  const FrameDrift drift{{0.3, -0.2, 0.7}, {0, 0, 0.5}};
+  p->observe(scene(0, {ball_W}), drift);
+  p->update(kDelayUs);
+  ASSERT_EQ(p->obstacles().size(), 1u);
+  EXPECT_EQ(p->obstacles()[0].p_WO, ball_W + drift.p_W);
+  EXPECT_EQ(p->obstacles()[0].v_WO, kBall_v_W + drift.v_W);
 }
 
 // Each tick tells of itself by an event, which goes the way of those of a camera.
@@ -124,7 +136,7 @@ TEST(TruthPilot, KnowsWhatAnEventCouldTell) {
         const auto p = pilot(s);
         std::map<TimeUs, TimeUs> tick_by_arrival;
         for (TimeUs now_us = 0; now_us <= kEndUs; now_us += kTickUs) {
-          p->observe(scene(now_us, {from_camera(2, 0, 0)}));
+          p->observe(scene(now_us, {from_camera(2, 0, 0)}), {});
           TimeUs packet_end_us = 0;
           while (packet_end_us < now_us + latency_us) packet_end_us += packet_us;
           tick_by_arrival[packet_end_us + transport_us] = now_us;
@@ -143,7 +155,7 @@ TEST(TruthPilot, AnObjectThatIsNotThrownYetIsNotThere) {
   const auto p = pilot(setup());
   Snapshot before = scene(0, {from_camera(2, 0, 0)});
   before.launched = {false};
-  p->observe(before);
+  p->observe(before, {});
   p->update(kDelayUs);
   EXPECT_TRUE(p->obstacles().empty());
 }
@@ -151,7 +163,7 @@ TEST(TruthPilot, AnObjectThatIsNotThrownYetIsNotThere) {
 TEST(TruthPilot, CommandsWhatTheAvoiderDoesWithTheSameObstacle) {
   const auto p = pilot(setup());
   const Eigen::Vector3d ball_W = from_camera(1.5, 0.1, 0.05);
-  p->observe(scene(0, {ball_W}));
+  p->observe(scene(0, {ball_W}), {});
   const dodge::VelocityCommand command = p->update(4000);
   const std::vector<dodge::TrackedObstacle> known = {
       dodge::known_obstacle(0, 0, ball_W, kBall_v_W, kSizeM)};
@@ -168,7 +180,7 @@ TEST(TruthPilot, TheBlindOneOnlyFliesToTheGoal) {
   s.blind = true;
   const auto p = pilot(s);
   for (TimeUs t_us = 0; t_us <= 8000; t_us += 1000) {
-    p->observe(scene(t_us, {from_camera(0.5, 0, 0)}));
+    p->observe(scene(t_us, {from_camera(0.5, 0, 0)}), {});
   }
   const dodge::VelocityCommand command = p->update(12000);
   EXPECT_TRUE(p->obstacles().empty());
@@ -195,7 +207,7 @@ TEST(TruthPilot, TheRangeTurnsWithTheVehicle) {
   // Turned round, the camera is on the other side: 12 cm nearer to what is behind.
   Snapshot turned = aimed(kVehicle_p_W - Eigen::Vector3d(2.1, 0, 0));
   turned.vehicle.q_W = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitZ());
-  p->observe(turned);
+  p->observe(turned, {});
   p->update(kDelayUs);
   EXPECT_EQ(p->obstacles().size(), 1u);
   EXPECT_FALSE(sees(s, kVehicle_p_W - Eigen::Vector3d(2.1, 0, 0)));
@@ -222,9 +234,9 @@ TEST(TruthPilot, AnObjectThatIsNoLongerSeenIsRememberedAndDecays) {
   s.oracle.range_cap_m = 2;
   const auto p = pilot(s);
   const Eigen::Vector3d near_W = from_camera(1.9, 0.1, 0.05);
-  p->observe(scene(0, {near_W}));
+  p->observe(scene(0, {near_W}), {});
   const auto push = [&](TimeUs now_us) {
-    p->observe(scene(now_us, {from_camera(2.1, 0.1, 0.05)}));  // out of range from now on
+    p->observe(scene(now_us, {from_camera(2.1, 0.1, 0.05)}), {});  // out of range from now on
     const dodge::VelocityCommand command = p->update(now_us + kDelayUs);
     return (command.v_W - avoider().command(now_us, state_at(0), kGoal, {}).v_W).norm();
   };
@@ -245,12 +257,12 @@ TEST(TruthPilot, AnObjectThatIsNoLongerSeenIsRememberedAndDecays) {
 TEST(TruthPilot, AnObjectThatFliesAwayIsForgotten) {
   const auto p = pilot(setup());
   Snapshot truth = scene(0, {from_camera(2, 0.3, 0)});
-  p->observe(truth);
+  p->observe(truth, {});
   p->update(kDelayUs);
   ASSERT_EQ(p->obstacles().size(), 1u);
   truth.t_us = 4000;
   truth.objects[0].p_W = kVehicle_p_W + Eigen::Vector3d(-0.1, 0.3, 0);  // has passed
-  p->observe(truth);
+  p->observe(truth, {});
   p->update(4000 + kDelayUs);
   EXPECT_TRUE(p->obstacles().empty());
 }
@@ -259,7 +271,7 @@ TEST(TruthPilot, AnObjectThatIsOutrunIsNotForgotten) {
   const auto p = pilot(setup());
   Snapshot truth = scene(0, {from_camera(2, 0.3, 0)});
   truth.vehicle.v_W = Eigen::Vector3d(-8, 0, 0);
-  p->observe(truth);
+  p->observe(truth, {});
   p->update(kDelayUs);
   EXPECT_EQ(p->obstacles().size(), 1u);
 }
@@ -269,7 +281,7 @@ TEST(TruthPilot, AnObjectThatTheVehicleCatchesUpWithIsNotForgotten) {
   Snapshot truth = scene(0, {from_camera(1, 0.1, 0)});
   truth.objects[0].v_W = Eigen::Vector3d(3, 0, 0);
   truth.vehicle.v_W = Eigen::Vector3d(5, 0, 0);
-  p->observe(truth);
+  p->observe(truth, {});
   p->update(kDelayUs);
   EXPECT_EQ(p->obstacles().size(), 1u);
 }
@@ -279,11 +291,11 @@ TEST(TruthPilot, AnObjectOutOfViewIsNotKnownToFlyAway) {
   s.oracle.field_of_view = true;
   const auto p = pilot(s);
   Snapshot truth = scene(0, {from_camera(2, 0.3, 0)});
-  p->observe(truth);
+  p->observe(truth, {});
   p->update(kDelayUs);
   truth.t_us = 4000;
   truth.objects[0].p_W = kVehicle_p_W + Eigen::Vector3d(-0.5, 0.3, 0);  // behind the camera
-  p->observe(truth);
+  p->observe(truth, {});
   p->update(4000 + kDelayUs);
   EXPECT_EQ(p->obstacles().size(), 1u);
 }
@@ -294,11 +306,11 @@ TEST(TruthPilot, KeepsSeveralObjectsApart) {
                                           from_camera(1, -1, 0)};
   Snapshot first = scene(0, balls_W);
   first.launched[0] = false;
-  p->observe(first);
+  p->observe(first, {});
   p->update(4000);
   ASSERT_EQ(p->obstacles().size(), 2u);
   for (Eigen::Vector3d& p_W : balls_W) p_W.x() -= 0.05;
-  p->observe(scene(8000, balls_W));
+  p->observe(scene(8000, balls_W), {});
   p->update(12000);
   ASSERT_EQ(p->obstacles().size(), 3u);
   for (const dodge::Obstacle& o : p->obstacles()) {

@@ -103,6 +103,27 @@ TEST(StateEstimator, TheHeightDriftsFromItsStartOnAndTheVelocityWithIt) {
   }
 }
 
+TEST(StateEstimator, ItsFrameDriftsByWhatItsPositionIsOffWithoutTheWhiteNoise) {
+  StateEstimateSpec spec = noiseless_estimate();
+  spec.position_walk_m_sqrts = 0.1;
+  spec.height_drift_mps = 0.3;
+  spec.height_drift_start_s = 1;
+  StateEstimator estimator(spec, 1, 0);
+  Snapshot truth = some_truth();
+  for (truth.t_us = 0; truth.t_us <= 3000000; truth.t_us += 500000) {
+    const StateReading reading = estimator.sample(truth);
+    EXPECT_TRUE(estimator.drift().p_W.isApprox(reading.p_W - truth.vehicle.p_W, 1e-12));
+    EXPECT_NEAR((estimator.drift().v_W - (reading.v_W - truth.vehicle.v_W)).norm(), 0, 1e-12);
+  }
+  EXPECT_GT(estimator.drift().p_W.head<2>().norm(), 0.01);
+
+  spec.position_white_m = spec.velocity_white_mps = 1;
+  StateEstimator noisy(spec, 1, 0);
+  for (truth.t_us = 0; truth.t_us <= 3000000; truth.t_us += 500000) noisy.sample(truth);
+  EXPECT_EQ(noisy.drift().p_W, estimator.drift().p_W);
+  EXPECT_EQ(noisy.drift().v_W, estimator.drift().v_W);
+}
+
 TEST(StateEstimator, VelocityAndTiltErrorsAreStationaryAndForgetThemselves) {
   StateEstimateSpec spec = noiseless_estimate();
   spec.velocity_bias_mps = 0.05;
