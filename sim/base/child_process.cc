@@ -27,7 +27,9 @@ namespace {
   ::setrlimit(RLIMIT_CORE, &no_core);
   // Allocators and sanitizers print messages, and so may the user's code that the task runs.
   const int nowhere = ::open("/dev/null", O_WRONLY);
-  for (const int printed : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, printed);
+  for (const int printed : {STDOUT_FILENO, STDERR_FILENO}) {
+    if (::dup2(nowhere, printed) < 0) ::close(printed);
+  }
   ::_exit(write_all(fd, task()) ? 0 : 1);
 }
 

@@ -24,6 +24,10 @@ bool all(std::size_t size, Transfer transfer) {
 
 }  // namespace
 
+Descriptor::~Descriptor() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
 bool write_all(int file, std::string_view bytes) {
   return all(bytes.size(), [&](std::size_t done) {
     return ::write(file, bytes.data() + done, bytes.size() - done);

@@ -24,7 +24,7 @@ constexpr int kMbBits = 20;
 
 void limit_memory([[maybe_unused]] std::int64_t memory_mb) {
 #if !defined(DODGESIM_SANITIZED)
-  rlimit limit{};
+  rlimit limit{RLIM_INFINITY, RLIM_INFINITY};
   ::getrlimit(RLIMIT_AS, &limit);
   const auto bytes = static_cast<rlim_t>(memory_mb) << kMbBits;
   limit.rlim_cur = std::min(limit.rlim_cur, bytes);
@@ -34,7 +34,7 @@ void limit_memory([[maybe_unused]] std::int64_t memory_mb) {
 }
 
 std::optional<std::int64_t> memory_limit_mb() {
-  rlimit limit{};
+  rlimit limit{RLIM_INFINITY, RLIM_INFINITY};
   ::getrlimit(RLIMIT_AS, &limit);
   if (limit.rlim_cur == RLIM_INFINITY) return std::nullopt;
   return static_cast<std::int64_t>(limit.rlim_cur >> kMbBits);

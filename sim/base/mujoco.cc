@@ -47,14 +47,10 @@ void check_numbers(const mjModel* model, const std::string& label) {
 
 }  // namespace
 
-void install_mujoco_handlers() {
-  mju_user_error = throw_error;
-  mju_user_warning = ignore_warning;
-}
-
 MjModelPtr compile_model(const std::string& xml, const std::string& directory,
                          const std::string& label) {
-  install_mujoco_handlers();
+  mju_user_error = throw_error;
+  mju_user_warning = ignore_warning;
   // A virtual file inside `directory`, so that relative includes and assets resolve there.
   const std::string name = "dodgesim_composed_model.xml";
   auto vfs = std::make_unique<mjVFS>();

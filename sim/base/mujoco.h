@@ -17,13 +17,11 @@ struct MjDataDeleter {
 using MjModelPtr = std::unique_ptr<mjModel, MjModelDeleter>;
 using MjDataPtr = std::unique_ptr<mjData, MjDataDeleter>;
 
-// Makes mju_error throw SimulationError (by default it waits for a key and exits) and silences
-// mju_warning, whose counters check_simulation() reads. Call once before any MuJoCo function.
-// After such an exception the mjData must be discarded.
-void install_mujoco_handlers();
-
 // Compiles MJCF text; includes and assets are found in the folder `directory`.
 // Throws ScenarioError with MuJoCo's message, naming `label`.
+// From then on mju_error throws SimulationError (by default it waits for a key and exits), after
+// which the mjData must be discarded, and mju_warning is silent: check_simulation() reads its
+// counters.
 MjModelPtr compile_model(const std::string& xml, const std::string& directory,
                          const std::string& label);
 

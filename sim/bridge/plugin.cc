@@ -13,9 +13,9 @@
 #include "sim/base/descriptor.h"
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
+#include "sim/base/input_file.h"
 #include "sim/base/process_state.h"
 #include "sim/bridge/guarded_pilot.h"
-#include "sim/files/input_file.h"
 
 namespace dodgesim {
 

@@ -12,7 +12,9 @@ namespace dodgesim {
 struct Plugin {
   std::string file;
   std::string digest;  // hexadecimal digits, of the bytes
-  int copy = -1;       // descriptor of a copy in memory, which this process and its children have
+  // Descriptor of a copy in memory, which this process and its children have. It stays open: the
+  // loader knows a library by its descriptor's name, and would take another of that name for it.
+  int copy = -1;
 };
 
 // Throws IoError if the file cannot be read or copied.

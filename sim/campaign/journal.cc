@@ -229,14 +229,12 @@ Journal::Journal(const std::filesystem::path& path, const CampaignIdentity& iden
 Journal::Journal(const std::filesystem::path& path, const JournalIndex& index)
     : path_(path), end_(index.end) {
   open(0);
-  if (::ftruncate(fd_, static_cast<off_t>(end_)) != 0) fail("could not be cut", errno);
+  if (::ftruncate(file_.get(), static_cast<off_t>(end_)) != 0) fail("could not be cut", errno);
 }
 
-Journal::~Journal() { ::close(fd_); }
-
 void Journal::open(int flags) {
-  fd_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | flags, 0644);
-  if (fd_ < 0) fail("could not be opened", errno);
+  file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CLOEXEC | flags, 0644));
+  if (!file_) fail("could not be opened", errno);
 }
 
 void Journal::add(const ThrowResult& result) {
@@ -246,16 +244,16 @@ void Journal::add(const ThrowResult& result) {
 
 void Journal::expect_only_writer() const {
   struct stat status {};
-  if (::fstat(fd_, &status) != 0) fail("could not be examined", errno);
+  if (::fstat(file_.get(), &status) != 0) fail("could not be examined", errno);
   if (static_cast<std::uint64_t>(status.st_size) == end_) return;
   throw IoError(path_.string() + " is being written to by another dodgesim, on another host?");
 }
 
 void Journal::append(const std::string& bytes) {
   expect_only_writer();
-  if (!pwrite_all(fd_, bytes, end_)) {
+  if (!pwrite_all(file_.get(), bytes, end_)) {
     const int error = errno;
-    if (::ftruncate(fd_, static_cast<off_t>(end_)) != 0) fail("could not be cut", errno);
+    if (::ftruncate(file_.get(), static_cast<off_t>(end_)) != 0) fail("could not be cut", errno);
     fail("could not be written", error);
   }
   end_ += bytes.size();
@@ -263,7 +261,7 @@ void Journal::append(const std::string& bytes) {
 
 void Journal::sync() {
   synced_ = WallClock::now();
-  if (::fdatasync(fd_) == 0 || errno == EINVAL || errno == ENOTSUP) return;
+  if (::fdatasync(file_.get()) == 0 || errno == EINVAL || errno == ENOTSUP) return;
   fail("could not be written", errno);
 }
 

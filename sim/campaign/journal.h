@@ -13,6 +13,7 @@
 #include <map>
 #include <string>
 
+#include "sim/base/descriptor.h"
 #include "sim/base/wall_clock.h"
 #include "sim/campaign/identity.h"
 #include "sim/outcome/result.h"
@@ -57,9 +58,6 @@ class Journal {
   // record. Throws IoError.
   Journal(const std::filesystem::path& path, const CampaignIdentity& identity);
   Journal(const std::filesystem::path& path, const JournalIndex& index);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
 
   // Throws IoError; the result is in the file then as a whole, not at all or, where the file cannot
   // be cut, damaged. That somebody else has written to the file is an error, too: locks do not hold
@@ -74,7 +72,7 @@ class Journal {
   [[noreturn]] void fail(const std::string& what, int error) const;
 
   std::filesystem::path path_;
-  int fd_ = -1;
+  Descriptor file_;
   std::uint64_t end_ = 0;
   WallClock::time_point synced_;
 };

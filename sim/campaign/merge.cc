@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/base/joined.h"
 #include "sim/base/wall_clock.h"
 #include "sim/campaign/campaign_directory.h"
@@ -12,7 +13,6 @@
 #include "sim/campaign/manifest.h"
 #include "sim/campaign/result_files.h"
 #include "sim/files/directory.h"
-#include "sim/files/input_file.h"
 #include "sim/files/output_file.h"
 
 namespace dodgesim {

@@ -17,6 +17,7 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,7 @@ constexpr std::chrono::seconds kLongestLook(1);
 
 template <class Value>
 std::string_view bytes_of(const Value& value) {
+  static_assert(std::is_trivially_copyable_v<Value>);
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
@@ -171,15 +173,18 @@ class Pool {
     if (!task) return false;
     int fds[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, fds) != 0) {
-      throw IoError(std::string("A worker's socket could not be made: ") + std::strerror(errno));
+      throw IoError(std::string("A worker's socket could not be made: ") + std::strerror(errno) +
+                    ".");
     }
     std::fflush(nullptr);  // else the worker would inherit, and might repeat, buffered output
     const pid_t campaign = ::getpid();
     const pid_t pid = ::fork();
+    const int error = errno;
     if (pid < 0) {
       ::close(fds[0]);
       ::close(fds[1]);
-      throw IoError(std::string("A worker process could not be started: ") + std::strerror(errno));
+      throw IoError(std::string("A worker process could not be started: ") + std::strerror(error) +
+                    ".");
     }
     if (pid == 0) {
       // A worker that held its siblings' sockets would keep them from seeing the campaign's end.
@@ -228,7 +233,7 @@ class Pool {
     for (const Worker& worker : workers_) polled.push_back({worker.fd, POLLIN, 0});
     if (::poll(polled.data(), polled.size(), kPollMs) < 0) {
       if (errno == EINTR) return;
-      throw IoError(std::string("Waiting for the workers failed: ") + std::strerror(errno));
+      throw IoError(std::string("Waiting for the workers failed: ") + std::strerror(errno) + ".");
     }
     // From the last to the first, because finished workers leave the list.
     for (std::size_t i = polled.size(); i-- > 0;) {
@@ -262,12 +267,13 @@ class Pool {
     MessageHeader header;
     std::string body;
     bool alive = read_all(worker.fd, &header, sizeof(header));
+    alive = alive && header.size <= kLargestRecord;
     if (alive) {
       body.resize(header.size);
       alive = read_all(worker.fd, body.data(), body.size());
     }
     if (!alive) {
-      const int status = reap(worker);
+      const int status = end(worker);  // one that has only lost its socket would never end
       if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) std::this_thread::sleep_for(kGrace);
       return lose(i, describe_death(status));
     }

@@ -113,14 +113,18 @@ bool gives_all_keys(const Scenario& scenario) {
 std::vector<std::string> idle_keys(const Scenario& scenario) {
   std::vector<std::string> notes;
   if (gives_all_keys(scenario)) return notes;
+  std::vector<const IdleRule*> idle;
   for (const IdleRule& rule : kRules) {
-    const std::vector<std::string> keys = given(rule, scenario);
-    if (keys.empty()) continue;
-    bool acts = false;
-    for_each_combination(scenario, [&](const Scenario& flown) { acts = acts || rule.acts(flown); });
-    if (acts) continue;
+    if (!given(rule, scenario).empty()) idle.push_back(&rule);
+  }
+  if (idle.empty()) return notes;
+  for_each_combination(scenario, [&](const Scenario& flown) {
+    std::erase_if(idle, [&](const IdleRule* rule) { return rule->acts(flown); });
+  });
+  for (const IdleRule* rule : idle) {
+    const std::vector<std::string> keys = given(*rule, scenario);
     notes.push_back(scenario.places.at(keys.front()) + ": " + joined(keys, {}, " and ") +
-                    (keys.size() == 1 ? " has" : " have") + " no effect: " + rule.reason + ".");
+                    (keys.size() == 1 ? " has" : " have") + " no effect: " + rule->reason + ".");
   }
   return notes;
 }

@@ -97,7 +97,7 @@ Mp4File::Mp4File(const std::string& path, int width, int height, double pictures
       picture_size_(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
   try {
     begin(width, height, pictures_per_s);
-  } catch (const IoError&) {
+  } catch (...) {
     stop();
     throw;
   }

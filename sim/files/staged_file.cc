@@ -35,12 +35,12 @@ StagedFile::StagedFile(std::filesystem::path path) : path_(std::move(path)) {
   path_ = target(path_);
   partial_ = partial_name(path_);
   do {
-    if (fd_ >= 0) ::close(fd_);
-    fd_ = ::open(partial_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
-    if (fd_ < 0) fail("could not be created", errno);
+    file_ = Descriptor();  // its lock must be gone
+    file_ = Descriptor(::open(partial_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
+    if (!file_) fail("could not be created", errno);
     lock();
-  } while (!is_open_file(partial_, fd_));  // another program has renamed or removed it meanwhile
-  if (::ftruncate(fd_, 0) != 0 && errno != EINVAL) fail("could not be created", errno);
+  } while (!is_open_file(partial_, fd()));  // another program has renamed or removed it meanwhile
+  if (::ftruncate(fd(), 0) != 0 && errno != EINVAL) fail("could not be created", errno);
 }
 
 std::filesystem::path StagedFile::target(const std::filesystem::path& path) {
@@ -61,29 +61,26 @@ void StagedFile::lock() {
   struct flock whole {};
   whole.l_type = F_WRLCK;
   whole.l_whence = SEEK_SET;
-  if (::fcntl(fd_, F_OFD_SETLK, &whole) == 0 || (errno != EAGAIN && errno != EACCES)) return;
-  ::close(fd_);
-  fd_ = -1;
+  if (::fcntl(fd(), F_OFD_SETLK, &whole) == 0 || (errno != EAGAIN && errno != EACCES)) return;
+  file_ = Descriptor();
   fail("is being written by another program", 0);
 }
 
 StagedFile::~StagedFile() {
-  if (fd_ < 0) return;
   // While the lock is held, and not if the name is another program's file by now.
-  if (is_open_file(partial_, fd_)) ::unlink(partial_.c_str());
-  ::close(fd_);
+  if (file_ && is_open_file(partial_, fd())) ::unlink(partial_.c_str());
 }
 
 // Some file systems report a full disk only here.
 void StagedFile::sync() {
-  if (::fsync(fd_) != 0 && errno != EINVAL) fail("could not be written", errno);
+  if (::fsync(fd()) != 0 && errno != EINVAL) fail("could not be written", errno);
 }
 
 void StagedFile::commit() {
   sync();
   // While the lock is held: once it is dropped, the partial file may be another writer's.
   if (::rename(partial_.c_str(), path_.c_str()) != 0) fail("could not be written", errno);
-  ::close(std::exchange(fd_, -1));
+  file_ = Descriptor();
 }
 
 void StagedFile::fail(const std::string& what, int error_number) const {

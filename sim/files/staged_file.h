@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "sim/base/descriptor.h"
+
 namespace dodgesim {
 
 class StagedFile {
@@ -26,7 +28,7 @@ class StagedFile {
 
   const std::filesystem::path& path() const { return path_; }  // target(PATH)
   const std::filesystem::path& partial() const { return partial_; }
-  int fd() const { return fd_; }  // open for writing until commit()
+  int fd() const { return file_.get(); }  // open for writing until commit()
 
   // Waits until the disk has the contents.
   void sync();
@@ -41,7 +43,7 @@ class StagedFile {
   void lock();
 
   std::filesystem::path path_, partial_;
-  int fd_ = -1;
+  Descriptor file_;
 };
 
 }  // namespace dodgesim

@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/campaign/result_files.h"
 #include "sim/files/directory.h"
-#include "sim/files/input_file.h"
 #include "sim/files/json.h"
 #include "sim/files/output_file.h"
 

@@ -1,6 +1,6 @@
 // What a gate compares with: a directory of a few small files, kept under version control.
 //
-//   throws.csv, objects.csv  of the campaign (objects.csv may be missing if no throw has several)
+//   throws.csv, objects.csv  of the campaign
 //   scenario.resolved.yaml   that it flew
 //   table.md                 for people
 //   manifest.json            commit, versions and machine of the campaign, and the gate's rules

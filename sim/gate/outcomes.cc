@@ -10,9 +10,9 @@
 #include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
+#include "sim/base/input_file.h"
 #include "sim/base/numbers.h"
 #include "sim/campaign/result_files.h"
-#include "sim/files/input_file.h"
 #include "sim/files/json.h"
 #include "sim/outcome/fate.h"
 
@@ -106,8 +106,6 @@ ThrowResult result_of(const CsvTable& table, std::size_t row) {
   result.none = flight_of(table, row, "none");
   result.oracle = flight_of(table, row, "oracle");
   result.evaded = table.boolean(row, "evaded");
-  // Tables of older versions lack the column.
-  if (!table.has("landing_us")) return result;
   result.landing_us = time_at(table, row, "landing_us");
   result.none.hit_us = time_at(table, row, "none_hit_us");
   return result;
@@ -155,7 +153,7 @@ std::int64_t throws_per_sweep_value(const CampaignTables& campaign) {
     return static_cast<std::int64_t>(planned / values);
   }
   const CsvTable& throws = campaign.throws;
-  for (std::size_t row = 0; throws.has("sweep") && row < throws.rows(); ++row) {
+  for (std::size_t row = 0; row < throws.rows(); ++row) {
     const int sweep = throws.integer(row, "sweep");
     if (sweep > 0) return throws.integer(row, "throw") / sweep;
   }
@@ -224,8 +222,8 @@ std::vector<ThrowOutcome> outcomes(const CampaignTables& campaign) {
       throw IoError(throws.name() + ": throw " + std::to_string(out.number) +
                     " stands behind throw " + std::to_string(all.back().number) + ".");
     }
-    if (throws.has("cell")) out.cell = throws.integer(row, "cell");
-    if (throws.has("sweep")) out.sweep = throws.integer(row, "sweep");
+    out.cell = throws.integer(row, "cell");
+    out.sweep = throws.integer(row, "sweep");
     out.stream = out.number - out.sweep * per_sweep_value;
     out.settings = settings_of(throws, row);
     out.label = label_of(throws, row);

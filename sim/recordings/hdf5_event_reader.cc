@@ -170,12 +170,13 @@ class Hdf5Reader : public EventReader {
     const hid_t memory = H5Screate_simple(1, &count, nullptr);
     const hid_t disk = H5Dget_space(column.dataset);
     const std::array<hsize_t, 2> from = {read_, column.index}, size = {count, 1};  // of a table
-    H5Sselect_hyperslab(disk, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr);
-    const herr_t status =
-        H5Dread(column.dataset, column.type, memory, disk, H5P_DEFAULT, column.values.data());
+    const bool read =
+        H5Sselect_hyperslab(disk, H5S_SELECT_SET, from.data(), nullptr, size.data(), nullptr) >=
+            0 &&
+        H5Dread(column.dataset, column.type, memory, disk, H5P_DEFAULT, column.values.data()) >= 0;
     H5Sclose(disk);
     H5Sclose(memory);
-    if (status >= 0) return;
+    if (read) return;
     throw IoError(path_ + ": " + column.name +
                   " cannot be read: it is damaged, or packed with a filter that the HDF5 library "
                   "finds no plug-in for (blosc, say; h5repack -f GZIP=1 unpacks it).");

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/base/numbers.h"
 #include "sim/base/time.h"
-#include "sim/files/input_file.h"
 #include "sim/recordings/evt_words.h"
 #include "sim/recordings/raw_event.h"
 

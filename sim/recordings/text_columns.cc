@@ -8,9 +8,9 @@
 
 #include "sim/base/contains.h"
 #include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/base/joined.h"
 #include "sim/base/numbers.h"
-#include "sim/files/input_file.h"
 
 namespace dodgesim {
 

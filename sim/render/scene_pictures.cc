@@ -43,7 +43,6 @@ ScenePictures::ScenePictures(const mjModel& model, int vehicle_body,
       context_(GlProfile::kCompatibility, width, height),
       data_(mj_makeData(&model)),
       bottom_up_(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-  install_mujoco_handlers();
   mjv_defaultScene(&scene_);
   mjv_makeScene(&model, &scene_, kMaxGeoms);
   mjr_defaultContext(&mujoco_context_);

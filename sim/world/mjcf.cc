@@ -14,6 +14,7 @@
 
 #include "sim/base/contains.h"
 #include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/base/names.h"
 
 namespace dodgesim {
@@ -219,11 +220,7 @@ std::vector<MjcfTag> read_model_file(const std::string& directory, const std::st
   if (std::filesystem::file_size(path, error) > kMaxModelBytes && !error) {
     throw ScenarioError("The model file " + path + " is larger than 1 MB.");
   }
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  if (!in) throw ScenarioError("The model file " + path + " cannot be read.");
-  std::vector<MjcfTag> tags = parse_mjcf(text.str(), path);
+  std::vector<MjcfTag> tags = parse_mjcf(read_file(path), path);
   if (tags.size() < 2 || tags.front().name != "mujoco" || tags.back().name != "mujoco" ||
       tags.front().kind != MjcfTag::Kind::kOpen || tags.back().kind != MjcfTag::Kind::kClose) {
     throw ScenarioError(path + ": the model file must hold one <mujoco> element.");

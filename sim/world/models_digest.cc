@@ -2,24 +2,14 @@
 
 #include <xxhash.h>
 
-#include <fstream>
-#include <sstream>
 #include <string>
 
-#include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/world/mjcf.h"
 
 namespace dodgesim {
 
 namespace {
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream bytes;
-  bytes << in.rdbuf();
-  if (!in) throw ScenarioError("The file " + path + " cannot be read.");
-  return bytes.str();
-}
 
 void add(const std::string& text, std::uint64_t& digest) {
   digest = XXH64(text.data(), text.size(), digest);
@@ -32,7 +22,7 @@ void add_model(const std::string& directory, const std::string& file, std::uint6
     for (const auto& [name, value] : tag.attributes) {
       add(name, digest);
       add(value, digest);
-      if (name.starts_with("file")) add(bytes_of(directory + "/" + value), digest);
+      if (name.starts_with("file")) add(read_file(directory + "/" + value), digest);
     }
   }
 }

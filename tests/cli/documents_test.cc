@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/files/input_file.h"
+#include "sim/base/input_file.h"
 
 namespace dodgesim {
 namespace {

@@ -28,7 +28,9 @@ void append_settings(const RepeatOptions& options, std::vector<Setting>& setting
 
 // Campaigns that show their progress on a terminal and end when the user asks for it
 // (stop_signal.h). Call try_models() before they are flown. fly_campaigns() is run_campaigns().
+// The scenario must outlive what is planned.
 PlannedCampaign plan_campaign(const Scenario& scenario, CampaignOptions options);
+PlannedCampaign plan_campaign(Scenario&& scenario, CampaignOptions options) = delete;
 void fly_campaigns(const std::vector<PlannedCampaign>& plans, const CampaignListener& listener);
 CampaignSummary fly_campaign(const Scenario& scenario, const CampaignOptions& options);
 

@@ -9,12 +9,12 @@
 
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
+#include "sim/base/input_file.h"
 #include "sim/base/joined.h"
 #include "sim/campaign/merge.h"
 #include "sim/campaign/result_files.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
-#include "sim/files/input_file.h"
 #include "sim/files/text_table.h"
 #include "sim/gate/comparison.h"
 #include "tools/commands/command.h"

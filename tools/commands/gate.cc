@@ -13,10 +13,10 @@
 #include <sstream>
 
 #include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
 #include "sim/files/csv.h"
-#include "sim/files/input_file.h"
 #include "sim/files/output_file.h"
 #include "sim/files/text_table.h"
 #include "sim/outcome/blank_result.h"

@@ -144,7 +144,7 @@ int paper(const PaperArguments& arguments) {
                                   table_command(arguments));
   if (flown.errors == 0) return kOk;
   std::cerr << count_text(flown.errors, "throw") << " could not be flown; see the tables in "
-            << (arguments.options.out / "flights") << ".\n";
+            << (arguments.options.out / "flights").string() << ".\n";
   return kIncomplete;
 }
 

@@ -46,10 +46,11 @@ void validate(const ValidateArguments& arguments) {
     std::cout << " in which nobody throws";
   }
   if (!scenario.grid.empty()) {
-    const std::int64_t cells = cell_count(scenario);
-    std::cout << ", " << cells << (cells == 1 ? " cell" : " cells");
+    std::cout << ", " << count_text(cell_count(scenario), "cell");
   }
-  if (!scenario.sweep.empty()) std::cout << ", " << sweep_count(scenario) << " values of the sweep";
+  if (!scenario.sweep.empty()) {
+    std::cout << ", " << count_text(sweep_count(scenario), "value") << " of the sweep";
+  }
   std::cout << ", " << pilots_of(scenario) << ".\n";
 }
 

@@ -44,7 +44,7 @@ TEST(CheckSimulation, RefusesAStateThatMuJoCoSilentlyReset) {
 }
 
 TEST(MujocoHandlers, TurnMuJoCoErrorsIntoExceptions) {
-  install_mujoco_handlers();
+  compile_model(kBall, ".", "ball");
   EXPECT_THROW(mju_error("on purpose"), SimulationError);
 }
 

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "sim/base/error.h"
-#include "sim/files/input_file.h"
+#include "sim/base/input_file.h"
 #include "sim/files/json.h"
 #include "sim/files/output_file.h"
 #include "sim/outcome/blank_result.h"

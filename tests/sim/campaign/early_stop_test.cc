@@ -4,10 +4,10 @@
 #include <fstream>
 
 #include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/campaign/journal.h"
 #include "sim/campaign/load_campaign.h"
 #include "sim/campaign/merge.h"
-#include "sim/files/input_file.h"
 #include "sim/tables/report.h"
 #include "sim/tables/statistics_table.h"
 #include "tests/sim/campaign/campaign_fixture.h"

@@ -7,9 +7,9 @@
 #include <csignal>
 
 #include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/base/random.h"
 #include "sim/files/csv.h"
-#include "sim/files/input_file.h"
 #include "tests/complaint.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "sim/base/error.h"
-#include "sim/files/input_file.h"
+#include "sim/base/input_file.h"
 #include "tests/complaint.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/base/random.h"
 #include "sim/campaign/journal.h"
-#include "sim/files/input_file.h"
 #include "sim/outcome/blank_result.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/campaign/journal.h"
-#include "sim/files/input_file.h"
 #include "sim/outcome/blank_result.h"
 #include "tests/sim/campaign/campaign_fixture.h"
 

@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "sim/base/error.h"
-#include "sim/files/input_file.h"
+#include "sim/base/input_file.h"
 #include "sim/files/json.h"
 #include "sim/files/output_file.h"
 #include "tests/sim/files/temporary_directory.h"

@@ -1,4 +1,4 @@
-#include "sim/files/input_file.h"
+#include "sim/base/input_file.h"
 
 #include <array>
 #include <cerrno>
