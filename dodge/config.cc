@@ -47,7 +47,8 @@ void check_not_more(const Parameter& smaller, const Parameter& larger) {
   if (smaller.value > larger.value) refuse_order(smaller, "not exceed", larger);
 }
 
-// A hit whose place is as uncertain as this is no more probable.
+// With so large a control error even a hit in the middle is no more probable than `radii` allows; a
+// larger min_probability would never be reached.
 void check_escape(const EscapeConfig& config, double max_size_m) {
   check_not_more({"escape.keep_probability", config.keep_probability},
                  {"escape.min_probability", config.min_probability});

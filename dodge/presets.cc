@@ -12,8 +12,9 @@ Config dodgesim() {
   config.window.window_us = 20000;
   // Clusters over 20 instead of 35 px: a ball seldom grows together with its background.
   config.cluster.weight_position_1ppx = 0.35;
-  // What moves of a thin object is a line, and so is an edge of the background. But where that is
-  // taken for another edge there mostly is a better match, and it seldom comes again within 60 ms.
+  // What moves of a thin object is a line, and so is an edge of the background. But where the
+  // other camera's picture of it is taken for another edge's, a better match mostly lies elsewhere,
+  // and the mistake seldom comes again within 60 ms.
   config.cluster.max_aspect = 8;
   config.position.stereo.min_share_of_best = 0.9;
   // Far away, but only what was detected six times, each time within three standard deviations of

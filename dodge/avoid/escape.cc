@@ -100,8 +100,9 @@ bool contains(std::span<const TrackedObstacle> obstacles, int id) {
 
 }  // namespace
 
-// In strips along the axis of the smaller standard deviation, each of which is exact. Between two
-// of them nothing may fit, so that a deviation below a tenth of the radius counts as that.
+// In strips along the axis of the smaller standard deviation, each of which is exact. A
+// density narrower than a strip could slip between two of them: a deviation below a tenth of the
+// radius counts as a tenth.
 double hit_probability(const Meeting& meeting) {
   constexpr double kLeastSigma = 0.1;
   const Vector3d a = meeting.along_W.unitOrthogonal(), b = meeting.along_W.cross(a);

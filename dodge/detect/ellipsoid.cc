@@ -49,8 +49,14 @@ bool improve_weights(const FitPoints& points, Weights& u) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(points.count); ++i) {
     const Eigen::Vector4d q = points.p[i].homogeneous();
     const double m = q.dot(X_inverse * q);
-    if (m > m_max) m_max = m, farthest = i;
-    if (u[i] > 0 && m < m_min) m_min = m, nearest = i;
+    if (m > m_max) {
+      m_max = m;
+      farthest = i;
+    }
+    if (u[i] > 0 && m < m_min) {
+      m_min = m;
+      nearest = i;
+    }
   }
   if (m_max / n - 1 < kFitGap && 1 - m_min / n < kFitGap) return false;
   if (m_max - n >= n - m_min) {

@@ -50,7 +50,7 @@ class Tracker {
     TimeUs last_detection_us;
     int detections = 0;
     double size_m = 0;
-    Ellipsoid ellipsoid = {};  // its centre relative to the obstacle's position
+    Ellipsoid ellipsoid = {};  // centre_W counts from the obstacle's position
     bool confirmed = false;
     bool missed = false;  // not detected by the last look
   };

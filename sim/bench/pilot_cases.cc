@@ -8,6 +8,7 @@
 #include "sim/base/error.h"
 #include "sim/bench/bench_case.h"
 #include "sim/bench/stage_curves.h"
+#include "sim/bridge/to_dodge.h"
 #include "sim/camera/looking_forward.h"
 #include "sim/flight/plan.h"
 #include "sim/loop.h"
@@ -28,17 +29,11 @@ using PilotRecording = std::vector<Cycle>;
 
 class Recorder : public FlightObserver {
  public:
-  void on_imu(const ImuReading& reading) override {
-    next_.imu.push_back({reading.t_us, reading.w_B_radps, reading.f_B_mps2});
-  }
-  void on_state(const StateReading& reading) override {
-    next_.states.push_back({reading.t_us, reading.p_W, reading.q_W, reading.v_W, reading.w_B});
-  }
+  void on_imu(const ImuReading& reading) override { next_.imu.push_back(to_dodge(reading)); }
+  void on_state(const StateReading& reading) override { next_.states.push_back(to_dodge(reading)); }
   void on_events(int camera, const Packet& packet) override {
     if (camera != 0) return;
-    for (const Event& event : packet.events) {
-      next_.events.push_back({event.t_us, event.x, event.y, event.polarity});
-    }
+    for (const Event& event : packet.events) next_.events.push_back(to_dodge(event));
   }
   void on_cycle(TimeUs now_us, const dodge::Pilot&) override {
     next_.now_us = now_us;

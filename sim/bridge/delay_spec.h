@@ -45,8 +45,8 @@ struct DelaySpec {
     return sent_us - into_packet_us;
   }
 
-  // Age of a camera's newest packet at a cycle that gets it as early as any does: packets end and
-  // cycles start at whole multiples of theirs.
+  // Age of a camera's newest packet at a cycle that gets it as early as any does: packets end at
+  // whole multiples of packet_us, cycles start at those of the period.
   TimeUs least_event_age_us(int camera) const {
     const TimeUs step_us = std::gcd(packet_us, period_us());
     return (transport_us_of(camera) + step_us - 1) / step_us * step_us;

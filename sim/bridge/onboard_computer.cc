@@ -1,6 +1,7 @@
 #include "sim/bridge/onboard_computer.h"
 
 #include "sim/base/gravity.h"
+#include "sim/bridge/to_dodge.h"
 
 namespace dodgesim {
 
@@ -18,7 +19,7 @@ OnboardComputer::OnboardComputer(const DelaySpec& delays, std::unique_ptr<dodge:
 void OnboardComputer::send_events(int camera, TimeUs packet_end_us, std::span<const Event> packet) {
   Packet out;
   out.reserve(packet.size());
-  for (const Event& e : packet) out.push_back({e.t_us, e.x, e.y, e.polarity});
+  for (const Event& e : packet) out.push_back(to_dodge(e));
   const auto line = static_cast<std::size_t>(camera);
   while (packets_.size() <= line) {
     packets_.emplace_back(delays_.transport_us_of(static_cast<int>(packets_.size())));
@@ -27,15 +28,15 @@ void OnboardComputer::send_events(int camera, TimeUs packet_end_us, std::span<co
 }
 
 void OnboardComputer::send_imu(const ImuReading& reading) {
-  imu_.push(reading.t_us, {reading.t_us, reading.w_B_radps, reading.f_B_mps2});
+  imu_.push(reading.t_us, to_dodge(reading));
 }
 
 void OnboardComputer::send_state(const StateReading& reading) {
-  states_.push(reading.t_us, {reading.t_us, reading.p_W, reading.q_W, reading.v_W, reading.w_B});
+  states_.push(reading.t_us, to_dodge(reading));
 }
 
 void OnboardComputer::send_range(const RangeReading& reading) {
-  ranges_.push(reading.t_us, {reading.t_us, reading.range_m});
+  ranges_.push(reading.t_us, to_dodge(reading));
 }
 
 bool OnboardComputer::run_cycle(TimeUs now_us) {

@@ -13,7 +13,8 @@ namespace dodgesim {
 Json program_group();
 Json machine_group();
 
-// Of a campaign that was merged: what merged it. merge.h adds the manifests of its parts.
+// A merged campaign's program and machine are those that merged it. merge.h adds the manifests of
+// its parts.
 Json manifest_of(const Scenario& scenario, const CampaignOptions& options,
                  const CampaignSummary& summary, const std::string& started);
 

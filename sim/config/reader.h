@@ -1,6 +1,6 @@
 // Reads a YAML map into a struct with visit(), strictly: unknown keys, wrong types and values out
-// of range are problems with file, line, column and key. The first of the three visitors of the one
-// list of parameters (see writer.h and parameter_docs.h).
+// of range are problems with file, line, column and key. A visitor of the one list of parameters,
+// as writer.h and parameter_docs.h are.
 #pragma once
 
 #include <Eigen/Dense>

@@ -62,7 +62,7 @@ struct Picture {
 
 class PixelArray {
  public:
-  // `thresholds` are the pixels', `start` names how near each is to its next leak event at first.
+  // `thresholds` are the pixels', `start` draws how near each is to its first leak event.
   // With `keep_causes`, every picture must say what its pixels show.
   PixelArray(const EventCameraSpec& spec, int width, int height,
              std::span<const Thresholds> thresholds, const RandomStream& start, bool keep_causes);

@@ -18,8 +18,9 @@ constexpr int kGridRows = StaticDistances::kRows + 1;
 // No surface is taken to be nearer than this, so that all speeds stay finite [m].
 constexpr double kNearestM = 1e-3;
 
-// An object counts as visible this many displacement limits before it enters the view. One would do
-// at constant speed: the sample after it crossed that line still comes before it enters.
+// An object counts as visible this many displacement limits before it enters the view. At constant
+// speed one would do: the sample after it crossed that line still comes before it enters. Four
+// leave room for what speeds up on the way.
 constexpr double kViewMarginLimits = 4;
 
 // A region's margin beyond what the object may move until its next sample [px].

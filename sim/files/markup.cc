@@ -46,7 +46,7 @@ std::string markdown_escaped(std::string_view text) {
   };
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool word_ends = text[i] == '_' && !(in_word(i - 1) && in_word(i + 1));
+    const bool word_ends = text[i] == '_' && !(i > 0 && in_word(i - 1) && in_word(i + 1));
     if (word_ends || kMarkup.find(text[i]) != std::string_view::npos) out += '\\';
     out += text[i];
   }

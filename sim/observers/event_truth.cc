@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sim/base/error.h"
 
@@ -10,7 +11,7 @@ namespace dodgesim {
 namespace {
 
 bool covers(const cv::RotatedRect& rectangle, double x, double y) {
-  const double angle = rectangle.angle * M_PI / 180;
+  const double angle = rectangle.angle * std::numbers::pi / 180;
   const double dx = x - rectangle.center.x, dy = y - rectangle.center.y;
   return std::abs(dx * std::cos(angle) + dy * std::sin(angle)) <= 0.5 * rectangle.size.width &&
          std::abs(dy * std::cos(angle) - dx * std::sin(angle)) <= 0.5 * rectangle.size.height;

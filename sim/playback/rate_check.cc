@@ -6,6 +6,7 @@
 
 #include "dodge/detect/time_image.h"
 #include "sim/base/body_axes.h"
+#include "sim/bridge/to_dodge.h"
 
 namespace dodgesim {
 
@@ -90,7 +91,7 @@ void RateCheck::add(std::span<const Event> events) {
     if (late || event.t_us < rest_until_us_) continue;
     if (window_.empty()) begin_us_ = checked_us_ = event.t_us;
     end_us_ = event.t_us;
-    window_.push_back({event.t_us, event.x, event.y, event.polarity});
+    window_.push_back(to_dodge(event));
     if (end_us_ >= checked_us_ + kCheckedEveryUs) end_window_if_due();
   }
 }

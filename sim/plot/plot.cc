@@ -18,7 +18,7 @@ constexpr int kLeft = 84, kRight = 20, kTop = 36, kBottom = 56;  // of the frame
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr double kTextScale = 0.42;
 constexpr double kHeadRoom = 1.1;  // above the highest value
-constexpr int kTicks = 6;          // at least so many, about
+constexpr int kTicks = 6;          // on an axis, about the fewest
 
 const cv::Scalar kInk(40, 40, 40), kGrid(225, 225, 225);
 const std::array<cv::Scalar, 6> kColours = {cv::Scalar(180, 100, 30), cv::Scalar(40, 90, 220),

@@ -40,9 +40,9 @@ bool nearest_inside(const Simplex& s, const std::array<int, 4>& index, int n,
     scale *= gram(i - 1, i - 1);
   }
   const double determinant = gram.determinant();
-  if (!(determinant > 1e-12 * scale)) return n == 1 && (weight = {1, 0, 0, 0}, true);
-  const Eigen::Vector3d x = gram.inverse() * rhs;
   weight = {1, 0, 0, 0};
+  if (!(determinant > 1e-12 * scale)) return n == 1;
+  const Eigen::Vector3d x = gram.inverse() * rhs;
   for (int i = 1; i < n; ++i) {
     if (!(x[i - 1] > 0)) return false;
     weight[static_cast<std::size_t>(i)] = x[i - 1];

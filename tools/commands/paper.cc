@@ -73,8 +73,8 @@ std::string table_command(const PaperArguments& arguments) {
   return line;
 }
 
-// Tables with flights are protected by these against being overwritten; those that are only
-// measured have none.
+// Tables with flights are not overwritten because their campaigns are not; those that are only
+// measured have no campaigns.
 void protect_measured(const PaperArguments& arguments,
                       const std::vector<PaperExperiment>& experiments) {
   if (arguments.options.force || arguments.options.resume) return;
