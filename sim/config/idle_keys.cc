@@ -18,6 +18,8 @@ struct IdleRule {
   std::string reason;
 };
 
+bool sees(const Scenario& scenario) { return perceives(scenario.pilot); }
+
 bool stereo(const Scenario& scenario) { return scenario.dodger.position.depth == "stereo"; }
 
 // A plug-in may do as it likes with the keys of dodger.
@@ -37,6 +39,7 @@ bool monitors(const Scenario& s) {
 constexpr const char* kCentres = "dodger.position.stereo.disparity is centres";
 constexpr const char* kGates = "dodger.association.gate_sigmas is not 0";
 constexpr const char* kNoMonitor = "dodger.height_monitor.enabled is false";
+constexpr const char* kBlind = "no pilot that flies has cameras";
 constexpr const char* kStereo = "dodger.position.depth is stereo";
 constexpr const char* kMono = "dodger.position.depth is mono";
 
@@ -50,6 +53,15 @@ const IdleRule kRules[] = {
        return s.pilot == kPluginPilot || s.dodger.escape.law != "potential_field";
      },
      "dodger.escape.law is potential_field"},
+    {"dodger.window", "", sees, kBlind},
+    {"dodger.time_image", "", sees, kBlind},
+    {"dodger.cluster", "", sees, kBlind},
+    {"dodger.association", "", sees, kBlind},
+    {"dodger.position", "dodger.position.depth", sees, kBlind},
+    {"sensors.events", "sensors.events.latency_us", sees, kBlind},
+    {"sensors.render", "", sees, kBlind},
+    {"sensors.sampling", "", sees, kBlind},
+    {"sensors.keys", "", sees, kBlind},
     {"dodger.position.stereo.search_px", "", correlates, kCentres},
     {"dodger.position.stereo.min_correlation", "", correlates, kCentres},
     {"dodger.position.stereo.min_share_of_best", "", correlates, kCentres},
@@ -69,6 +81,13 @@ const IdleRule kRules[] = {
     {"sensors.render.flicker_depth", "",
      [](const Scenario& s) { return s.sensors.render.flicker.flicker_hz > 0; },
      "sensors.render.flicker_hz is 0"},
+    {"sensors.events.illuminance_lux", "",
+     [](const Scenario& s) {
+       const EventCameraSpec& camera = s.sensors.events;
+       return camera.photoreceptor_hz > 0 || camera.shot_noise_on_hz > 0 ||
+              camera.shot_noise_off_hz > 0;
+     },
+     "the camera has neither photoreceptor_hz nor shot noise"},
     {"sensors.events.hot_pixel_hz", "",
      [](const Scenario& s) { return s.sensors.events.hot_pixel_fraction > 0; },
      "sensors.events.hot_pixel_fraction is 0"},

@@ -1,5 +1,6 @@
 #include "sim/config/reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <type_traits>
@@ -70,6 +71,16 @@ std::optional<Number> parse_number(const std::string& text) {
   } else {
     return parse_integer<Number>(text);
   }
+}
+
+std::vector<std::string> models_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".xml") names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
 }
 
 }  // namespace
@@ -353,7 +364,10 @@ bool Reader::read_model(const YamlNode& node, const std::string& name, const cha
         std::filesystem::path(context_.models_dir) / folder / (node.text + ".xml");
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) {
-      return refuse(node, name, "there is no model file " + file.string());
+      const std::string near = closest_name(node.text, models_in(file.parent_path()));
+      return refuse(node, name,
+                    "there is no model file " + file.string() +
+                        (near.empty() ? "" : " (did you mean " + near + "?)"));
     }
   }
   value = node.text;

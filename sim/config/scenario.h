@@ -214,7 +214,8 @@ struct Scenario {
     v.text("name", name, "Title of the campaign in tables; the file's name when empty.");
     v.text("description", description, "What the scenario is for.");
     v("seed", seed, 0, UINT64_MAX,
-      "Names the random numbers: the same seed and scenario give the same results.");
+      "Names the random numbers: the same seed and scenario give the same results. Also the "
+      "specimen of the cameras that all its throws see through (sensors.events.device).");
     v("repeats", repeats, 1, 1000000,
       "Number of throws (of quiet flights, when nobody throws); with a grid, of each cell.");
     v.varied(

@@ -24,7 +24,9 @@ Mixer::Mixer(const VehicleParameters& vehicle, double min_thrust_n, double max_t
   }
   distribution_ = lu.inverse();
   if (distribution_.col(0).minCoeff() <= 0) {
-    throw std::invalid_argument("The centre of mass must lie between the vehicle's rotors.");
+    throw std::invalid_argument(
+        "The vehicle's rotors cannot hover: its centre of mass must lie between them, and as many "
+        "must turn one way (the sign in their gear) as the other, alternately.");
   }
   assured_yaw_torque_nm_ = std::min(assured_yaw_torque_nm, max_yaw_torque_nm() / 2);
 }

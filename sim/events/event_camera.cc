@@ -25,7 +25,8 @@ EventCamera::EventCamera(const EventCameraSpec& spec, int width, int height, std
                          std::uint64_t throw_index, std::string_view name, bool keep_causes)
     : EventCamera(spec, width, height, seed, throw_index, name, keep_causes,
                   draw_thresholds(spec, checked_pixels(width, height),
-                                  RandomStream(seed, 0, stream_name(name, "device")))) {}
+                                  RandomStream(seed, spec.device_index(throw_index),
+                                               stream_name(name, "device")))) {}
 
 EventCamera::EventCamera(const EventCameraSpec& spec, int width, int height, std::uint64_t seed,
                          std::uint64_t throw_index, std::string_view name, bool keep_causes,

@@ -54,8 +54,9 @@ Noise::Noise(const EventCameraSpec& spec, int width, std::span<const Thresholds>
     : width_(width),
       shot_share_(spec),
       shot_rates_(rates_of_shot_noise(spec, thresholds)),
-      hot_rates_(rates_of_hot_pixels(spec, thresholds.size(),
-                                     RandomStream(seed, 0, stream_name(name, "hot pixels")))),
+      hot_rates_(rates_of_hot_pixels(
+          spec, thresholds.size(),
+          RandomStream(seed, spec.device_index(throw_index), stream_name(name, "hot pixels")))),
       shot_(RandomStream(seed, throw_index, stream_name(name, "shot")), shot_rates_),
       hot_(RandomStream(seed, throw_index, stream_name(name, "hot")), hot_rates_) {}
 

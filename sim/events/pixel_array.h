@@ -18,8 +18,8 @@
 //
 // After each sample -C_off < S - reference < C_on at every pixel that is not held: no pixel is ever
 // stuck. Without bandwidth, leak and noise, events and stamps are computed in double precision; the
-// low-passes are kept in single precision. Thresholds, hot and dead pixels belong to the device and
-// stay the same for all throws of a seed.
+// low-passes are kept in single precision. Thresholds, hot and dead pixels belong to the device
+// (EventCameraSpec::device).
 #pragma once
 
 #include <array>

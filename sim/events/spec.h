@@ -31,6 +31,7 @@ struct EventCameraSpec {
   double hot_pixel_fraction = 0.0007;
   double hot_pixel_hz = 157;
   double dead_pixel_fraction = 0.0001;
+  std::string device = "campaign";
   std::int64_t latency_us = 100;
   double jitter_us = 10;
   double readout_max_hz = 2e7;
@@ -38,6 +39,11 @@ struct EventCameraSpec {
 
   template <class Visitor>
   void visit(Visitor& v);
+
+  // Names the random numbers that make a specimen of the camera.
+  std::uint64_t device_index(std::uint64_t throw_index) const {
+    return device == "throw" ? throw_index : 0;
+  }
 };
 
 // The parameters of a preset by its name; throws std::invalid_argument for an unknown one.
@@ -122,6 +128,11 @@ void EventCameraSpec::visit(Visitor& v) {
     "in the proportion of the shot noise.");
   v("dead_pixel_fraction", dead_pixel_fraction, 0, 1,
     "Share of the pixels that never make an event (assumed).");
+  v("device", device, {"campaign", "throw"},
+    "Which pixels are hot or dead, and the thresholds of each, are those of one specimen. "
+    "campaign: all throws of a seed see through one and the same pair of cameras, and rates and "
+    "their intervals hold for that pair. throw: through a new pair each, and they hold for "
+    "cameras of this kind. A film (dodgesim emulate) is seen by one camera.");
   v("latency_us", latency_us, 0, 100000,
     "From the change of the light to the request of the pixel (IEBCS: 100). In the time stamp, as "
     "the readout stamps.");

@@ -128,12 +128,13 @@ void add_changed_rows(const CsvTable& before, const CsvTable& after, bool physic
       changed.push_back(before.name() + " had no column " + column);
     }
   }
+  const auto value = [](const std::string& text) { return text.empty() ? "empty" : text; };
   for (std::size_t row = 0; row < std::min(before.rows(), after.rows()); ++row) {
     for (const std::string& column : columns) {
       const std::string &was = before.at(row, column), &is = after.at(row, column);
       if (was == is) continue;
-      changed.push_back("throw " + before.at(row, "throw") + " " + column + " was " + was +
-                        ", is " + is);
+      changed.push_back(before.name() + ": throw " + before.at(row, "throw") + " " + column +
+                        " was " + value(was) + ", is " + value(is));
       break;
     }
   }

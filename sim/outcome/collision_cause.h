@@ -29,7 +29,8 @@
 //                         a vehicle that follows every command at once would not have got out of
 //                         the way: the pilot asked for too low a speed, or stopped too early
 //   not enough thrust     such a vehicle would have got out of the way: this one or its controller
-//                         did not follow as fast as its rotors allow
+//                         did not follow as fast as the bound of agility.h, which no vehicle with
+//                         its rotors quite reaches
 //   landing               the pilot had begun an emergency landing before, on which it dodges
 //                         nobody
 //   fled into the room    no object touched the vehicle, but it touched the room, having evaded

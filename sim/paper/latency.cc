@@ -27,7 +27,8 @@ constexpr const char* kLatencyProtocol = R"(How the claim is read:
   perception's; s the range from which on the object is known, a ball of 20 cm that comes at the
   vehicle's centre. *point*: t_a = sqrt(2 r / u) of a vehicle that accelerates to the side at once
   with all its thrust but what keeps its height. *rotors*: by the best of many manoeuvres at the
-  limits of its rotors, with their lag, until the ball touches the hull.
+  limits of its rotors, with their lag (idealised: no vehicle with these rotors is as fast), until
+  the ball touches the hull.
   The ticks in the plots are that of the rotors; those beyond a plot's right end are left out.
 - *oracle*: told of the true object within s, avoids it like falanga2020, over the open field, where
   no wall ends an escape. Intervals: 95 %, Wilson.

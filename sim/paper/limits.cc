@@ -25,8 +25,8 @@ constexpr const char* kSpeedProtocol = R"(How the claim is read:
   fly over the open field, where no wall ends an escape; they need nothing to look at.
 - The vertical lines are the bound of "How fast is too fast" (Falanga et al. 2019) for a range of
   1.5 m and the delays of this chain, s / (tau + t_a), with the t_a of a point (sqrt(2 r / u)) and
-  that of the vehicle's rotors, by the best of many manoeuvres at their limits, until a ball of
-  20 cm that comes level touches the hull.
+  that of the vehicle's rotors, by the best of many manoeuvres at their limits (idealised: no
+  vehicle with these rotors is as fast), until a ball of 20 cm that comes level touches the hull.
 - Intervals: 95 %, Wilson.
 )";
 
@@ -36,7 +36,8 @@ constexpr const char* kRangeProtocol = R"(How the claim is read:
   told of the true object from there on.
 - *Bound*: the fastest ball of 20 cm by "How fast is too fast" (Falanga et al. 2019),
   s / (tau + t_a), with the delays of this chain; t_a of a point (sqrt(2 r / u)) and of the
-  vehicle's rotors, by the best of many manoeuvres at their limits, until the ball touches the hull.
+  vehicle's rotors, by the best of many manoeuvres at their limits (idealised: no vehicle with these
+  rotors is as fast), until the ball touches the hull.
   The ticks in the plots are the least range for each speed by the rotors'.
 - Intervals: 95 %, Wilson.
 )";

@@ -167,8 +167,9 @@ void check_world(const World& world, const Trial& trial) {
   const double weight_n = world.vehicle().mass_kg * kGravityMps2;
   if (4 * trial.min_thrust_n >= weight_n) {
     throw ScenarioError("motors.min_thrust_n is " + to_text(trial.min_thrust_n) +
-                        ", but must be less than a quarter of the vehicle's weight, which is " +
-                        to_text(weight_n / 4) + " N: idling rotors would lift it.");
+                        formatted(", but must be less than %.4g N, a quarter of the vehicle's "
+                                  "weight: idling rotors would lift it.",
+                                  weight_n / 4));
   }
   const double lift = 4 * trial.max_thrust_fraction * most_n / weight_n;
   if (lift < kLeastLift) {

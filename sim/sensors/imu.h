@@ -34,8 +34,9 @@ struct ImuSpec {
       "Standard deviation of the bias at the start: what the calibration at rest leaves "
       "(assumed).");
     v("gyro_vibration_radps", gyro_vibration_radps, 0, 10,
-      "Standard deviation per sample of what the vibration of flight adds; 0.03 to 0.14 was "
-      "measured, the low end belongs to a damped mount.");
+      "Standard deviation per sample, at whatever rate (also at the flight controller's 4 kHz), "
+      "of what the vibration of flight adds; 0.03 to 0.14 was measured, the low end belongs to a "
+      "damped mount.");
     v("gyro_range_radps", gyro_range_radps, 0.1, 1000, "Full scale of the gyroscope: 2000 deg/s.");
     v("accelerometer_density_mps2_sqrthz", accelerometer_density_mps2_sqrthz, 0, 10,
       "White noise of the accelerometer; a typical MEMS part.");

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "sim/base/formatted.h"
+#include "sim/base/numbers.h"
 #include "sim/config/pilot.h"
 #include "sim/files/csv.h"
 #include "sim/files/json.h"
@@ -213,7 +214,10 @@ Json json_of(const Measured& sample) {
 
 Json json_of(const StatisticsTable& table, const StatisticsTable::Row& row) {
   Json json = Json::object();
-  for (std::size_t i = 0; i < table.keys.size(); ++i) json[table.keys[i]] = row.values[i];
+  for (std::size_t i = 0; i < table.keys.size(); ++i) {
+    const std::optional<double> number = as_number(row.values[i]);
+    json[table.keys[i]] = number ? Json(*number) : Json(row.values[i]);
+  }
   for (const Role role : named_pilots(table, row)) {
     const PilotStatistics& of = row.statistics.by(role);
     json["pilots"].push_back({{"pilot", of.pilot},

@@ -1,12 +1,14 @@
 #include "sim/world/compose.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/gravity.h"
 #include "sim/base/names.h"
+#include "sim/base/numbers.h"
 #include "sim/base/time.h"
 #include "sim/world/mjcf.h"
 
@@ -51,6 +53,7 @@ constexpr std::initializer_list<const char*> kUnseen = {"composite", "skin"};
 
 // What stands beside an object's body would stand in the room.
 void expect_one_body(const std::vector<MjcfTag>& tags, const std::string& label) {
+  constexpr std::array kPlaces = {"pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"};
   bool has_body = false;
   for_each_element(tags, [&](const MjcfTag& tag, const std::vector<std::string>& open) {
     if (open != std::vector<std::string>{"worldbody"}) return;
@@ -61,6 +64,13 @@ void expect_one_body(const std::vector<MjcfTag>& tags, const std::string& label)
                           tag.name + "> too.");
     }
     has_body = true;
+    for (const auto& [name, value] : tag.attributes) {
+      if (!contains(kPlaces, name)) continue;
+      throw ScenarioError(label + ":" + std::to_string(tag.line) +
+                          ": The body of an object must have no " + name +
+                          ", as a throw begins where the scenario says and along the axes " +
+                          "of the world: turn its geoms instead.");
+    }
   });
 }
 
@@ -109,8 +119,14 @@ std::vector<MjcfTag> scaled_object(const WorldSpec& world, std::size_t i) {
   if (!(reference_size_m > 0)) {
     throw ScenarioError(label + ": reference_size_m must be positive.");
   }
+  const double mass_exponent = find_numeric(tags, "mass_exponent", label);
+  if (!(mass_exponent >= 0 && mass_exponent <= 3)) {
+    throw ScenarioError(label +
+                        ": mass_exponent must be between 0 and 3 (2 if hollow, 3 if solid), not " +
+                        to_text(mass_exponent) + ".");
+  }
   const double scale = spec.size_m / reference_size_m;
-  scale_body(tags, scale, find_numeric(tags, "mass_exponent", label), label);
+  scale_body(tags, scale, mass_exponent, label);
   prefix_names(tags, object_prefix(static_cast<int>(i)));
   return tags;
 }

@@ -1,6 +1,7 @@
 #include "sim/world/model_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "sim/base/error.h"
@@ -10,6 +11,7 @@
 #include "sim/world/compose.h"
 #include "sim/world/contact_bound.h"
 #include "sim/world/convex.h"
+#include "sim/world/geom_color.h"
 #include "sim/world/mujoco_eigen.h"
 
 namespace dodgesim {
@@ -21,9 +23,31 @@ namespace {
 // from corner to corner.
 constexpr double kLeastReach = 0.4, kMostReach = 1.2, kMostLength = 1.8;
 
+// The convention of compose.h. What collides must touch all the others.
+struct ContactBits {
+  const char* of;
+  int contype, conaffinity;
+};
+constexpr std::array<ContactBits, 3> kContactBits = {
+    {{"the room", 1, 6}, {"the vehicle", 2, 5}, {"an object", 4, 7}}};
+
+// Torque per thrust of a rotor: those of vehicles have a tenth of this or two.
+constexpr double kMostKappaM = 0.1;
+
 struct Extent {
   double reach_m = 0, length_m = 0;
 };
+
+// No point of the body's geoms is farther from its origin.
+double farthest_m(const mjModel& model, int body) {
+  double farthest_m = 0;
+  const int first = model.body_geomadr[body];
+  for (int g = first; g < first + model.body_geomnum[body]; ++g) {
+    const double reach_m = ConstMap3(model.geom_pos + 3 * g).norm() + model.geom_rbound[g];
+    farthest_m = std::max(farthest_m, reach_m);
+  }
+  return farthest_m;
+}
 
 // Nearly: of the parts along the edges and diagonals of a cube.
 Extent extent_of(const std::vector<Convex>& parts) {
@@ -69,8 +93,24 @@ std::span<const double> ModelReader::numeric(const std::string& name, int count)
   return {model_.numeric_data + model_.numeric_adr[id], static_cast<std::size_t>(count)};
 }
 
-void ModelReader::check_margin(int geom) const {
-  if (!collides(model_, geom) || model_.geom_margin[geom] == model_.geom_gap[geom]) return;
+void ModelReader::check_contact(int geom) const {
+  if (!collides(model_, geom)) return;
+  const int body = model_.geom_bodyid[geom], type = model_.geom_contype[geom],
+            affinity = model_.geom_conaffinity[geom];
+  const std::size_t own = model_.body_weldid[body] == 0         ? 0
+                          : body == find(mjOBJ_BODY, "vehicle") ? 1
+                                                                : 2;
+  for (std::size_t i = 0; i < kContactBits.size(); ++i) {
+    const ContactBits& other = kContactBits[i];
+    if (i == own || (type & other.conaffinity) != 0 || (other.contype & affinity) != 0) continue;
+    const ContactBits& usual = kContactBits[own];
+    throw ScenarioError(
+        file_ +
+        formatted(": a geom with a contype of %d and a conaffinity of %d would go through "
+                  "%s; those of %s have %d and %d, or 0 and 0 if they are for the eye only.",
+                  type, affinity, other.of, usual.of, usual.contype, usual.conaffinity));
+  }
+  if (model_.geom_margin[geom] == model_.geom_gap[geom]) return;
   throw ScenarioError(
       file_ + formatted(": a geom that can collide has a margin of %.3g m and a gap of %.3g m, but "
                         "they must be the same: a smaller gap pushes away what has not touched it "
@@ -78,11 +118,33 @@ void ModelReader::check_margin(int geom) const {
                         model_.geom_margin[geom], model_.geom_gap[geom]));
 }
 
+// What the cameras see throws back no more light than falls on it, and hides what is behind it.
+void ModelReader::check_paint(int geom) const {
+  const float* rgba = geom_color(model_, geom);
+  if (model_.geom_group[geom] >= kFirstHiddenGroup || rgba[3] == 0) return;
+  if (*std::max_element(rgba, rgba + 3) > 1) {
+    throw ScenarioError(file_ +
+                        ": a geom's colour is above 1: it would throw back more light than " +
+                        "falls on it.");
+  }
+  if (rgba[3] == 1) return;
+  throw ScenarioError(file_ + formatted(": a geom's alpha is %g, but must be 1 or, to hide it, 0: "
+                                        "nothing is drawn half transparent.",
+                                        static_cast<double>(rgba[3])));
+}
+
+void ModelReader::check_geom(int geom) const {
+  check_contact(geom);
+  check_paint(geom);
+}
+
 void ModelReader::check_room() const {
+  bool stops = false;
   for (int geom = 0; geom < model_.ngeom; ++geom) {
     const int group = model_.geom_group[geom];
     if (model_.body_weldid[model_.geom_bodyid[geom]] != 0) continue;
-    check_margin(geom);
+    check_geom(geom);
+    stops = stops || collides(model_, geom);
     if (group == kRoomGroup || group > kVehicleGroup) continue;
     const char* name = mj_id2name(&model_, mjOBJ_GEOM, geom);
     const std::string number = std::to_string(geom);
@@ -90,6 +152,21 @@ void ModelReader::check_room() const {
                         " is in group " + std::to_string(group) + "; a room's geoms are in group " +
                         "0, or in 4 or 5 if they are not to be seen.");
   }
+  if (stops) return;
+  throw ScenarioError(file_ +
+                      ": no geom of the room can collide: all would fall through its floor.");
+}
+
+// No body of its mass and size has more; one given in g m^2 or kg cm^2 would.
+void ModelReader::check_inertia(int body) const {
+  const double reach_m = farthest_m(model_, body);
+  const double most_kgm2 = model_.body_mass[body] * reach_m * reach_m;
+  const mjtNum* inertia = model_.body_inertia + 3 * body;
+  const double greatest_kgm2 = *std::max_element(inertia, inertia + 3);
+  if (greatest_kgm2 <= most_kgm2) return;
+  throw ScenarioError(file_ + formatted(": the body's inertia is %.3g kg m^2, but must be at most "
+                                        "%.3g: its mass times the square of how far it reaches.",
+                                        greatest_kgm2, most_kgm2));
 }
 
 FreeBody ModelReader::free_body(int body) const {
@@ -120,7 +197,8 @@ FreeBody ModelReader::free_body(int body) const {
     throw ScenarioError(file_ + ": the origin of the body must be its centre of mass.");
   }
   const int first = model_.body_geomadr[body];
-  for (int g = first; g < first + model_.body_geomnum[body]; ++g) check_margin(g);
+  for (int g = first; g < first + model_.body_geomnum[body]; ++g) check_geom(g);
+  check_inertia(body);
   out.qpos = model_.jnt_qposadr[joint];
   out.qvel = dof;
   const Eigen::Matrix3d R = quaternion(model_.body_iquat + 4 * body).toRotationMatrix();
@@ -174,13 +252,16 @@ void ModelReader::check_rotor(int site, int actuator) const {
                       !model_.actuator_forcelimited[actuator];
   const bool alike = std::abs(gear[5]) == std::abs(model_.actuator_gear[5]) &&
                      model_.actuator_ctrlrange[2 * actuator] == 0 &&
+                     model_.actuator_ctrlrange[1] > 0 && std::abs(gear[5]) <= kMostKappaM &&
                      model_.actuator_ctrlrange[2 * actuator + 1] == model_.actuator_ctrlrange[1];
   if (plain && direct && alike) return;
   throw ScenarioError(
       file_ +
       ": a rotor must be a motor at its site, with z up, a gear of "
-      "\"0 0 1 0 0 kappa\", no forcerange, a ctrlrange from 0, and the kappa (but for its sign) "
-      "and the ctrlrange of the other rotors.");
+      "\"0 0 1 0 0 kappa\" with a kappa of at most " +
+      to_text(kMostKappaM) +
+      " m, no forcerange, a ctrlrange from 0 to its greatest thrust, and the kappa (but for its "
+      "sign) and the ctrlrange of the other rotors.");
 }
 
 void ModelReader::read_rotors(VehicleParameters& vehicle) const {
@@ -272,11 +353,7 @@ ObjectPhysics ModelReader::object(const std::string& prefix, double size_m) cons
   const int body = find(mjOBJ_BODY, prefix + "body");
   ObjectPhysics object;
   object.mass_kg = model_.body_mass[body];
-  const int first = model_.body_geomadr[body];
-  for (int g = first; g < first + model_.body_geomnum[body]; ++g) {
-    const double extent = ConstMap3(model_.geom_pos + 3 * g).norm() + model_.geom_rbound[g];
-    object.bounding_radius_m = std::max(object.bounding_radius_m, extent);
-  }
+  object.bounding_radius_m = farthest_m(model_, body);
   check_reach(body, size_m);
   object.drag_area_m2 =
       numeric(prefix + "drag_coefficient", 1)[0] * numeric(prefix + "frontal_area_m2", 1)[0];

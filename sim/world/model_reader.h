@@ -60,7 +60,10 @@ class ModelReader {
  private:
   int find_on_vehicle(mjtObj type, const std::string& name) const;  // a camera or a site
   std::span<const double> numeric(const std::string& name, int count) const;
-  void check_margin(int geom) const;
+  void check_geom(int geom) const;
+  void check_contact(int geom) const;
+  void check_paint(int geom) const;
+  void check_inertia(int body) const;
   void check_rotor(int site, int actuator) const;
   void check_reach(int body, double size_m) const;
   void read_rotors(VehicleParameters& vehicle) const;

@@ -255,7 +255,7 @@ TEST_F(ScenarioCommandTest, AMeshThatCrashesMujocoCostsASentenceAndExitCodeTwo) 
         "<numeric name='mass_exponent' data='3'/><numeric name='drag_coefficient' data='1'/>"
         "<numeric name='frontal_area_m2' data='0.01'/></custom>"
         "<asset><mesh name='m' file='mesh.obj'/></asset><worldbody><body name='body'><freejoint/>"
-        "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>"
+        "<inertial pos='0 0 0' mass='1' diaginertia='1e-3 1e-3 1e-3'/>"
         "<geom type='mesh' mesh='m' contype='4' conaffinity='7'/></body></worldbody></mujoco>");
   for (const char* command : {"validate", "run --out x"}) {
     const Outcome refused = dodgesim(std::string(command) + " " + path("s.yaml") + " --models " +

@@ -9,6 +9,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/progress.h"
+#include "sim/config/expand.h"
 #include "sim/files/text_table.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
@@ -106,7 +107,12 @@ int run(const RunArguments& arguments) {
                 summary.memory.first_mb, summary.memory.last_mb);
   }
   warn_of_lost_events(summary.results);
-  if (options.truth) std::cout << truth_text(summary.truth) << "\n";
+  if (options.truth && flies_plugin(scenario)) {
+    std::cout
+        << "Which events a plug-in takes for an obstacle's is not known: truth.csv has none.\n";
+  } else if (options.truth) {
+    std::cout << truth_text(summary.truth) << "\n";
+  }
   return report_errors(summary);
 }
 

@@ -235,9 +235,9 @@ fillSweep();
 listen();
 if (!openHash() && count) {
   // The first that was dodged, else the first that flew.
-  const order = Array.from({length: count}, (_, i) => i);
+  const order = indices();
   const first = order.find((i) => fateOf(i) === 'dodged' && throws.track_size[i]) ??
-      order.find((i) => throws.track_size[i]) ?? 0;
+      order.find((i) => throws.track_size[i]) ?? order[0] ?? 0;
   open(first, false);
 }
 document.documentElement.dataset.ready = 'true';

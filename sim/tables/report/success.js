@@ -6,7 +6,7 @@ const kUnits = {m: 'm', mps: 'm/s', deg: 'deg', us: 'us', s: 's', hz: 'Hz', px: 
 // "throw.size_m" is shown as "size", with the unit m beside its values.
 function shown(key) {
   const [, name, unit] = /^(?:throw\.)?(.+?)(?:_(m|mps|deg|us|s|hz|px))?$/.exec(key);
-  return {name: name.replaceAll('_', ' '), unit: kUnits[unit] || ''};
+  return {name: name.includes('.') ? name : name.replaceAll('_', ' '), unit: kUnits[unit] || ''};
 }
 
 function valueText(key, value) {

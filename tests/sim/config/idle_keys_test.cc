@@ -42,6 +42,29 @@ TEST(IdleKeys, OfAGroupAreNamedTogether) {
   EXPECT_THAT(notes_on("pilot: plugin\n" + escape + "}\n"), IsEmpty());
 }
 
+TEST(IdleKeys, AreThoseOfPerceptionIfNobodyPerceives) {
+  const std::string keys =
+      "dodger: {time_image: {threshold_b: 0.2}, position: {depth: mono}}\n"
+      "sensors: {events: {leak_hz: 1, latency_us: 50}}\n";
+  EXPECT_THAT(notes_on(keys), IsEmpty());
+  for (const char* pilot : {"pilot: oracle\n", "pilot: none\n"}) {
+    EXPECT_THAT(notes_on(pilot + keys),
+                ElementsAre("s.yaml:2:36: dodger.time_image.threshold_b has no effect: no pilot "
+                            "that flies has cameras.",
+                            "s.yaml:3:29: sensors.events.leak_hz has no effect: no pilot that "
+                            "flies has cameras."));
+  }
+  EXPECT_THAT(notes_on("sweep: {pilot: [oracle, falanga2020]}\n" + keys), IsEmpty());
+}
+
+TEST(IdleKeys, AreThatOfTheLightIfNothingDependsOnIt) {
+  EXPECT_THAT(
+      notes_on("sensors: {events: {preset: ideal, illuminance_lux: 5}}\n"),
+      ElementsAre("s.yaml:1:52: sensors.events.illuminance_lux has no effect: the camera has "
+                  "neither photoreceptor_hz nor shot noise."));
+  EXPECT_THAT(notes_on("sensors: {events: {illuminance_lux: 5}}\n"), IsEmpty());
+}
+
 TEST(IdleKeys, AreThoseOfTheOtherDepth) {
   EXPECT_THAT(notes_on("dodger: {position: {known_size_m: 0.3}}\n"),
               ElementsAre("s.yaml:1:35: dodger.position.known_size_m has no effect: "

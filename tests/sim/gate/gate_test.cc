@@ -208,7 +208,7 @@ TEST(Gate, TellsButDoesNotJudgeBytesAcrossKindsOfMachines) {
   EXPECT_TRUE(verdict.passed());
   const GateCheck& bytes = check(verdict, "same bytes of the physics");
   EXPECT_EQ(bytes.result, GateCheck::Result::kLeftOut);
-  EXPECT_THAT(bytes.reason, HasSubstr("changed: throw 0 none_clearance_m"));
+  EXPECT_THAT(bytes.reason, HasSubstr("changed: throws.csv: throw 0 none_clearance_m was "));
 }
 
 TEST(Gate, WritesJunitThatCountsItsFailures) {

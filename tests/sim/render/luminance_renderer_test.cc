@@ -316,7 +316,7 @@ TEST(LuminanceRenderer, HidesUnlaunchedObjectsAndTheVehiclesGroup) {
 TEST(LuminanceRenderer, PlacesAnObjectByItsCentreOfMass) {
   Scene scene(std::string(kWhiteLight) +
               "<worldbody><body name='object0'><freejoint/>"
-              "<inertial pos='0 .5 0' mass='1' diaginertia='1 1 1'/>"
+              "<inertial pos='0 .5 0' mass='1' diaginertia='1e-3 1e-3 1e-3'/>"
               "<geom type='sphere' size='.1' pos='0 .5 0'/></body></worldbody>");
   scene.snapshot().objects[0].p_W = {2, 0, 0};
   scene.snapshot().objects[0].q_W = Eigen::AngleAxisd(1.0, Vector3d::UnitZ());

@@ -97,7 +97,7 @@ class Scene {
 
 inline std::string thrown(int index, const std::string& geom) {
   return "<body name='object" + std::to_string(index) + "'><freejoint/>" +
-         "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>" + geom + "</body>";
+         "<inertial pos='0 0 0' mass='1' diaginertia='1e-3 1e-3 1e-3'/>" + geom + "</body>";
 }
 
 // Camera at p_W that looks along +x of W with z of W up.

@@ -75,7 +75,7 @@ TEST_F(OwnModels, GeometryMassAndInertiaScaleWithTheSize) {
   EXPECT_DOUBLE_EQ(model.geom_size[3 * geom + 3], 0.01);
   EXPECT_NEAR(model.geom_size[3 * geom + 4], 0.03, 1e-12);  // half the capsule's length
   EXPECT_DOUBLE_EQ(world.object(0).mass_kg, 8);
-  EXPECT_DOUBLE_EQ(model.body_inertia[3 * body], 32);
+  EXPECT_DOUBLE_EQ(model.body_inertia[3 * body], 0.032);
   EXPECT_DOUBLE_EQ(world.object(0).drag_area_m2, 0.04);
 }
 
@@ -106,6 +106,24 @@ TEST_F(OwnModels, AnObjectIsOneBodyWithNothingBesideIt) {
     EXPECT_THAT(message_of(spec_),
                 AllOf(HasSubstr("own.xml:1: "), HasSubstr("must hold one <body>")));
   }
+}
+
+TEST_F(OwnModels, AnObjectStandsWhereAThrowBegins) {
+  const std::string good = object("<geom size='0.05'/>");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    write_object(text);
+    return message_of(spec_);
+  };
+  EXPECT_EQ(with("<body name='body'>", "<body name='body'>"), "");
+  EXPECT_THAT(with("<body name='body'>", "<body name='body' euler='0 0 90'>"),
+              HasSubstr("own.xml:1: The body of an object must have no euler"));
+  EXPECT_THAT(with("<body name='body'>", "<body name='body' pos='0 0 5'>"),
+              HasSubstr("must have no pos"));
+  EXPECT_THAT(with("mass_exponent' data='3'", "mass_exponent' data='-3'"),
+              HasSubstr("own.xml: mass_exponent must be between 0 and 3"));
+  EXPECT_THAT(with("mass_exponent' data='3'", "mass_exponent' data='3.5'"), HasSubstr("not 3.5"));
 }
 
 TEST_F(OwnModels, RoomsMustStandStill) {

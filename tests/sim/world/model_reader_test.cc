@@ -121,6 +121,74 @@ TEST_F(ModelReaderTest, NothingPushesBeforeItIsTouched) {
   refused("rooms/field.xml", "<geom name=\"ground\"");
 }
 
+TEST_F(ModelReaderTest, WhatCollidesTouchesAllTheOthers) {
+  const auto with = [&](const std::string& bits) {
+    write_object(object("<geom size='0.05' group='1' " + bits + "/>"));
+    return world_message();
+  };
+  EXPECT_EQ(with("contype='4' conaffinity='7'"), "");
+  EXPECT_EQ(with("contype='1' conaffinity='1'"), "");
+  EXPECT_THAT(with("contype='8' conaffinity='8'"),
+              HasSubstr("own.xml: a geom with a contype of 8 and a conaffinity of 8 would go "
+                        "through the room; those of an object have 4 and 7"));
+  EXPECT_THAT(with("contype='4' conaffinity='1'"), "");
+  EXPECT_THAT(with("contype='0' conaffinity='1'"), HasSubstr("would go through the vehicle"));
+
+  const auto swapped = [&](const std::string& file, const std::string& bits) {
+    std::string text = testing::contents(directory_ / file);
+    const std::string good = text;
+    const std::string others = "contype=\"16\" conaffinity=\"16\"";
+    for (std::size_t at = 0; (at = text.find(bits, at)) != std::string::npos;) {
+      text.replace(at, bits.size(), others);
+    }
+    testing::put(directory_ / file, text);
+    const std::string message = world_message();
+    testing::put(directory_ / file, good);
+    return message;
+  };
+  write_object(object("<geom size='0.05' group='1'/>"));
+  EXPECT_THAT(
+      swapped("rooms/field.xml", "contype=\"1\" conaffinity=\"6\""),
+      HasSubstr("rooms/field.xml: a geom with a contype of 16 and a conaffinity of 16 would "
+                "go through the vehicle; those of the room have 1 and 6"));
+  EXPECT_THAT(swapped("vehicles/qav_rxl.xml", "contype=\"2\" conaffinity=\"5\""),
+              HasSubstr("qav_rxl.xml: a geom with a contype of 16 and a conaffinity of 16 would go "
+                        "through the room; those of the vehicle have 2 and 5"));
+}
+
+TEST_F(ModelReaderTest, ARoomHasSomethingToStandOn) {
+  testing::put(
+      directory_ / "rooms/field.xml",
+      "<mujoco><worldbody><geom size='1' contype='0' conaffinity='0'/></worldbody></mujoco>");
+  write_object(object("<geom size='0.05' group='1'/>"));
+  EXPECT_THAT(world_message(), HasSubstr("rooms/field.xml: no geom of the room can collide"));
+}
+
+TEST_F(ModelReaderTest, NobodyHasMoreInertiaThanItsMassAndSizeAllow) {
+  const auto with = [&](const std::string& inertia) {
+    std::string text = object("<geom size='0.05' group='1'/>");
+    const std::string given = "1e-3 1e-3 1e-3";
+    text.replace(text.find(given), given.size(), inertia);
+    write_object(text);
+    return world_message();
+  };
+  EXPECT_EQ(with("2e-3 2e-3 2e-3"), "");  // times 2^5; at most 8 kg at 0.1 m
+  EXPECT_THAT(with("2e-3 2e-3 3e-3"),
+              HasSubstr("own.xml: the body's inertia is 0.096 kg m^2, but must be at most 0.08"));
+}
+
+TEST_F(ModelReaderTest, PaintHidesWhatIsBehindItAndThrowsBackNoMoreThanThereIs) {
+  const auto with = [&](const std::string& geom) {
+    write_object(object("<geom size='0.05' " + geom + "/>"));
+    return world_message();
+  };
+  EXPECT_THAT(with("group='1' rgba='0.7 0.3 0.2 0.05'"),
+              HasSubstr("own.xml: a geom's alpha is 0.05"));
+  EXPECT_THAT(with("group='1' rgba='7 3 2 1'"), HasSubstr("own.xml: a geom's colour is above 1"));
+  EXPECT_EQ(with("group='1' rgba='1 1 1 1'"), "");
+  EXPECT_EQ(with("group='4' rgba='7 3 2 0.05'"), "");  // no camera sees it
+}
+
 TEST_F(ModelReaderTest, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
   const std::string good = object("<geom size='0.05' group='1'/>");
   const auto with = [&](const std::string& from, const std::string& to) {
@@ -139,7 +207,7 @@ TEST_F(ModelReaderTest, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfM
   EXPECT_THAT(with("<freejoint/>", "<joint type='free' stiffness='5'/>"),
               HasSubstr("must have no stiffness"));
   EXPECT_THAT(with("inertial pos='0 0 0'", "inertial pos='0 0.1 0'"), HasSubstr("centre of mass"));
-  EXPECT_THAT(with("<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>", ""),
+  EXPECT_THAT(with("<inertial pos='0 0 0' mass='1' diaginertia='1e-3 1e-3 1e-3'/>", ""),
               HasSubstr("must have an <inertial>"));
   EXPECT_THAT(with("</body>", "<body><geom size='0.1'/></body></body>"),
               HasSubstr("no body within it"));

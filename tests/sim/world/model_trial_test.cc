@@ -33,7 +33,7 @@ class ModelTrial : public ::testing::Test {
     testing::put(directory_ / file, text);
   }
   void write_object(const std::string& geom, const std::string& asset = "",
-                    const std::string& inertia = "1 1 1") const {
+                    const std::string& inertia = "1e-3 1e-3 1e-3") const {
     write("objects/own.xml",
           "<mujoco><custom><numeric name='reference_size_m' data='0.1'/>"
           "<numeric name='mass_exponent' data='3'/><numeric name='drag_coefficient' data='1'/>"

@@ -33,7 +33,7 @@ class OwnModels : public ::testing::Test {
            "<numeric name='frontal_area_m2' data='0.01'/></custom>" +
            more +
            "<worldbody><body name='body'><freejoint/>"
-           "<inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>" +
+           "<inertial pos='0 0 0' mass='1' diaginertia='1e-3 1e-3 1e-3'/>" +
            geom + "</body></worldbody></mujoco>";
   }
 
