@@ -1,6 +1,8 @@
 // A rigid body with four rotors, written for the tests, flown by the controllers under test.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -15,25 +17,11 @@
 #include "sim/control/velocity_controller.h"
 #include "sim/motors/motors.h"
 #include "sim/sensors/state_estimator.h"
+#include "tests/nominal_vehicle.h"
 
 namespace dodgesim {
 
 inline constexpr TimeUs kSecondUs = 1000000;
-
-// The nominal vehicle of the design.
-inline VehicleParameters nominal_vehicle() {
-  VehicleParameters vehicle;
-  vehicle.mass_kg = 1.0;
-  vehicle.inertia_kgm2 = Eigen::Vector3d(.0033, .0040, .0062);
-  vehicle.rotor_p_B = {Eigen::Vector3d(.085, .10, 0), Eigen::Vector3d(-.085, .10, 0),
-                       Eigen::Vector3d(-.085, -.10, 0), Eigen::Vector3d(.085, -.10, 0)};
-  vehicle.rotor_spin = {1, -1, 1, -1};
-  vehicle.kappa_m = .012;
-  vehicle.max_thrust_n = 9.5;
-  vehicle.drag_1ps = Eigen::Vector3d(.544, .386, 0);
-  vehicle.drag_kh_1pm = .009;
-  return vehicle;
-}
 
 inline std::array<double, 4> hover_thrusts(const VehicleParameters& vehicle) {
   std::array<double, 4> thrusts;
@@ -60,6 +48,7 @@ class RigidBody {
     this->a_W = a_W;
   }
 
+  bool finite() const { return p_W.allFinite() && v_W.allFinite() && w_B.allFinite(); }
   double tilt_rad() const { return std::acos(std::min(1.0, (q_W * Eigen::Vector3d::UnitZ()).z())); }
   double yaw_rad() const {
     const Eigen::Vector3d x = q_W * Eigen::Vector3d::UnitX();
@@ -127,7 +116,8 @@ class Flight {
     command_.thrust_mps2 = kGravityMps2;
   }
 
-  // Flies until `until_us`. `pilot` sees the estimate; `watch` is called after each tick.
+  // Flies until `until_us`. `pilot` sees the estimate; `watch` is called after each tick. Fails if
+  // the flight diverges: of what is not a number, no test would see that it is too large.
   void fly(
       TimeUs until_us, const std::function<VelocityReference(const StateReading&)>& pilot,
       const std::function<void()>& watch = [] {}) {
@@ -147,6 +137,7 @@ class Flight {
       body.step(rotor_thrust_n, seconds(kTickUs));
       watch();
     }
+    ASSERT_TRUE(body.finite());
   }
 
   TimeUs t_us = 0;

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "sim/base/random.h"
-#include "tests/sim/control/closed_loop.h"
+#include "tests/nominal_vehicle.h"
 
 namespace dodgesim {
 namespace {
@@ -161,10 +161,10 @@ TEST(Mixer, MirroredWrenchGivesMirroredRotors) {
     right.torque_nm.z() *= -1;
     const std::array<double, 4> a = mixer.rotor_thrusts(left);
     const std::array<double, 4> b = mixer.rotor_thrusts(right);
-    EXPECT_NEAR(a[0], b[3], kTolerance);
-    EXPECT_NEAR(a[1], b[2], kTolerance);
-    EXPECT_NEAR(a[2], b[1], kTolerance);
-    EXPECT_NEAR(a[3], b[0], kTolerance);
+    EXPECT_NEAR(a[0], b[1], kTolerance);
+    EXPECT_NEAR(a[1], b[0], kTolerance);
+    EXPECT_NEAR(a[2], b[3], kTolerance);
+    EXPECT_NEAR(a[3], b[2], kTolerance);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "tests/nominal_vehicle.h"
 #include "tests/sim/world/test_world.h"
 
 namespace dodgesim {
@@ -26,17 +27,17 @@ void run(World& world, const std::array<double, 4>& thrust_n, int ticks) {
 TEST(WorldTest, ReadsTheVehicleFromItsModel) {
   const World world(test_spec({}));
   const VehicleParameters& vehicle = world.vehicle();
-  EXPECT_DOUBLE_EQ(vehicle.mass_kg, 1.0);
-  EXPECT_TRUE(vehicle.inertia_kgm2.isApprox(Vector3d(0.0033, 0.0040, 0.0062), 1e-12));
-  EXPECT_DOUBLE_EQ(vehicle.kappa_m, 0.012);
-  EXPECT_DOUBLE_EQ(vehicle.max_thrust_n, 9.5);
-  EXPECT_TRUE(vehicle.drag_1ps.isApprox(Vector3d(0.544, 0.386, 0)));
-  EXPECT_DOUBLE_EQ(vehicle.drag_kh_1pm, 0.009);
-  const double x[] = {0.085, 0.085, -0.085, -0.085}, y[] = {0.1, -0.1, -0.1, 0.1};
+  const VehicleParameters nominal = nominal_vehicle();
+  EXPECT_DOUBLE_EQ(vehicle.mass_kg, nominal.mass_kg);
+  EXPECT_TRUE(vehicle.inertia_kgm2.isApprox(nominal.inertia_kgm2, 1e-12));
+  EXPECT_DOUBLE_EQ(vehicle.kappa_m, nominal.kappa_m);
+  EXPECT_DOUBLE_EQ(vehicle.max_thrust_n, nominal.max_thrust_n);
+  EXPECT_TRUE(vehicle.drag_1ps.isApprox(nominal.drag_1ps));
+  EXPECT_DOUBLE_EQ(vehicle.drag_kh_1pm, nominal.drag_kh_1pm);
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_DOUBLE_EQ(vehicle.rotor_p_B[k].x(), x[k]);
-    EXPECT_DOUBLE_EQ(vehicle.rotor_p_B[k].y(), y[k]);
-    EXPECT_EQ(vehicle.rotor_spin[k], k % 2 ? -1 : 1);
+    EXPECT_DOUBLE_EQ(vehicle.rotor_p_B[k].x(), nominal.rotor_p_B[k].x());
+    EXPECT_DOUBLE_EQ(vehicle.rotor_p_B[k].y(), nominal.rotor_p_B[k].y());
+    EXPECT_EQ(vehicle.rotor_spin[k], nominal.rotor_spin[k]);
   }
 }
 
@@ -85,17 +86,21 @@ TEST(WorldTest, AFallingVehicleFollowsTheParabola) {
   EXPECT_NEAR(world.snapshot().vehicle_a_W.z(), -kGravityMps2, 1e-9);
 }
 
+// Along and across the vehicle it differs, wherever the vehicle is heading.
 TEST(WorldTest, RotorDragBrakesAsItsClosedForm) {
   World world(test_spec({}));
-  world.reset(kStart, 0, Vector3d(3, 2, 0));
-  run(world, hover(world), kTicksPerSecond);
-  const Snapshot& now = world.snapshot();
-  EXPECT_NEAR(now.vehicle.v_W.x(), 3 * std::exp(-0.544), 1e-5);
-  EXPECT_NEAR(now.vehicle.v_W.y(), 2 * std::exp(-0.386), 1e-5);
-  // v_z = k_h times the integral of the squared horizontal speed.
-  const double gained = 0.009 * (9 * (1 - std::exp(-2 * 0.544)) / (2 * 0.544) +
-                                 4 * (1 - std::exp(-2 * 0.386)) / (2 * 0.386));
-  EXPECT_NEAR(now.vehicle.v_W.z(), gained, 1e-5);
+  for (const double yaw_rad : {0.0, 1.0}) {
+    const Eigen::Quaterniond q_W(Eigen::AngleAxisd(yaw_rad, Vector3d::UnitZ()));
+    world.reset(kStart, yaw_rad, q_W * Vector3d(3, 2, 0));
+    run(world, hover(world), kTicksPerSecond);
+    const Vector3d v_B = q_W.conjugate() * world.snapshot().vehicle.v_W;
+    EXPECT_NEAR(v_B.x(), 3 * std::exp(-0.544), 1e-5);
+    EXPECT_NEAR(v_B.y(), 2 * std::exp(-0.386), 1e-5);
+    // v_z = k_h times the integral of the squared horizontal speed.
+    const double gained = 0.009 * (9 * (1 - std::exp(-2 * 0.544)) / (2 * 0.544) +
+                                   4 * (1 - std::exp(-2 * 0.386)) / (2 * 0.386));
+    EXPECT_NEAR(v_B.z(), gained, 1e-5);
+  }
 }
 
 // Torques of one rotor with 0.1 N more than the others, about the axes of B.
@@ -287,7 +292,10 @@ TEST(WorldTest, ManyObjectsMayLieOnTheGround) {
     world.launch(i, thrown(Vector3d(5 + i % 4, row - 1.5, 0.2), Vector3d::Zero()));
   }
   EXPECT_NO_THROW(run(world, hover(world), kTicksPerSecond));
-  for (const BodyState& object : world.snapshot().objects) EXPECT_LT(object.p_W.z(), 0.2);
+  // On the pod, whose underside is 0.025 m below the centre at the model's own size.
+  for (const BodyState& object : world.snapshot().objects) {
+    EXPECT_NEAR(object.p_W.z(), 0.025 * 0.5 / 0.3816, 1e-3);
+  }
 }
 
 TEST(WorldTest, OneObjectDoesNotDisturbTheFlightOfAnother) {
