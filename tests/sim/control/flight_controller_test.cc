@@ -78,6 +78,7 @@ TEST(FlightController, RateStepFollowsTheSecondOrderResponse) {
           second_order_step(spec.motor_time_constant_s, torque_gain, rate_gain, seconds(loop.t_us));
       worst = std::max(worst, std::abs(loop.body.w_B[axis] / step_radps - predicted));
     }
+    EXPECT_TRUE(loop.body.finite());
     // The zero-order hold of one tick.
     EXPECT_LT(worst, 0.015) << "axis " << axis;
   }
@@ -112,6 +113,53 @@ TEST(FlightController, ALargeYawStepDoesNotSlowRoll) {
   }
   // The assured yaw torque costs a little.
   EXPECT_NEAR(loop.body.w_B.x(), without_yaw.body.w_B.x(), 0.05 * without_yaw.body.w_B.x());
+}
+
+double roll_torque_nm(const std::array<double, 4>& thrust_n) {
+  double torque_nm = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    torque_nm += nominal_vehicle().rotor_p_B[k].y() * thrust_n[k];
+  }
+  return torque_nm;
+}
+
+// At every tick, however long the period of the loop.
+TEST(FlightController, TheGyroscopeIsLowPassed) {
+  FlightControllerSpec spec;
+  spec.torque_gain_xy = 0;
+  for (const int period_us : {250, 1000}) {
+    spec.period_us = period_us;
+    FlightController controller(spec, nominal_vehicle(), MotorSpec());
+    controller.reset(hover_thrusts(nominal_vehicle()));
+    for (TimeUs t = 0; t < 20000; t += kTickUs) {
+      const double torque_nm =
+          roll_torque_nm(controller.step(t, {{0, 0, 0}, kGravityMps2}, {0.1, 0, 0}));
+      if (t % period_us != 0) continue;
+      const double filtered = 0.1 * (1 - std::exp(-seconds(t + kTickUs) / spec.gyro_filter_s));
+      EXPECT_NEAR(torque_nm, -spec.rate_gain_xy_1ps * 0.0033 * filtered, 1e-12) << t;
+    }
+  }
+}
+
+// It knows at every output what torque motors with that lag have reached since.
+TEST(FlightController, FeedsBackTheTorqueOfTheLaggingMotors) {
+  FlightControllerSpec spec;
+  for (const int period_us : {250, 1000}) {
+    spec.period_us = period_us;
+    FlightController controller(spec, nominal_vehicle(), MotorSpec());
+    controller.reset(hover_thrusts(nominal_vehicle()));
+    const double wanted_nm = spec.rate_gain_xy_1ps * 0.0033 * 0.3;
+    const double stays = std::exp(-seconds(kTickUs) / spec.motor_time_constant_s);
+    double reached_nm = 0;
+    for (TimeUs t = 0; t < 40000; t += kTickUs) {
+      const double commanded_nm =
+          roll_torque_nm(controller.step(t, {{0.3, 0, 0}, kGravityMps2}, {0, 0, 0}));
+      if (t % period_us == 0) {
+        EXPECT_NEAR(commanded_nm, wanted_nm - spec.torque_gain_xy * reached_nm, 1e-12) << t;
+      }
+      reached_nm = commanded_nm + stays * (reached_nm - commanded_nm);
+    }
+  }
 }
 
 TEST(FlightController, CommandsChangeOnlyOncePerPeriod) {
