@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "sim/base/error.h"
 #include "tests/closed_loop/flights.h"
@@ -150,6 +151,27 @@ TEST(Loop, TheFirstCommandComesAsMuchLaterAsThePilotComputesLonger) {
   }
 }
 
+// When the controller's first command reaches the flight controller.
+class FirstCommand : public FlightObserver {
+ public:
+  void on_command(TimeUs now_us, bool /*evading*/) override {
+    if (!us) us = now_us;
+  }
+  std::optional<TimeUs> us;
+};
+
+// The controller acts at the first state estimate, of 4 ms, and once it has that.
+TEST(Loop, TheControllerWaitsForTheStateEstimate) {
+  for (const int state_estimate_us : {0, 2000, 10000}) {
+    Scenario s = scenario(std::string(kHover) + "duration_s: 0.1\npilot: none\n");
+    s.delays.state_estimate_us = state_estimate_us;
+    FirstCommand first;
+    fly(s, plan_throw(s, 0), &first);
+    const DelaySpec& d = s.delays;
+    EXPECT_EQ(first.us, 4000 + state_estimate_us + d.command_us + d.flight_controller_us);
+  }
+}
+
 void expect_equal(const FlightRecord& a, const FlightRecord& b) {
   EXPECT_EQ(a.last.t_us, b.last.t_us);
   EXPECT_EQ(a.last.vehicle.p_W, b.last.vehicle.p_W);
@@ -196,6 +218,37 @@ TEST(Loop, EveryThrowAndEverySeedHasItsOwnNoise) {
     EXPECT_GT((first.imu.f_B_mps2 - other->imu.f_B_mps2).norm(), 0.01);
     EXPECT_GT((first.state.p_W - other->state.p_W).norm(), 1e-4);
   }
+}
+
+// The mean rate that the pilot's gyroscope reads about z.
+class MeanYawRate : public FlightObserver {
+ public:
+  void on_imu(const ImuReading& reading) override {
+    sum_radps_ += reading.w_B_radps.z();
+    ++count_;
+  }
+  double radps() const { return sum_radps_ / count_; }
+
+ private:
+  double sum_radps_ = 0;
+  int count_ = 0;
+};
+
+// The bias of the flight controller's gyroscope turns the vehicle until the heading's error makes
+// up for it, and is not what the pilot's reads.
+TEST(Loop, TheFlightControllersGyroscopeIsNotThePilots) {
+  Scenario s = scenario("duration_s: 2\npilot: none\nmission: {start_m: [-1, 0, 2]}\n");
+  s.sensors.imu.gyro_initial_bias_radps = 0.2;
+  constexpr int kThrows = 4;
+  double square = 0;
+  for (int k = 0; k < kThrows; ++k) {
+    MeanYawRate pilots;
+    const FlightRecord record = fly(s, plan_throw(s, k), &pilots);
+    const Vector3d x_W = record.last.vehicle.q_W * Vector3d::UnitX();
+    const double bias_radps = -s.controller.attitude_gain_z_1ps * std::atan2(x_W.y(), x_W.x());
+    square += std::pow(pilots.radps() - bias_radps, 2) / kThrows;
+  }
+  EXPECT_GT(std::sqrt(square), 0.1);
 }
 
 TEST(Loop, AnObserverChangesNothing) {
