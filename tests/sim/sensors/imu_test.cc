@@ -156,6 +156,24 @@ TEST(Imu, SaturatesAtItsRange) {
             Vector3d(0, -spec.accelerometer_range_mps2, spec.accelerometer_range_mps2));
 }
 
+TEST(Imu, NeitherDoesItsNoiseReadBeyondTheRange) {
+  ImuSpec spec = noiseless_imu();
+  spec.gyro_vibration_radps = 0.5;
+  spec.accelerometer_vibration_mps2 = 0.5;
+  Imu imu(spec, 1, 0);
+  Snapshot truth;
+  truth.vehicle.w_W = Vector3d(spec.gyro_range_radps, 0, 0);
+  truth.vehicle_a_W = Vector3d(spec.accelerometer_range_mps2, 0, 0);
+  int full = 0;
+  for (int n = 0; n < 1000; ++n, truth.t_us += 1000) {
+    const ImuReading reading = imu.sample(truth);
+    EXPECT_LE(reading.w_B_radps.x(), spec.gyro_range_radps);
+    EXPECT_LE(reading.f_B_mps2.x(), spec.accelerometer_range_mps2);
+    full += reading.w_B_radps.x() == spec.gyro_range_radps;
+  }
+  EXPECT_NEAR(full, 500, 4 * std::sqrt(250.0));  // the noise goes either way
+}
+
 TEST(Imu, ReadingsRepeatForTheSameThrowAndDifferBetweenThrowsAndUnits) {
   const Snapshot truth;
   const Vector3d w = Imu(ImuSpec(), 3, 5).sample(truth).w_B_radps;
