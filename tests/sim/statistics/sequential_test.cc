@@ -152,6 +152,7 @@ TEST(FixedWidthRule, CountsAllPaths) {
   // Three throws at most, none of which ends the campaign before.
   ASSERT_FALSE(rule.done(0, 2));
   EXPECT_NEAR(expected_trials(rule, 0.37), 3, 1e-12);
+  EXPECT_NEAR(rule.coverage(0.5), 1, 1e-12);
   const FixedWidthRule longer(0.1, 0.95, kNoLimit);
   EXPECT_NEAR(longer.coverage(0), 1, 1e-12);
   EXPECT_NEAR(longer.coverage(1), 1, 1e-12);
