@@ -154,20 +154,15 @@ TEST(EventCamera, NoPixelIsEverStuck) {
     EventCamera camera(spec, kOddWidth, kOddHeight, 5, 0, "top");
     const auto frames = film(kOddWidth, kOddHeight, every(900, 90000), random_walk);
     std::vector<Event> events;
+    int armed = 0;
     camera.reset(0, frames[0].luminance.data());
     for (std::size_t i = 1; i < frames.size(); ++i) {
       camera.update(frames[i].t_us, frames[i].luminance.data(), events);
-      for (int y = 0; y < kOddHeight; ++y) {
-        for (int x = 0; x < kOddWidth; ++x) {
-          const PixelState p = camera.pixel(x, y);
-          if (p.held) continue;
-          ASSERT_LT(p.signal - p.reference, p.threshold_on);
-          ASSERT_GT(p.signal - p.reference, -p.threshold_off);
-        }
-      }
+      armed += testing::expect_within_thresholds(camera);
     }
-    // Held pixels come back: at the end most are armed, and events went on to the end.
-    EXPECT_GT(events.back().t_us, 89000);
+    EXPECT_GT(armed, 1000);
+    // Held pixels come back.
+    testing::expect_events_of_all_after(84000, camera, events);
   }
 }
 

@@ -226,6 +226,30 @@ TEST(HotPixels, HaveTheSetShareAndRateAndStayWhereTheyAre) {
                          [](const auto& a, const auto& b) { return a.first == b.first; }));
 }
 
+TEST(HotPixels, ShareTheirEventsBetweenThePolaritiesAsTheShotNoiseDoes) {
+  struct Case {
+    double on_hz, off_hz, on_share;
+  };
+  for (const Case& c : {Case{0.3, 0.1, 0.75}, Case{0.1, 0.3, 0.25}, Case{0, 0, 0.5}}) {
+    EventCameraSpec spec = only_hot_pixels(0.02, 100);
+    spec.shot_noise_on_hz = c.on_hz;
+    spec.shot_noise_off_hz = c.off_hz;
+    const auto pixels = static_cast<std::size_t>(kFieldPixels);
+    Noise noise(spec, kFieldWidth, std::vector<Thresholds>(pixels, {0.2, 0.2}), 1, 0, "top");
+    noise.reset(0);
+    const std::vector<float> luminance(pixels, 0.2F);
+    double on = 0, all = 0;
+    for (const NoiseEvent& event :
+         noise.take(10000000, {0, 0, kFieldWidth, kFieldHeight}, luminance.data())) {
+      if (event.cause != kCauseHotPixel) continue;
+      on += event.on;
+      ++all;
+    }
+    ASSERT_GT(all, 30000);
+    EXPECT_NEAR(on / all, c.on_share, 4 * std::sqrt(c.on_share * (1 - c.on_share) / all));
+  }
+}
+
 TEST(HotPixels, AreSilentWithinTheRefractoryPeriod) {
   EventCameraSpec spec = only_hot_pixels(1, 1000);
   spec.refractory_us = 1000;

@@ -146,4 +146,32 @@ inline void expect_same(const std::vector<Event>& events,
   }
 }
 
+// Nobody is to be stuck beyond a threshold. Returns how many of the pixels are not held.
+inline int expect_within_thresholds(const EventCamera& camera) {
+  int armed = 0;
+  for (int y = 0; y < camera.height(); ++y) {
+    for (int x = 0; x < camera.width(); ++x) {
+      const PixelState p = camera.pixel(x, y);
+      if (p.held) continue;
+      ++armed;
+      EXPECT_LT(p.signal - p.reference, p.threshold_on);
+      EXPECT_GT(p.signal - p.reference, -p.threshold_off);
+    }
+  }
+  return armed;
+}
+
+// Every pixel that lives has had an event after this instant.
+inline void expect_events_of_all_after(TimeUs t_us, const EventCamera& camera,
+                                       const std::vector<Event>& events) {
+  std::map<std::pair<int, int>, TimeUs> last_us;
+  for (const Event& event : events) last_us[{event.x, event.y}] = event.t_us;
+  for (int y = 0; y < camera.height(); ++y) {
+    for (int x = 0; x < camera.width(); ++x) {
+      if (std::isinf(camera.pixel(x, y).threshold_on)) continue;
+      EXPECT_GT((last_us[{x, y}]), t_us) << x << ", " << y;
+    }
+  }
+}
+
 }  // namespace dodgesim::testing

@@ -126,6 +126,7 @@ TEST(Region, NoPixelIsEverStuck) {
     EventCamera camera(spec, kFrameWidth, kFrameHeight, 5, 0, "top");
     const Frames frames = film_with_regions(fast_walk);
     std::vector<Event> events;
+    int armed = 0;
     camera.reset(0, frames[0].luminance.data());
     for (std::size_t i = 1; i < frames.size(); ++i) {
       const Frame& frame = frames[i];
@@ -134,14 +135,10 @@ TEST(Region, NoPixelIsEverStuck) {
         continue;
       }
       camera.update(frame.t_us, frame.luminance.data(), events);
-      for (int pixel = 0; pixel < kFrameWidth * kFrameHeight; ++pixel) {
-        const PixelState p = camera.pixel(pixel % kFrameWidth, pixel / kFrameWidth);
-        if (p.held) continue;
-        ASSERT_LT(p.signal - p.reference, p.threshold_on);
-        ASSERT_GT(p.signal - p.reference, -p.threshold_off);
-      }
+      armed += testing::expect_within_thresholds(camera);
     }
-    EXPECT_GT(events.back().t_us, 51000);
+    EXPECT_GT(armed, 1000);
+    testing::expect_events_of_all_after(46000, camera, events);
   }
 }
 
