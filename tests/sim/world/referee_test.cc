@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <string>
 
 #include "sim/base/random.h"
 #include "sim/world/throw.h"
@@ -213,11 +214,33 @@ TEST(RefereeTest, FlyingIntoTheGroundIsACrash) {
   EXPECT_FALSE(referee.verdict().crashed);
 }
 
-// What becomes of a vehicle that flies with this velocity in the room until it touches something;
-// the left rotors push more than the right ones by roll_n each.
-Verdict first_touch(const Vector3d& start, const Vector3d& v_W, bool landing, double roll_n = 0) {
+WorldSpec in_room(const std::string& room) {
   WorldSpec spec = test_spec({});
-  spec.room = "room";
+  spec.room = room;
+  return spec;
+}
+
+// A room of which the floor, a plane, is all there is.
+class OwnFloor {
+ public:
+  explicit OwnFloor(const std::string& attributes) {
+    const std::filesystem::path models = testing::copy_models(own_.path());
+    std::ofstream(models / "rooms" / "own.xml")
+        << "<mujoco><worldbody><geom name='floor' type='plane' size='9 9 1' " << attributes
+        << "/></worldbody></mujoco>";
+    spec_.models_dir = models.string();
+  }
+  const WorldSpec& spec() const { return spec_; }
+
+ private:
+  testing::TemporaryDirectory own_;
+  WorldSpec spec_ = in_room("own");
+};
+
+// What becomes of a vehicle that flies with this velocity in a room until it touches something;
+// the left rotors push more than the right ones by roll_n each.
+Verdict first_touch(const Vector3d& start, const Vector3d& v_W, bool landing, double roll_n = 0,
+                    const WorldSpec& spec = in_room("room")) {
   World world(spec);
   world.reset(start, 0, v_W);
   Referee referee(world);
@@ -248,8 +271,20 @@ TEST(RefereeTest, ATouchdownTooFastOrTiltedIsACrash) {
   EXPECT_TRUE(first_touch({0, 0, 0.12}, {1.2 * kTouchdownMps, 0, -0.3}, true).crashed);
   // Rolls by 1/2 (4 x 0.1 m x roll_n / 0.0033 kg m^2) (0.4 s)^2 on its way down.
   const auto roll_n = [](double degrees) { return degrees / 57.3 * 0.0033 / (0.08 * 0.4); };
-  EXPECT_TRUE(first_touch({0, 0, 0.2925}, {0, 0, -0.5}, true, roll_n(8)).landed);
-  EXPECT_TRUE(first_touch({0, 0, 0.2925}, {0, 0, -0.5}, true, roll_n(25)).crashed);
+  const double tilt_deg = kTouchdownTiltDeg;
+  EXPECT_TRUE(first_touch({0, 0, 0.2925}, {0, 0, -0.5}, true, roll_n(tilt_deg - 2)).landed);
+  EXPECT_TRUE(first_touch({0, 0, 0.2925}, {0, 0, -0.5}, true, roll_n(tilt_deg + 2)).crashed);
+}
+
+TEST(RefereeTest, OneLandsOnASlopeUnlessItIsSteep) {
+  for (const double slope_deg : {25.0, 26.5}) {
+    const double slope_rad = slope_deg * M_PI / 180;
+    const OwnFloor floor("zaxis='" + std::to_string(std::sin(slope_rad)) + " 0 " +
+                         std::to_string(std::cos(slope_rad)) + "'");
+    const Verdict verdict = first_touch({0, 0, 0.5}, {0, 0, -0.5}, true, 0, floor.spec());
+    EXPECT_EQ(verdict.landed, slope_deg < 26);
+    EXPECT_EQ(verdict.crashed, slope_deg > 26);
+  }
 }
 
 TEST(RefereeTest, OneLandsOnTopOfThingsNotAgainstThem) {
@@ -260,15 +295,8 @@ TEST(RefereeTest, OneLandsOnTopOfThingsNotAgainstThem) {
 
 // MuJoCo lists contacts from a margin on, and forces only from the margin less the gap.
 TEST(RefereeTest, TheMarginOfARoomsGeomIsNotTouched) {
-  const testing::TemporaryDirectory own;
-  const std::filesystem::path models = testing::copy_models(own.path());
-  std::ofstream(models / "rooms" / "own.xml")
-      << "<mujoco><worldbody><geom name='floor' type='plane' size='9 9 1' margin='0.5' gap='0.5'/>"
-         "</worldbody></mujoco>";
-  WorldSpec spec = test_spec({});
-  spec.models_dir = models.string();
-  spec.room = "own";
-  World world(spec);
+  const OwnFloor floor("margin='0.5' gap='0.5'");
+  World world(floor.spec());
   world.reset(Vector3d(0, 0, 1), 0, Vector3d::Zero());
   Referee referee(world);
   for (int tick = 0; tick < 4000 && !referee.verdict().crashed; ++tick) {
@@ -279,9 +307,7 @@ TEST(RefereeTest, TheMarginOfARoomsGeomIsNotTouched) {
 }
 
 TEST(RefereeTest, FlyingIntoAWallOfTheRoomIsACrash) {
-  WorldSpec spec = test_spec({});
-  spec.room = "room";
-  World world(spec);
+  World world(in_room("room"));
   Referee referee(world);
   for (const Vector3d& direction :
        {Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, -1, 0)}) {
