@@ -117,6 +117,32 @@ TEST_F(DepthTest, SixPointsAreTheCornersAndTheCentreMovedByTheSize) {
   EXPECT_LT((detections[0].p_W[5] - Eigen::Vector3d(1.3, 0, 0.075)).norm(), 1e-4);
 }
 
+TEST_F(DepthTest, TakesTheCentroidInPlaceOfTheRectanglesCentreIfAskedTo) {
+  const Eigen::Vector3d p_B(1.1, 0.2, 0.05);
+  Cluster top = seen_by(0, p_B, 0.2), bottom = seen_by(1, p_B, 0.2);
+  const double disparity_px = top.centroid.y() - bottom.centroid.y();
+  top.centroid += Eigen::Vector2d(7, -5);
+  bottom.centroid.x() += 7;
+  DepthConfig config = centres();
+  EXPECT_NEAR(locate(config, {top}, {bottom}).at(0).depth_m, 1, 1e-4);
+  config.centre = "centroid";
+  const Detection d = locate(config, {top}, {bottom}).at(0);
+  EXPECT_NEAR(d.depth_m, disparity_px / (disparity_px - 5), 1e-4);
+  const Eigen::Vector2d seen = cameras_[0].project(cameras_[0].X_BC.inverse() * d.centre_W);
+  EXPECT_LT((seen - top.centroid).norm(), 1e-2);
+}
+
+TEST_F(DepthTest, TheNearPointIsNotBehindTheCameraHoweverLargeTheObject) {
+  DepthConfig config;
+  config.depth = "mono";
+  config.known_size_m = 0.5;
+  const Detection d = locate(config, {square(160, 120, 230)}, {}).at(0);
+  ASSERT_GT(d.size_m, d.depth_m);
+  const Eigen::Isometry3d X_WC = cameras_[0].X_BC;
+  EXPECT_LT((d.p_W[4] - X_WC.translation()).norm(), 1e-9);
+  EXPECT_NEAR((X_WC.inverse() * d.p_W[5]).z(), d.depth_m + d.size_m, 1e-9);
+}
+
 TEST_F(DepthTest, WholePixelsGiveDepthWithinTheQuantisationOfTheDisparity) {
   const double focal_baseline = cameras_[0].fx * 0.15;
   for (int depth_cm = 30; depth_cm < 140; ++depth_cm) {

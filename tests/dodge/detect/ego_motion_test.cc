@@ -54,6 +54,7 @@ double largest_error(const CameraModel& camera, const EgoMotionConfig& config,
   ego_motion.set_motion(w, kBeginUs, kEndUs);
   dodgesim::RandomStream random(1, 0, "events");
   double largest = 0;
+  int compared = 0;
   for (int i = 0; i < 20000; ++i) {
     const Event event{.t_us = kBeginUs + 1 + static_cast<TimeUs>(random.uniform(0, 9999)),
                       .x = static_cast<std::uint16_t>(random.uniform(0, camera.width)),
@@ -63,8 +64,12 @@ double largest_error(const CameraModel& camera, const EgoMotionConfig& config,
     const Eigen::Vector2d expected = camera.project(d);
     if (expected.x() < 0 || expected.x() >= camera.width) continue;
     if (expected.y() < 0 || expected.y() >= camera.height) continue;
-    largest = std::max(largest, (ego_motion.warp(event).cast<double>() - expected).norm());
+    ++compared;
+    const Eigen::Vector2d warped = ego_motion.warp(event).cast<double>();
+    EXPECT_TRUE(warped.allFinite());
+    largest = std::max(largest, (warped - expected).norm());
   }
+  EXPECT_GT(compared, 10000);
   return largest;
 }
 
