@@ -192,7 +192,7 @@ TEST(EventTruth, AgreesWithThePilotsWindowsAndFindsTheBall) {
   sums.add(truth.rows());
   const EventTruthCounts& before = sums.before;
   EXPECT_GT(before.precision().value_or(0), 0.5);  // a hovering vehicle sees little else
-  EXPECT_GT(before.recall().value_or(0), 0.02);
+  EXPECT_GT(before.recall().value_or(0), 0.14);    // half of what it is
   EXPECT_LE(before.found_object_events, std::min(before.found_events, before.object_events));
   EXPECT_LE(std::max(before.found_events, before.object_events), before.events);
 

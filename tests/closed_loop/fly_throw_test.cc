@@ -95,6 +95,23 @@ TEST(FlyThrow, AResultSaysWhatWasThrownAndHowItEnded) {
   EXPECT_EQ(fly_throw(s, 4).oracle.status, "not flown");
 }
 
+// Past a vehicle that does not dodge: aimed at a point beside it, or below that under the floor.
+TEST(FlyThrow, AResultSaysWhetherTheObjectBouncedBeforeItCame) {
+  for (const bool bounces : {true, false}) {
+    const ThrowResult result =
+        fly_throw(scenario("pilot: none\nmission: {start_m: [0, 0, 0.6]}\nafter_s: 0.2\n"
+                           "throw: {distance_m: 2.5, speed_mps: 8, size_m: 0.1, launch_s: 0.2,\n"
+                           "  launch_height_m: 0.8, aim_offset_m: [0.8, " +
+                           std::string(bounces ? "-1.2" : "0") + "]}\n"),
+                  0);
+    EXPECT_EQ(result.flown.status, "ok") << result.flown.error;
+    EXPECT_FALSE(result.none.hit);
+    EXPECT_EQ(result.none_after_room, bounces);
+    ASSERT_EQ(result.object_rows.size(), 1u);
+    EXPECT_EQ(result.object_rows[0].none_after_room, bounces);
+  }
+}
+
 TEST(FlyThrow, WithoutAThrowOnlyTheScenariosPilotFlies) {
   const Scenario s = scenario(std::string(kHover) + "duration_s: 0.3\npilot: oracle\n");
   const ThrowResult result = fly_throw(s, 0);
