@@ -63,11 +63,12 @@ void EventCameraSpec::visit(Visitor& v) {
     "log luminance and nothing else, with mismatch_sigma 0, photoreceptor_hz 0, refractory_us 0, "
     "leak_hz 0, shot_noise_on_hz 0, shot_noise_off_hz 0, hot_pixel_fraction 0, "
     "dead_pixel_fraction 0, latency_us 0, jitter_us 0 and readout_max_hz 0. low_light: "
-    "illuminance_lux 5 (a street at night; assumed), which makes slow pixels and hardly more "
-    "noise. noisy, a worn or badly biased camera: "
-    "photoreceptor_hz 300 (v2e's clean camera; its noisy one has 30 to 70), photoreceptor_dark_hz "
-    "30, refractory_us 500, shot_noise_on_hz 2.5 and shot_noise_off_hz 2.5 (v2e), "
-    "hot_pixel_fraction 0.0012 (measured on a VGA-lite sensor), mismatch_sigma 0.05, leak_hz 0.2, "
+    "illuminance_lux 5 (a street at night; assumed), which makes slow pixels, about as slow as "
+    "photoreceptor_dark_hz, and hardly more noise. noisy, a worn or badly biased camera: "
+    "photoreceptor_hz 300 (assumed), photoreceptor_dark_hz 30 (v2e's noisy camera has that "
+    "cut-off), refractory_us 500, shot_noise_on_hz 2.5 and shot_noise_off_hz 2.5 (v2e), "
+    "hot_pixel_fraction 0.0012 (measured on a VGA-lite sensor), mismatch_sigma 0.05, leak_hz 0.2 "
+    "(which so much shot noise hardly lets happen), "
     "dead_pixel_fraction 0.001 and jitter_us 50 (assumed).");
   if (preset != before) *this = event_camera_preset(preset);
   v("contrast_threshold_on", contrast_threshold_on, 0.01, 10,
@@ -82,7 +83,7 @@ void EventCameraSpec::visit(Visitor& v) {
     "Luminance added before the logarithm; keeps black finite (ESIM: 0.001).");
   v("linear_below", linear_below, 0, 1e3,
     "Luminance below which the response is linear instead of logarithmic, with the same slope "
-    "there (v2e does so near black). 0: logarithmic everywhere.");
+    "there (v2e does so near black, with another slope). 0: logarithmic everywhere.");
   v("illuminance_lux", illuminance_lux, 1e-3, 2e5,
     "Illuminance of the scene: a white surface under it has luminance 1 (500: a lit office; "
     "assumed). It acts by the bandwidth and the rates of shot noise alone. The dark current, the "
@@ -93,7 +94,9 @@ void EventCameraSpec::visit(Visitor& v) {
     "proportion to the light; photoreceptor_dark_hz is added (assumed: some kHz, as the DVS of "
     "Lichtsteiner et al. 2008). 0: no such low-pass, whatever photoreceptor_dark_hz is.");
   v("photoreceptor_dark_hz", photoreceptor_dark_hz, 0.01, 1e6,
-    "Cut-off that is left in the dark, to which the light's is added (assumed). Signals are kept "
+    "Cut-off that is left in the dark, to which the light's is added (assumed). It alone decides "
+    "how fast pixels are below some 30 lux: at 5 lux a pixel whose cut-off followed its "
+    "photocurrent would be ten times slower. Signals are kept "
     "in single precision: below about 1 Hz what is sampled every few microseconds comes to rest "
     "too early.");
   v("follower_hz", follower_hz, 0, 1e6,
@@ -115,7 +118,8 @@ void EventCameraSpec::visit(Visitor& v) {
     "leak.");
   v("shot_noise_on_hz", shot_noise_on_hz, 0, 1000,
     "Mean rate of ON events of a pixel in the dark, due to shot noise (measured on a DVXplorer). "
-    "A pixel's own is in inverse proportion to its ON threshold (v2e).");
+    "A pixel's own is in inverse proportion to its ON threshold (v2e), against the mean of all: "
+    "with lower thresholds for all there are more events of signals, but no more of noise.");
   v("shot_noise_off_hz", shot_noise_off_hz, 0, 1000,
     "The same for OFF events, by the OFF threshold.");
   v("shot_noise_bright_share", shot_noise_bright_share, 0, 1,
@@ -124,8 +128,9 @@ void EventCameraSpec::visit(Visitor& v) {
   v("hot_pixel_fraction", hot_pixel_fraction, 0, 1,
     "Share of the pixels that are hot (measured on a DVXplorer).");
   v("hot_pixel_hz", hot_pixel_hz, 0, 100000,
-    "Rate of the noise of a hot pixel (DVXplorer: hot pixels carry 20 % of all noise); ON and OFF "
-    "in the proportion of the shot noise.");
+    "Rate of the noise of a hot pixel (DVXplorer: hot pixels carry 20 % of all noise), refractory "
+    "periods not counted; ON and OFF in the proportion of the shot noise. All have the same: of "
+    "those of the DVXplorer a tenth had less than 23 Hz and a tenth more than 340.");
   v("dead_pixel_fraction", dead_pixel_fraction, 0, 1,
     "Share of the pixels that never make an event (assumed).");
   v("device", device, {"campaign", "throw"},
@@ -137,7 +142,8 @@ void EventCameraSpec::visit(Visitor& v) {
     "From the change of the light to the request of the pixel (IEBCS: 100). In the time stamp, as "
     "the readout stamps.");
   v("jitter_us", jitter_us, 0, 100000,
-    "Standard deviation of the latency from event to event (IEBCS: 10). No event is early: what "
+    "Standard deviation of the latency from event to event (IEBCS: 10), whatever the light and the "
+    "contrast. No event is early: what "
     "would fall below 0 is 0. Drawn for each event by itself, so that events of a pixel with a "
     "refractory period shorter than the jitter may change places.");
   v("readout_max_hz", readout_max_hz, 0, 1e9,
@@ -157,7 +163,8 @@ struct SamplingSpec {
   void visit(Visitor& v) {
     v("max_displacement_px", max_displacement_px, 0.01, 100,
       "Nothing in the image moves farther than this between two samples (0.5 px loses 0.6 % of the "
-      "events of a texture of 8 px wavelength, 1 px 2.3 %).");
+      "events of a texture that is a sine of 8 px wavelength in log luminance, 1 px 2.3 %; of one "
+      "of luminance with a contrast of 0.8 1.1 % and 4.4 %).");
     v("min_rate_hz", min_rate_hz, 1, 4000,
       "Rate of the samples of the whole image when nothing moves; its inverse bounds how late an "
       "event is known.");

@@ -23,6 +23,8 @@ constexpr const char* kAvoidanceProtocol = R"(How the protocol is read:
 - *Dodged / would have hit*: only throws count that hit a vehicle which stays as it is, as in the
   paper's indoor experiments. The paper's outdoor "more than 90 % of the time" counts all throws,
   also those that would have missed: see more_throws.md.
+- *Light*: outdoors 20,000 lux on white (daylight without the sun itself; assumed), indoors the 500
+  of an office; it decides how fast and how noisy pixels are.
 - *Speeds* are those of the first ball; further ones of the same throw may be faster or slower.
 - *Oracle*: is told of the object's true state within 1.5 m of the camera, and then avoids it like
   falanga2020.
