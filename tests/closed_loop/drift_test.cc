@@ -25,13 +25,6 @@ Scenario hover(double drift_mps, const std::string& monitor = "") {
       std::to_string(drift_mps) + "}}\n");
 }
 
-FlightRecord fly_as(const std::string& pilot, const Scenario& scenario,
-                    FlightObserver* observer = nullptr) {
-  FlightPlan plan = plan_throw(scenario, 0);
-  plan.pilot = pilot;
-  return fly(scenario, plan, observer);
-}
-
 double tilt_rad(const Snapshot& now) {
   return std::acos((now.vehicle.q_W * Eigen::Vector3d::UnitZ()).z());
 }

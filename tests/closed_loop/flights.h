@@ -29,6 +29,18 @@ inline Scenario thrown_from_everywhere(const std::string& mission, const std::st
                   offset_m + "}\nafter_s: 0.1\n");
 }
 
+inline FlightRecord fly_as(const std::string& pilot, const Scenario& scenario, FlightPlan plan,
+                           FlightObserver* observer = nullptr) {
+  plan.pilot = pilot;
+  return fly(scenario, plan, observer);
+}
+
+// The first throw of the scenario, or the flight without one.
+inline FlightRecord fly_as(const std::string& pilot, const Scenario& scenario,
+                           FlightObserver* observer = nullptr) {
+  return fly_as(pilot, scenario, plan_throw(scenario, 0), observer);
+}
+
 // Keeps the true states of a flight, one a tick.
 class Diary : public FlightObserver {
  public:

@@ -17,12 +17,6 @@ using Eigen::Vector3d;
 constexpr const char* kGoalFlight =
     "mission: {type: goal, start_m: [-5, 0, 2], goal_m: [4, 1, 2], speed_mps: 1.5}\n";
 
-FlightRecord fly_as(const std::string& pilot, const Scenario& scenario, FlightPlan plan,
-                    FlightObserver* observer = nullptr) {
-  plan.pilot = pilot;
-  return fly(scenario, plan, observer);
-}
-
 class Throws : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Missions, Throws, ::testing::Values(kHover, kGoalFlight),
                          [](const auto& info) { return info.index == 0 ? "Hover" : "GoalFlight"; });

@@ -10,11 +10,6 @@ namespace {
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
-FlightRecord fly_none(const Scenario& scenario, FlightPlan plan) {
-  plan.pilot = "none";
-  return fly(scenario, plan);
-}
-
 TEST(SeveralObjects, SimultaneousOnesPassAtTheirOffsets) {
   const Scenario s = scenario(
       "pilot: none\nfly_oracle: false\nmission: {start_m: [-1, 0, 2]}\nafter_s: 0.2\n"
@@ -24,7 +19,7 @@ TEST(SeveralObjects, SimultaneousOnesPassAtTheirOffsets) {
   const FlightPlan plan = plan_throw(s, 0);
   ASSERT_EQ(plan.launches.size(), 2u);
   EXPECT_EQ(plan.end_us, plan.launches[1].drawn.arrival_us() + 200000) << "the later one's";
-  const FlightRecord record = fly_none(s, plan);
+  const FlightRecord record = fly_as("none", s, plan);
   EXPECT_FALSE(record.verdict.nearest.hit);
   for (const Approach& approach : record.verdict.objects) {
     EXPECT_GT(approach.clearance_m, 0.5);
