@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "dodge/dodger.h"
+#include "sim/camera/looking_forward.h"
 
 namespace dodge {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 Config with_cameras(Config config) {
   config.cameras.resize(2);
   for (CameraModel& camera : config.cameras) {
-    camera.X_BC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    camera.X_BC.linear() = dodgesim::looking_forward();
   }
   config.cameras[0].X_BC.translation().z() = 0.15;
   return config;

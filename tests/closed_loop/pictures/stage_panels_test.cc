@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "sim/base/error.h"
+#include "sim/camera/looking_forward.h"
 #include "tests/closed_loop/flights.h"
 #include "tests/closed_loop/pictures/decoded.h"
 #include "tests/sim/files/temporary_directory.h"
@@ -19,7 +20,7 @@ std::unique_ptr<dodge::Dodger> dodger_with_events() {
   dodge::Config config;
   for (const double z : {0.075, -0.075}) {
     dodge::CameraModel camera;
-    camera.X_BC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    camera.X_BC.linear() = looking_forward();
     camera.X_BC.translation() = Eigen::Vector3d(0.12, 0, z);
     config.cameras.push_back(camera);
   }
@@ -77,7 +78,7 @@ TEST(StagePanels, AreEmptyWithoutCapture) {
   config.cameras.resize(2);
   config.cameras[1].X_BC.translation() = Eigen::Vector3d(0, 0, -0.15);
   for (dodge::CameraModel& camera : config.cameras) {
-    camera.X_BC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    camera.X_BC.linear() = looking_forward();
   }
   EXPECT_TRUE(stage_panels(dodge::Dodger(config), 0, 320).empty());
 }

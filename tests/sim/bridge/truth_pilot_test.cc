@@ -7,6 +7,7 @@
 
 #include "dodge/config.h"
 #include "dodge/detect/tracker.h"
+#include "sim/camera/looking_forward.h"
 
 namespace dodgesim {
 namespace {
@@ -30,7 +31,7 @@ TruthPilot::Setup setup(int objects = 1) {
   out.latency_us = 100;
   out.lifetime_s = 0.5;
   out.sizes_m.assign(static_cast<std::size_t>(objects), kSizeM);
-  out.X_BC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  out.X_BC.linear() = looking_forward();
   out.X_BC.translation() = Eigen::Vector3d(0.12, 0, 0);
   return out;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/camera/looking_forward.h"
 #include "sim/events/event_camera.h"
 #include "sim/events/sampler.h"
 #include "sim/world/snapshot.h"
@@ -25,7 +26,7 @@ struct MovingPlane {
   // C in B: z forward, x right, y down.
   static Eigen::Isometry3d X_BC() {
     Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-    X.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+    X.linear() = looking_forward();
     return X;
   }
 

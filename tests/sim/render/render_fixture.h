@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/base/mujoco.h"
+#include "sim/camera/looking_forward.h"
 #include "sim/render/luminance_renderer.h"
 
 namespace dodgesim {
@@ -103,7 +104,7 @@ inline std::string thrown(int index, const std::string& geom) {
 // Camera at p_W that looks along +x of W with z of W up.
 inline Eigen::Isometry3d forward_camera(const Eigen::Vector3d& p_W = Eigen::Vector3d::Zero()) {
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
-  X_WC.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  X_WC.linear() = looking_forward();
   X_WC.translation() = p_W;
   return X_WC;
 }
