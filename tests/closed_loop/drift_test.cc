@@ -177,14 +177,19 @@ TEST(NoDrift, HardDodgesDoNotLandTheVehicle) {
       "throw: {count: 6, interval_s: 0.7, launch_s: 0.5, size_m: 0.1, distance_m: 2.5,\n"
       "  speed_mps: 5, bearing_deg: !uniform [-180, 180], launch_height_m: !uniform [1, 2.5]}\n"
       "after_s: 0.5\n");
-  MonitorBeside beside(s);
-  const FlightRecord record = fly_as("oracle", s, &beside);
-  EXPECT_FALSE(record.verdict.nearest.hit || record.verdict.crashed);
-  EXPECT_GT(beside.largest_tilt_rad(), 0.9);
-  const double all = 200 * seconds(record.last.t_us);
-  EXPECT_LT(beside.readings(), 0.8 * all);
-  EXPECT_GT(beside.readings(), 0.3 * all);
-  EXPECT_FALSE(beside.drifted());
+  int unharmed = 0;
+  for (int n = 0; n < 5; ++n) {
+    MonitorBeside beside(s);
+    const FlightRecord record = fly_as("oracle", s, plan_throw(s, n), &beside);
+    EXPECT_FALSE(beside.drifted()) << n;
+    if (record.verdict.nearest.hit || record.verdict.crashed) continue;
+    ++unharmed;
+    EXPECT_GT(beside.largest_tilt_rad(), 0.9) << n;
+    const double all = 200 * seconds(record.last.t_us);
+    EXPECT_LT(beside.readings(), 0.8 * all) << n;
+    EXPECT_GT(beside.readings(), 0.3 * all) << n;
+  }
+  EXPECT_GE(unharmed, 3);
 }
 
 // Each reading beside where a vertical ray meets the ball, if it does.
