@@ -90,7 +90,8 @@ void Film::caption(const Snapshot& snapshot) {
   for (std::size_t i = 0; i < snapshot.objects.size(); ++i) {
     if (!snapshot.launched[i]) continue;
     const double distance_m = (snapshot.objects[i].p_W - snapshot.vehicle.p_W).norm();
-    write_caption(picture_, formatted("object's centre at %.2f m", distance_m), 10,
+    const std::string which = snapshot.objects.size() > 1 ? formatted("object %zu", i) : "object";
+    write_caption(picture_, formatted("%s: centre at %.2f m", which.c_str(), distance_m), 10,
                   40 + 20 * static_cast<int>(i));
   }
   write_caption(picture_,

@@ -160,6 +160,18 @@ TEST_F(EmulateTest, SaysHowFastTheEmulationIsBesideTheLogarithm) {
       << outcome.output;
 }
 
+TEST_F(EmulateTest, AsksWhetherUnitsAreMeantThatAreUnusual) {
+  Film film = film_;
+  for (float& value : film.luminance) value = 255 * std::min(value, 1.0f);
+  write(film);
+  EXPECT_THAT(ideal().output, HasSubstr(" lux on white: is its scale 0 to 255 instead of 0 to 1?"));
+  film = film_;
+  for (std::size_t n = 0; n < film.times.size(); ++n) film.times[n] = static_cast<std::int64_t>(n);
+  write(film);
+  EXPECT_THAT(ideal().output,
+              HasSubstr("The frames are 1 us apart: are all times in microseconds?"));
+}
+
 TEST_F(EmulateTest, EventsDoNotDependOnTheOriginOfTime) {
   for (const std::int64_t start_us : {std::int64_t{0}, std::int64_t{-5000}}) {
     const Film shifted = random_film(100, start_us);

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 
 #include "sim/base/error.h"
@@ -114,11 +115,34 @@ class Emulation {
   Counts counts_;
 };
 
-void emulate(FrameReader& video, const LightBetween& light, Emulation& emulation) {
+// The commonest mistakes, which the events do not show at once.
+void warn_of_luminance(const std::vector<float>& first, double illuminance_lux) {
+  constexpr double kMostUsual = 10;
+  const double mean =
+      std::accumulate(first.begin(), first.end(), 0.0) / static_cast<double>(first.size());
+  if (mean <= kMostUsual) return;
+  std::fprintf(stderr,
+               "The mean luminance of the first frame is %.3g, which is %.3g lux on white: is its "
+               "scale 0 to 255 instead of 0 to 1?\n",
+               mean, mean * illuminance_lux);
+}
+
+void warn_of_times(const FrameReader& video) {
+  constexpr TimeUs kLeastUsualUs = 20;
+  const std::int64_t intervals = video.frame_count() - 1;
+  if (intervals < 1 || video.duration_us() >= kLeastUsualUs * intervals) return;
+  std::fprintf(stderr, "The frames are %.3g us apart: are all times in microseconds?\n",
+               static_cast<double>(video.duration_us()) / static_cast<double>(intervals));
+}
+
+void emulate(FrameReader& video, const EventCameraSpec& spec, Emulation& emulation) {
+  const LightBetween light(spec);
   Progress progress(video.frame_count(), "frames");
   TimeUs before_us = 0, t_us = 0;
   std::vector<float> before, luminance;
   video.next(t_us, luminance);
+  warn_of_luminance(luminance, spec.illuminance_lux);
+  warn_of_times(video);
   emulation.begin(t_us, luminance);
   std::int64_t frames = 1;
   for (;;) {
@@ -194,7 +218,7 @@ void emulate(const EmulateArguments& arguments) {
                      arguments.causes);
   TimedEmulation timed(camera, spec.log_epsilon);
   Emulation emulation(camera, arguments.causes, timed, *writer);
-  emulate(video, LightBetween(spec), emulation);
+  emulate(video, spec, emulation);
   writer->commit();
   report(video, camera, emulation.counts(), timed);
 }
@@ -226,7 +250,8 @@ void add_emulate_command(CLI::App& program, int& exit_code) {
       ->capture_default_str();
   command
       ->add_option("--clip", arguments->clip,
-                   "Number of the video among those of one camera: other noise, the same pixels")
+                   "Number of the video among those of one camera: other noise, the same pixels\n"
+                   "(with the camera's key device: throw, each of another camera)")
       ->check(whole_number_between(0, UINT32_MAX))
       ->capture_default_str();
   command->add_flag(

@@ -224,9 +224,13 @@ class Onlookers {
       std::cout << stages_->pictures() << " pictures of the pilot's stages: " << arguments_.stages
                 << "\n";
     }
-    if (!picture_ || poster_.save(*picture_)) return true;
-    std::cerr << "There is no picture to make: the flight ended before anything was thrown.\n";
-    return false;
+    if (!picture_) return true;
+    if (!poster_.save(*picture_)) {
+      std::cerr << "There is no picture to make: the flight ended before anything was thrown.\n";
+      return false;
+    }
+    std::cout << "Picture: " << arguments_.picture << "\n";
+    return true;
   }
 
  private:
