@@ -1,11 +1,13 @@
 #include "sim/observers/vehicle_log.h"
 
+#include <algorithm>
 #include <array>
 #include <list>
 #include <optional>
 
 #include "sim/base/error.h"
 #include "sim/config/camera_calibration.h"
+#include "sim/config/pilot.h"
 #include "sim/files/csv.h"
 #include "sim/flight/setup.h"
 #include "sim/observers/event_recorder.h"
@@ -42,10 +44,14 @@ TrueBody true_body(const BodyState& body) {
 
 void expect_recording_or_nothing(const std::filesystem::path& directory,
                                  const std::string& option) {
-  if (std::filesystem::exists(directory / "top.h5")) return;
-  for (const char* name : {"top.yaml", "bottom.yaml", "bottom.h5", "imu.csv", "state.csv",
-                           "range.csv", "scenario.yaml", "truth.csv"}) {
-    if (!std::filesystem::exists(directory / name)) continue;
+  constexpr std::array kAlways = {"imu.csv", "state.csv", "range.csv", "scenario.yaml",
+                                  "truth.csv"};
+  const auto is_there = [&](const char* name) { return std::filesystem::exists(directory / name); };
+  if (is_there("top.h5") || std::ranges::all_of(kAlways, is_there)) return;
+  std::vector<const char*> names = {"top.yaml", "bottom.yaml", "bottom.h5"};
+  names.insert(names.end(), kAlways.begin(), kAlways.end());
+  for (const char* name : names) {
+    if (!is_there(name)) continue;
     throw ScenarioError(option + " " + directory.string() + " would overwrite " +
                         (directory / name).string() +
                         ", which is of no recording; choose another directory.");
@@ -66,7 +72,7 @@ VehicleLog::VehicleLog(const std::filesystem::path& directory, const Scenario& s
 }
 
 void VehicleLog::on_tick(const World& world) {
-  if (cameras_.empty()) open_cameras(world.vehicle());
+  if (cameras_.empty() && perceives(scenario_.pilot)) open_cameras(world.vehicle());
   now_ = world.snapshot();
 }
 

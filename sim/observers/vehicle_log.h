@@ -9,7 +9,7 @@
 //   truth.csv               at the instants of imu.csv, where vehicle and objects truly are
 //                           [m, m/s, rad/s]; cells of objects are empty before their launch
 //
-// Of mono there is one camera. All that the cameras see comes as far as it reaches the computer
+// Of mono there is one camera, of a pilot that needs none (oracle, none) there are none. All that the cameras see comes as far as it reaches the computer
 // before the flight ends.
 #pragma once
 
@@ -27,7 +27,8 @@
 namespace dodgesim {
 
 // A recording may be replaced, but no other file of the user's: throws ScenarioError if the
-// directory has one of a log's names and no events. `option` named the directory.
+// directory has one of a log's names and neither events nor all that a log without cameras has.
+// `option` named the directory.
 void expect_recording_or_nothing(const std::filesystem::path& directory, const std::string& option);
 
 class VehicleLog : public FlightObserver {

@@ -25,9 +25,10 @@ std::map<std::string, std::string> files_of(const fs::path& directory) {
 }
 
 // 20 ms of a flight, with stereo or mono, of which the log is finished or not.
-void record(const fs::path& directory, const std::string& depth, bool finished) {
-  const Scenario s =
-      scenario("throw: {launch_s: 0.1}\ndodger: {position: {depth: " + depth + "}}\n");
+void record(const fs::path& directory, const std::string& depth, bool finished,
+            const std::string& pilot = "falanga2020") {
+  const Scenario s = scenario("pilot: " + pilot + "\nthrow: {launch_s: 0.1}\n" +
+                              "dodger: {position: {depth: " + depth + "}}\n");
   FlightPlan plan = plan_throw(s, 0);
   plan.end_us = 20000;
   VehicleLog log(directory, s);
@@ -49,6 +50,21 @@ TEST(VehicleLog, AppearsWholeOrNotAtAll) {
   const auto mono = files_of(directory);
   EXPECT_EQ(mono.size(), 7u);
   EXPECT_FALSE(mono.contains("bottom.h5"));
+}
+
+TEST(VehicleLog, OfAPilotWithoutCamerasHasTheRest) {
+  const testing::TemporaryDirectory root;
+  const fs::path directory = root / "rec";
+  record(directory, "stereo", true);
+  const auto seen = files_of(directory);
+  record(directory, "stereo", true, "oracle");
+  const auto told = files_of(directory);
+  EXPECT_EQ(told.size(), 5u);
+  EXPECT_EQ(told.at("truth.csv"), seen.at("truth.csv"));  // nothing has been thrown yet
+  EXPECT_EQ(told.at("imu.csv"), seen.at("imu.csv"));
+  EXPECT_NO_THROW(expect_recording_or_nothing(directory, "--record"));
+  fs::remove(directory / "state.csv");
+  EXPECT_THROW(expect_recording_or_nothing(directory, "--record"), ScenarioError);
 }
 
 TEST(VehicleLog, GivesWayToNoneThatTheDiskHasNoPlaceFor) {

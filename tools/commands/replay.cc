@@ -267,10 +267,9 @@ void expect_showable(const Scenario& scenario, const ReplayArguments& arguments)
   const OutputOption events = {"--events", arguments.events};
   const OutputOption stages = {"--stages", arguments.stages};
   const OutputOption picture = {"--picture", arguments.picture};
-  const OutputOption record = {"--record", arguments.record};
   if (!perceives(scenario.pilot)) {
-    refuse({events, stages, record}, "the pilot of throw " + number + " is " + scenario.pilot +
-                                         ", which flies without cameras.");
+    refuse({events, stages}, "the pilot of throw " + number + " is " + scenario.pilot +
+                                 ", which flies without cameras.");
   }
   if (scenario.dodger.position.depth == "mono" && arguments.camera != kCameraNames[0]) {
     refuse({events}, "with dodger.position.depth mono there are no events of the camera " +
