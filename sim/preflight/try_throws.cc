@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
 
 #include "sim/base/error.h"
+#include "sim/base/formatted.h"
 #include "sim/config/expand.h"
 #include "sim/flight/plan.h"
 #include "sim/loop.h"
@@ -72,32 +74,38 @@ FlightPlan all_launches_until(TimeUs last_us, FlightPlan plan) {
 }
 
 // Solves the throw and launches its objects, some of which may start inside something: flights up
-// to each arrival and each launch.
-void try_throw(const ThrowCase& thrown, Budget& budget) {
+// to each arrival and each launch. Returns when the vehicle crashed, if it did before a launch.
+std::optional<TimeUs> try_throw(const ThrowCase& thrown, Budget& budget) {
   const FlightPlan plan = plan_throw(thrown.scenario, thrown.stream, &budget);
   std::set<TimeUs> launches_us;
   for (const FlightPlan::Launch& launch : plan.launches) {
     launches_us.insert(launch.drawn.launch_us);
   }
   for (const TimeUs launch_us : launches_us) {
-    fly(thrown.scenario, launches_at(launch_us, plan), &budget);
+    const FlightRecord record = fly(thrown.scenario, launches_at(launch_us, plan), &budget);
+    if (record.verdict.crashed) return record.last.t_us;
   }
-  if (launches_us.size() < 2) return;
+  if (launches_us.size() < 2) return std::nullopt;
   fly(thrown.scenario, all_launches_until(*launches_us.rbegin(), plan), &budget);
+  return std::nullopt;
 }
 
 }  // namespace
 
-int try_throws(const Scenario& campaign) {
-  if (!campaign.anyone_throws()) return 0;
+TriedThrows try_throws(const Scenario& campaign) {
+  TriedThrows tried;
+  if (!campaign.anyone_throws()) return tried;
   const int throws = throw_count(campaign);
   const std::int64_t stride = stride_through(throws);
   Budget budget;
-  int solved = 0;
-  for (; solved < throws && budget.flown_s() < kMostSolvedS; ++solved) {
-    const ThrowCase thrown = case_of(campaign, static_cast<int>(solved * stride % throws));
+  for (; tried.solved < throws && budget.flown_s() < kMostSolvedS; ++tried.solved) {
+    const ThrowCase thrown = case_of(campaign, static_cast<int>(tried.solved * stride % throws));
     try {
-      try_throw(thrown, budget);
+      const std::optional<TimeUs> crash_us = try_throw(thrown, budget);
+      if (!crash_us || !tried.crash.empty()) continue;
+      tried.crash =
+          formatted("In %s the vehicle crashes by itself, at %g s, before it is thrown at.",
+                    name_of(thrown).c_str(), seconds(*crash_us));
     } catch (const Budget::Spent&) {
       break;
     } catch (const std::runtime_error& error) {
@@ -105,7 +113,7 @@ int try_throws(const Scenario& campaign) {
           placed("In " + name_of(thrown) + ": " + error.what(), place_of(error.what(), campaign)));
     }
   }
-  return solved;
+  return tried;
 }
 
 }  // namespace dodgesim

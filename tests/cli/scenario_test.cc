@@ -291,7 +291,8 @@ TEST_F(ScenarioCommandTest, RoomsThatNoCameraCanSeeAndRotorsThatAreTooWeakAreUsa
                                  HasSubstr("vehicles/qav_rxl.xml")));
   const Outcome lifted = validate(" --set motors.min_thrust_n=2.6");
   EXPECT_EQ(lifted.exit_code, 2);
-  EXPECT_THAT(lifted.output, HasSubstr("a quarter of the vehicle's weight, which is 2.45"));
+  EXPECT_THAT(lifted.output,
+              HasSubstr("must be less than 2.453 N, a quarter of the vehicle's weight"));
 }
 
 TEST_F(ScenarioCommandTest, ObjectsThatNobodySeesAndRotorsThatCannotHoldAreUsageErrors) {
@@ -354,6 +355,17 @@ TEST_F(ScenarioCommandTest, AVehicleThatCannotFlyIsRefusedBeforeTheCampaign) {
   EXPECT_EQ(weak.exit_code, 2);
   EXPECT_THAT(weak.output, HasSubstr("=0.7: controller.max_thrust_fraction is 0.7, with which the "
                                      "rotors lift only 1.08"));
+}
+
+TEST_F(ScenarioCommandTest, AVehicleThatCrashesBeforeItIsThrownAtIsNamed) {
+  const std::string late = "validate " + path("s.yaml") +
+                           " --set throw.launch_s=4 --set sensors.state_estimate.height_drift_mps=";
+  EXPECT_THAT(dodgesim(late + "0").output, testing::Not(HasSubstr("crashes")));
+  const Outcome sinking = dodgesim(late + "1");
+  EXPECT_EQ(sinking.exit_code, 0);
+  EXPECT_THAT(sinking.output,
+              testing::ContainsRegex("In throw [01] the vehicle crashes by itself, at [0-9.]+ s, "
+                                     "before it is thrown at\\."));
 }
 
 TEST_F(ScenarioCommandTest, ThrowsThroughWhatStopsThemAreFoundWhetherOrNotItIsSeen) {

@@ -33,14 +33,15 @@ void validate(const ValidateArguments& arguments) {
     return;
   }
   for (const std::string& note : idle_keys(scenario)) std::cerr << note << "\n";
-  const int tried = try_throws(scenario);
+  const TriedThrows tried = try_throws(scenario);
+  if (!tried.crash.empty()) std::cerr << tried.crash << "\n";
   std::cout << arguments.scenario << ": a valid scenario";
   if (scenario.anyone_throws()) {
     std::cout << " of " << count_text(throw_count(scenario), "throw");
-    if (tried == 0) {
+    if (tried.solved == 0) {
       std::cout << " (not solved: that takes too long)";
-    } else if (tried < throw_count(scenario)) {
-      std::cout << " (" << tried << " of which were solved)";
+    } else if (tried.solved < throw_count(scenario)) {
+      std::cout << " (" << tried.solved << " of which were solved)";
     }
   } else {
     std::cout << " in which nobody throws";
