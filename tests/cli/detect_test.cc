@@ -250,6 +250,11 @@ TEST_F(DetectTest, SaysWhatIsWrongAndWritesNothing) {
   EXPECT_EQ(detect(events + " --imu " + path("none.csv")).exit_code, 4);
   EXPECT_THAT(detect(events + " " + path("c.yaml")).output,
               HasSubstr("Given are 1 file of events, but 2 calibrations"));
+  write("lens.yaml",
+        "{width: 64, height: 48, "
+        "distortion: {model: radtan_k1_k2_p1_p2_k3, coeffs: [-50, 0, 0, 0, 0]}}");
+  EXPECT_THAT(detect(path("e.csv") + " --calibration " + path("lens.yaml")).output,
+              HasSubstr("lens.yaml: Camera 0 has a distortion that has no inverse"));
   EXPECT_THAT(detect(events + " --set pilot=oracle").output, HasSubstr("sees nothing"));
   EXPECT_THAT(detect(events + " --set dodger.windo=3").output, HasSubstr("dodger.window"));
 }

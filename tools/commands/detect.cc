@@ -151,8 +151,10 @@ std::vector<CameraCalibration> load_calibrations(const DetectArguments& argument
   return calibrations;
 }
 
+// `files`: those of the calibrations.
 dodge::Config pilot_config(const Scenario& scenario,
-                           const std::vector<CameraCalibration>& calibrations) {
+                           const std::vector<CameraCalibration>& calibrations,
+                           const std::vector<std::string>& files) {
   dodge::Config config = scenario.dodger;
   for (const CameraCalibration& c : calibrations) config.cameras.push_back(c.camera);
   config.p_BR = calibrations.front().p_BR;
@@ -164,7 +166,9 @@ dodge::Config pilot_config(const Scenario& scenario,
   try {
     dodge::validate(config);
   } catch (const std::invalid_argument& error) {
-    throw ScenarioError(error.what());
+    const std::string what = error.what();
+    const bool of_camera = what.starts_with("Camera ");
+    throw ScenarioError((of_camera ? joined(files, {}, " and ") + ": " : "") + what);
   }
   return config;
 }
@@ -307,7 +311,7 @@ void detect(const DetectArguments& arguments) {
   const Scenario scenario = load(arguments);
   const std::vector<CameraCalibration> calibrations =
       load_calibrations(arguments, scenario.dodger.position.depth == "stereo");
-  const dodge::Config config = pilot_config(scenario, calibrations);
+  const dodge::Config config = pilot_config(scenario, calibrations, arguments.calibrations);
   RecordedSensors sensors = load_sensors(arguments, calibrations);
   std::vector<Coverage> logs;
   if (!arguments.imu.empty()) logs.emplace_back("IMU", sensors.imu);
