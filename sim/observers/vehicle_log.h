@@ -9,8 +9,8 @@
 //   truth.csv               at the instants of imu.csv, where vehicle and objects truly are
 //                           [m, m/s, rad/s]; cells of objects are empty before their launch
 //
-// Of mono there is one camera, of a pilot that needs none (oracle, none) there are none. All that the cameras see comes as far as it reaches the computer
-// before the flight ends.
+// Of mono there is one camera, of a pilot that needs none (oracle, none) there are none. All that
+// the cameras see comes as far as it reaches the computer before the flight ends.
 #pragma once
 
 #include <filesystem>
