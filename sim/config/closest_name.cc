@@ -51,6 +51,16 @@ std::string did_you_mean(const std::string& name) {
   return name.empty() ? "." : "; did you mean " + name + "?";
 }
 
+std::vector<std::string> models_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() == ".xml") names.push_back(entry.path().stem().string());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
 std::string last_part(const std::string& path) { return path.substr(path.rfind('.') + 1); }
 
 std::string closest_key(const std::string& word, const std::vector<std::string>& paths) {

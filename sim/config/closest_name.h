@@ -1,6 +1,7 @@
 // Suggestions for misspelled keys.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ std::string name_with(const std::string& word, const std::vector<std::string>& c
 
 // The end of a sentence about a name that is none: "; did you mean size_m?", or "." for no name.
 std::string did_you_mean(const std::string& name);
+
+// The names of the models in a folder, to choose from: its .xml files; none if there is no folder.
+std::vector<std::string> models_in(const std::filesystem::path& folder);
 
 // "size_m" of "throw.size_m".
 std::string last_part(const std::string& path);

@@ -1,6 +1,5 @@
 #include "sim/config/reader.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <type_traits>
@@ -71,16 +70,6 @@ std::optional<Number> parse_number(const std::string& text) {
   } else {
     return parse_integer<Number>(text);
   }
-}
-
-std::vector<std::string> models_in(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (entry.path().extension() == ".xml") names.push_back(entry.path().stem().string());
-  }
-  std::ranges::sort(names);
-  return names;
 }
 
 }  // namespace

@@ -389,30 +389,5 @@ TEST(Leak, AddsToARisingSignalAndHoldsUpAFallingOne) {
   EXPECT_NEAR(count(-2), 0, 0.01);
 }
 
-TEST(DeadPixels, HaveTheSetShareAndAreSilentWhateverHappens) {
-  EventCameraSpec spec = event_camera_preset("noisy");
-  spec.dead_pixel_fraction = 0.1;
-  spec.hot_pixel_fraction = 0.3;
-  const auto silent = [&](std::uint64_t throw_index) {
-    EventCamera camera(spec, kFieldWidth, kFieldHeight, 1, throw_index, "top");
-    std::vector<int> count(kFieldWidth * kFieldHeight);
-    for (const Event& event :
-         emulate(camera,
-                 film(kFieldWidth, kFieldHeight, every(20000, 400000), [](int x, int y, TimeUs t) {
-                   return 1.5 + std::sin(30 * seconds(t) + x + 3 * y);
-                 }))) {
-      ++count[static_cast<std::size_t>(event.y * kFieldWidth + event.x)];
-    }
-    std::vector<bool> is_silent;
-    for (const int n : count) is_silent.push_back(n == 0);
-    return is_silent;
-  };
-  const auto first = silent(0);
-  const double expected = 0.1 * kFieldPixels;
-  EXPECT_NEAR(static_cast<double>(std::count(first.begin(), first.end(), true)), expected,
-              3 * std::sqrt(0.9 * expected));
-  EXPECT_EQ(silent(7), first);  // they belong to the device
-}
-
 }  // namespace
 }  // namespace dodgesim
