@@ -111,10 +111,7 @@ TEST_F(OwnModels, AnObjectIsOneBodyWithNothingBesideIt) {
 TEST_F(OwnModels, AnObjectStandsWhereAThrowBegins) {
   const std::string good = object("<geom size='0.05'/>");
   const auto with = [&](const std::string& from, const std::string& to) {
-    std::string text = good;
-    text.replace(text.find(from), from.size(), to);
-    write_object(text);
-    return message_of(spec_);
+    return changed_message(good, from, to);
   };
   EXPECT_EQ(with("<body name='body'>", "<body name='body'>"), "");
   EXPECT_THAT(with("<body name='body'>", "<body name='body' euler='0 0 90'>"),

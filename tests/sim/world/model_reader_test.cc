@@ -166,11 +166,7 @@ TEST_F(ModelReaderTest, ARoomHasSomethingToStandOn) {
 
 TEST_F(ModelReaderTest, NobodyHasMoreInertiaThanItsMassAndSizeAllow) {
   const auto with = [&](const std::string& inertia) {
-    std::string text = object("<geom size='0.05' group='1'/>");
-    const std::string given = "1e-3 1e-3 1e-3";
-    text.replace(text.find(given), given.size(), inertia);
-    write_object(text);
-    return world_message();
+    return changed_message(object("<geom size='0.05' group='1'/>"), "1e-3 1e-3 1e-3", inertia);
   };
   EXPECT_EQ(with("2e-3 2e-3 2e-3"), "");  // times 2^5; at most 8 kg at 0.1 m
   EXPECT_THAT(with("2e-3 2e-3 3e-3"),
@@ -192,10 +188,7 @@ TEST_F(ModelReaderTest, PaintHidesWhatIsBehindItAndThrowsBackNoMoreThanThereIs) 
 TEST_F(ModelReaderTest, AnObjectNeedsItsBodyAFreeJointAndItsOriginAtTheCentreOfMass) {
   const std::string good = object("<geom size='0.05' group='1'/>");
   const auto with = [&](const std::string& from, const std::string& to) {
-    std::string text = good;
-    text.replace(text.find(from), from.size(), to);
-    write_object(text);
-    return world_message();
+    return changed_message(good, from, to);
   };
   EXPECT_THAT(with("name='body'", "name='other'"), HasSubstr("no body named 'body'"));
   EXPECT_THAT(with("<freejoint/>", "<joint type='hinge'/>"), HasSubstr("free joint"));

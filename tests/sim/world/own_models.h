@@ -37,6 +37,13 @@ class OwnModels : public ::testing::Test {
            geom + "</body></worldbody></mujoco>";
   }
 
+  // What is said of an object in whose text `to` stands in place of `from`.
+  std::string changed_message(std::string text, const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+    write_object(text);
+    return world_message();
+  }
+
   std::string world_message() const {
     return testing::complaint<ScenarioError>([&] { World world(spec_); });
   }
