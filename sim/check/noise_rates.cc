@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "sim/base/normal_quantile.h"
 #include "sim/check/film.h"
 
 namespace dodgesim {
@@ -38,6 +39,14 @@ EventCameraSpec only_shot_noise(const EventCameraSpec& camera) {
 EventCameraSpec only_hot_pixels(const EventCameraSpec& camera) {
   EventCameraSpec spec = without_noise(camera);
   spec.hot_pixel_fraction = camera.hot_pixel_fraction;
+  return spec;
+}
+
+// A camera has too few hot pixels for telling how their rates are spread.
+EventCameraSpec all_hot(const EventCameraSpec& camera) {
+  EventCameraSpec spec = only_hot_pixels(camera);
+  spec.hot_pixel_fraction = 1;
+  spec.dead_pixel_fraction = 0;
   return spec;
 }
 
@@ -192,28 +201,60 @@ void judge_shot(const std::string& name, const NoiseCount& shot, double share,
   check.within(name + ".other_causes", shot.other, 0, 0, "events", 0);
 }
 
-void judge_hot(const NoiseCount& hot, const EventCameraSpec& spec, Check& check) {
+// The mean over the hot pixels of what depends on a pixel's rate.
+template <class OfRate>
+double mean_over_hot_pixels(const EventCameraSpec& spec, OfRate of_rate) {
+  constexpr int kParts = 2000;  // each as probable
+  double sum = 0;
+  for (int i = 0; i < kParts; ++i) {
+    const double deviation = spec.hot_pixel_sigma * normal_quantile((i + 0.5) / kParts);
+    const double mean_of_log =
+        std::log(spec.hot_pixel_hz) - 0.5 * std::pow(spec.hot_pixel_sigma, 2);
+    sum += of_rate(std::exp(mean_of_log + deviation));
+  }
+  return sum / kParts;
+}
+
+// The share of the pixels with more events than the mean, which falls with the spread.
+void judge_hot_spread(const NoiseCount& all_hot, const EventCameraSpec& spec, Check& check) {
+  const int most = static_cast<int>(spec.hot_pixel_hz * all_hot.duration_s);
+  double above = 0;
+  for (const double events : all_hot.per_pixel) above += events > most ? 1 : 0;
+  const double open_s = all_hot.duration_s - most * hold_s(spec);
+  const double p = mean_over_hot_pixels(spec, [&](double rate_hz) {
+    return open_s > 0 ? poisson_at_least(most + 1, rate_hz * open_s) : 0;
+  });
+  check.within("noise.hot.above_mean", above / kPixels, p,
+               kSigmas * std::sqrt(p * (1 - p) / kPixels), "", 4);
+}
+
+void judge_hot(const NoiseCounts& counts, const EventCameraSpec& spec, Check& check) {
+  const NoiseCount &hot = counts.hot, &all_hot = counts.all_hot;
   if (!hot.filmed) {
     check.off("noise.hot", "hot_pixel_fraction or hot_pixel_hz is 0");
     return;
   }
   double pixels = 0;
   for (const double events : hot.per_pixel) pixels += events > 0 ? 1 : 0;
-  const double rate_hz =
-      events_expected(spec.hot_pixel_hz, hold_s(spec), hot.duration_s) / hot.duration_s;
   // A hot pixel may stay silent.
-  const double fires = 1 - std::exp(-spec.hot_pixel_hz * hot.duration_s);
+  const double fires = mean_over_hot_pixels(
+      spec, [&](double rate_hz) { return -std::expm1(-rate_hz * hot.duration_s); });
   const double p = spec.hot_pixel_fraction * (1 - spec.dead_pixel_fraction) * fires;
   check.within("noise.hot.pixels", pixels, p * kPixels,
                kSigmas * std::sqrt(p * (1 - p) * kPixels) + (p < 1 ? 1 : 0), "pixels", 1);
-  if (pixels == 0) {
-    check.off("noise.hot.rate", "no pixel is hot");
-  } else {
-    const double measured_hz = (hot.on + hot.off) / (pixels * hot.duration_s);
-    check.within("noise.hot.rate", measured_hz, rate_hz / fires,
-                 kSigmas * std::sqrt(rate_hz / (pixels * hot.duration_s)), "Hz", 2);
-  }
   check.within("noise.hot.other_causes", hot.other, 0, 0, "events", 0);
+
+  const auto events_of = [&](double rate_hz) {
+    return events_expected(rate_hz, hold_s(spec), all_hot.duration_s);
+  };
+  const double mean = mean_over_hot_pixels(spec, events_of);
+  const double square =
+      mean_over_hot_pixels(spec, [&](double hz) { return std::pow(events_of(hz), 2); });
+  const double variance = mean + square - mean * mean;  // at most: a hold lessens it
+  check.within("noise.hot.rate", (all_hot.on + all_hot.off) / (kPixels * all_hot.duration_s),
+               mean / all_hot.duration_s,
+               kSigmas * std::sqrt(variance / kPixels) / all_hot.duration_s, "Hz", 2);
+  judge_hot_spread(all_hot, spec, check);
 }
 
 // Share of the pixels by rate, for the plot.
@@ -258,6 +299,8 @@ NoiseCounts measure_noise(const EventCameraSpec& camera, std::uint64_t seed) {
     const double hot_hz = camera.hot_pixel_hz * camera.hot_pixel_fraction * kPixels;
     counts.hot =
         count(only_hot_pixels(camera), kBrightLux, kDurationS, hot_hz, kCauseHotPixel, seed);
+    counts.all_hot = count(all_hot(camera), kBrightLux, kDurationS, camera.hot_pixel_hz * kPixels,
+                           kCauseHotPixel, seed);
   }
   return counts;
 }
@@ -269,12 +312,13 @@ Check judge(const NoiseCounts& counts, const EventCameraSpec& expected) {
       "over all pixels, dead ones included, and hold within three standard deviations of "
       "the counts and of the random start of the leak. A pixel in its refractory period is "
       "silent, and leak and shot noise are in inverse proportion to a pixel's thresholds: both "
-      "are part of what is expected."};
+      "are part of what is expected. The rate of the hot pixels, and the share of them above it, "
+      "are those of a camera all of whose pixels are hot."};
   judge_leak(counts.leak, expected, check);
   judge_shot("noise.shot.dark", counts.shot_dark, 1, expected, check);
   judge_shot("noise.shot.bright", counts.shot_bright, expected.shot_noise_bright_share, expected,
              check);
-  judge_hot(counts.hot, expected, check);
+  judge_hot(counts, expected, check);
   Plot plot{"Noise of a pixel on a constant scene",
             {"events of the pixel [Hz]", kPlotFromHz, kPlotToHz, false},
             {"share of the pixels", 1e-6, 1.5, true},

@@ -24,6 +24,7 @@ struct NoiseCount {
 
 struct NoiseCounts {
   NoiseCount leak, shot_dark, shot_bright, hot;
+  NoiseCount all_hot;  // of a camera all of whose pixels are hot
 };
 
 NoiseCounts measure_noise(const EventCameraSpec& camera, std::uint64_t seed);

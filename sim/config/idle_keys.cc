@@ -91,6 +91,11 @@ const IdleRule kRules[] = {
     {"sensors.events.hot_pixel_hz", "",
      [](const Scenario& s) { return s.sensors.events.hot_pixel_fraction > 0; },
      "sensors.events.hot_pixel_fraction is 0"},
+    {"sensors.events.hot_pixel_sigma", "",
+     [](const Scenario& s) {
+       return s.sensors.events.hot_pixel_fraction > 0 && s.sensors.events.hot_pixel_hz > 0;
+     },
+     "there is no hot pixel"},
     {"sensors.events.photoreceptor_dark_hz", "",
      [](const Scenario& s) { return s.sensors.events.photoreceptor_hz > 0; },
      "sensors.events.photoreceptor_hz is 0"},

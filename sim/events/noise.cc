@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "sim/base/normal_quantile.h"
 #include "sim/events/logarithm.h"
 
 namespace dodgesim {
@@ -23,14 +24,22 @@ std::vector<PixelRate> rates_of_shot_noise(const EventCameraSpec& spec,
   return rates;
 }
 
+// The inverse of the distribution of these rates, which is log-normal.
+double hot_pixel_rate_hz(const EventCameraSpec& spec, double u) {
+  const double sigma = spec.hot_pixel_sigma;
+  return spec.hot_pixel_hz * natural_exp(sigma * (normal_quantile(u) - sigma / 2));
+}
+
 std::vector<PixelRate> rates_of_hot_pixels(const EventCameraSpec& spec, std::size_t pixel_count,
                                            const RandomStream& device) {
   const double shot_hz = spec.shot_noise_on_hz + spec.shot_noise_off_hz;
   const double on_share = shot_hz > 0 ? spec.shot_noise_on_hz / shot_hz : 0.5;
   std::vector<PixelRate> rates;
   for (std::uint32_t i = 0; spec.hot_pixel_fraction > 0 && i < pixel_count; ++i) {
-    if (unit_interval(device.block(i)[0]) >= spec.hot_pixel_fraction) continue;
-    rates.push_back({i, on_share * spec.hot_pixel_hz, (1 - on_share) * spec.hot_pixel_hz});
+    const auto random = device.block(i);
+    if (unit_interval(random[0]) >= spec.hot_pixel_fraction) continue;
+    const double rate_hz = hot_pixel_rate_hz(spec, unit_interval(random[1]));
+    rates.push_back({i, on_share * rate_hz, (1 - on_share) * rate_hz});
   }
   return rates;
 }

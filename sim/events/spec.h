@@ -30,6 +30,7 @@ struct EventCameraSpec {
   double shot_noise_bright_share = 0.25;
   double hot_pixel_fraction = 0.0007;
   double hot_pixel_hz = 157;
+  double hot_pixel_sigma = 1.05;
   double dead_pixel_fraction = 0.0001;
   std::string device = "campaign";
   std::int64_t latency_us = 100;
@@ -128,9 +129,12 @@ void EventCameraSpec::visit(Visitor& v) {
   v("hot_pixel_fraction", hot_pixel_fraction, 0, 1,
     "Share of the pixels that are hot (measured on a DVXplorer).");
   v("hot_pixel_hz", hot_pixel_hz, 0, 100000,
-    "Rate of the noise of a hot pixel (DVXplorer: hot pixels carry 20 % of all noise), refractory "
-    "periods not counted; ON and OFF in the proportion of the shot noise. All have the same: of "
-    "those of the DVXplorer a tenth had less than 23 Hz and a tenth more than 340.");
+    "Mean rate of the noise of a hot pixel (DVXplorer: hot pixels carry 20 % of all noise), "
+    "refractory periods not counted; ON and OFF in the proportion of the shot noise.");
+  v("hot_pixel_sigma", hot_pixel_sigma, 0, 2,
+    "Standard deviation of the logarithm of these rates, which are log-normal: with 1.05 a tenth "
+    "of the hot pixels has less than 23 Hz and a tenth more than 340, as measured on the "
+    "DVXplorer. 0: all have the mean.");
   v("dead_pixel_fraction", dead_pixel_fraction, 0, 1,
     "Share of the pixels that never make an event (assumed).");
   v("device", device, {"campaign", "throw"},

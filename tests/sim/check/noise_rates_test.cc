@@ -24,6 +24,7 @@ TEST(NoiseCheck, FailsForOtherRates) {
             (Names{"noise.shot.bright.on", "noise.shot.bright.off"}));
   EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_hz *= 1.05; }), Names{"noise.hot.rate"});
   EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_fraction *= 2; }), Names{"noise.hot.pixels"});
+  EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_sigma = 0.9; }), Names{"noise.hot.above_mean"});
   EventCameraSpec without_leak;
   without_leak.leak_hz = 0;
   EXPECT_EQ(failures(judge(measure_noise(EventCameraSpec(), 1), without_leak)),

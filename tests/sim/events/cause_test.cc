@@ -67,6 +67,7 @@ TEST(Cause, OfEveryEventOfAStillSceneIsTheNoiseThatMadeIt) {
   spec.shot_noise_bright_share = 1;
   spec.hot_pixel_fraction = 0.01;
   spec.hot_pixel_hz = 100;
+  spec.hot_pixel_sigma = 0;
   spec.latency_us = 300;
   spec.jitter_us = 50;
   spec.readout_max_hz = 1e5;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "tests/sim/events/reference.h"
 
@@ -41,6 +43,7 @@ EventCameraSpec only_hot_pixels(double fraction, double rate_hz) {
   EventCameraSpec spec = event_camera_preset("ideal");
   spec.hot_pixel_fraction = fraction;
   spec.hot_pixel_hz = rate_hz;
+  spec.hot_pixel_sigma = 0;
   return spec;
 }
 
@@ -226,6 +229,26 @@ TEST(HotPixels, HaveTheSetShareAndRateAndStayWhereTheyAre) {
                          [](const auto& a, const auto& b) { return a.first == b.first; }));
 }
 
+// A DVXplorer's: a mean of 157 Hz, a tenth below 23 Hz, a tenth above 340.
+TEST(HotPixels, HaveRatesThatAreSpreadLikeMeasuredOnes) {
+  EventCameraSpec spec = event_camera_preset("ideal");
+  spec.hot_pixel_fraction = 1;
+  const double seconds = 10;
+  std::vector<double> rates_hz(static_cast<std::size_t>(kFieldPixels));
+  for (const Event& event : dark_events(spec, every(1000000, 10000000))) {
+    rates_hz[std::size_t{event.y} * kFieldWidth + event.x] += 1 / seconds;
+  }
+  std::ranges::sort(rates_hz);
+  const auto quantile = [&](double share) {
+    return rates_hz[static_cast<std::size_t>(share * kFieldPixels)];
+  };
+  EXPECT_NEAR(quantile(0.1), 23, 3);
+  EXPECT_NEAR(quantile(0.5), 90, 8);
+  EXPECT_NEAR(quantile(0.9), 340, 35);
+  const double mean_hz = std::accumulate(rates_hz.begin(), rates_hz.end(), 0.0) / kFieldPixels;
+  EXPECT_NEAR(mean_hz, 157, 3 * 157 * std::sqrt(std::expm1(1.05 * 1.05) / kFieldPixels));
+}
+
 TEST(HotPixels, ShareTheirEventsBetweenThePolaritiesAsTheShotNoiseDoes) {
   struct Case {
     double on_hz, off_hz, on_share;
@@ -353,6 +376,7 @@ TEST(Leak, IsAsAfterALongRestFromTheStartWhateverTheNoise) {
   spec.leak_hz = 1;
   spec.shot_noise_bright_share = 1;
   spec.hot_pixel_hz = 8;
+  spec.hot_pixel_sigma = 0;
   for (const double noise_hz : {0.0, 0.5, 2.0}) {
     for (const double hot_share : {0.0, 1.0}) {
       spec.shot_noise_on_hz = spec.shot_noise_off_hz = 0.5 * noise_hz;
