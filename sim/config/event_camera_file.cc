@@ -8,6 +8,7 @@
 #include "sim/config/closest_name.h"
 #include "sim/config/parameter_docs.h"
 #include "sim/config/reader.h"
+#include "sim/config/scenario.h"
 #include "sim/config/yaml_tree.h"
 
 namespace dodgesim {
@@ -32,6 +33,10 @@ std::vector<std::string> preset_names() {
   return visitor.names;
 }
 
+bool is_scenario(const YamlNode& root) {
+  return root.find("sensors") != nullptr || root.find("extends") != nullptr;
+}
+
 EventCameraSpec load(const std::string& path) {
   ReadContext context(path);
   EventCameraSpec spec;
@@ -39,12 +44,7 @@ EventCameraSpec load(const std::string& path) {
   spec.visit(documenter);
   for (const ParameterDoc& doc : documenter.take()) context.all_keys.push_back(doc.path);
   const YamlNode root = parse_yaml(read_scenario_text(path), context.problems);
-  for (const YamlNode::Key& key : root.keys) {
-    if (key.name != "sensors" && key.name != "events") continue;
-    context.problems.fail(key.at,
-                          "The keys below sensors.events of a scenario stand at the root "
-                          "of a camera's file.");
-  }
+  if (is_scenario(root)) return load_scenario(path, "").sensors.events;
   Reader reader(root, "", context);
   spec.visit(reader);
   reader.finish();

@@ -9,8 +9,8 @@ namespace dodgesim {
 
 // A preset of EventCameraSpec by its name or, for a name that ends in .yaml or .yml, the camera
 // described in that file: it holds the keys of a scenario's sensors.events at its root, `preset`
-// among them, each with the same default. Throws ScenarioError like load_scenario() and for any
-// other name, IoError when reading fails.
+// among them, each with the same default, or it is a scenario itself. Throws ScenarioError like
+// load_scenario() and for any other name, IoError when reading fails.
 EventCameraSpec named_event_camera(const std::string& name_or_file);
 
 }  // namespace dodgesim

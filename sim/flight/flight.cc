@@ -116,7 +116,10 @@ std::unique_ptr<EventRig> Flight::make_rig() const {
   return std::make_unique<EventRig>(world_, setup);
 }
 
-int Flight::cameras() const { return scenario_.dodger.position.depth == "stereo" ? 2 : 1; }
+int Flight::cameras() const {
+  const auto there = static_cast<int>(world_.vehicle().X_BC.size());
+  return scenario_.dodger.position.depth == "stereo" ? there : 1;
+}
 
 FlightLogger::Setup Flight::flight_logger_setup() const {
   FlightLogger::Setup setup;

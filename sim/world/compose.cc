@@ -51,9 +51,20 @@ void for_each_element(const std::vector<MjcfTag>& tags, Visit visit) {
 // Makes bodies and skins of its own, which the event cameras would not see.
 constexpr std::initializer_list<const char*> kUnseen = {"composite", "skin"};
 
+// The scenario says where a body begins.
+void refuse_place(const MjcfTag& body, const std::string& of, const std::string& because,
+                  const std::string& label) {
+  constexpr std::array kPlaces = {"pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"};
+  for (const auto& [name, value] : body.attributes) {
+    if (!contains(kPlaces, name)) continue;
+    throw ScenarioError(label + ":" + std::to_string(body.line) + ": The body of " + of +
+                        " must have no " + name + ", as " + because +
+                        ": move or turn its geoms instead.");
+  }
+}
+
 // What stands beside an object's body would stand in the room.
 void expect_one_body(const std::vector<MjcfTag>& tags, const std::string& label) {
-  constexpr std::array kPlaces = {"pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"};
   bool has_body = false;
   for_each_element(tags, [&](const MjcfTag& tag, const std::vector<std::string>& open) {
     if (open != std::vector<std::string>{"worldbody"}) return;
@@ -64,13 +75,8 @@ void expect_one_body(const std::vector<MjcfTag>& tags, const std::string& label)
                           tag.name + "> too.");
     }
     has_body = true;
-    for (const auto& [name, value] : tag.attributes) {
-      if (!contains(kPlaces, name)) continue;
-      throw ScenarioError(label + ":" + std::to_string(tag.line) +
-                          ": The body of an object must have no " + name +
-                          ", as a throw begins where the scenario says and along the axes " +
-                          "of the world: turn its geoms instead.");
-    }
+    refuse_place(tag, "an object",
+                 "a throw begins where the scenario says and along the axes of the world", label);
   });
 }
 
@@ -82,6 +88,13 @@ void refuse_root_default(const std::vector<MjcfTag>& tags, const std::string& wh
     throw ScenarioError(label + ":" + std::to_string(tag.line) + ": The model of " + what +
                         " must not set a <default> without a class, which the other models " +
                         "would take over: put <" + tag.name + "> into <default class=\"...\">.");
+  });
+}
+
+void expect_no_place(const std::vector<MjcfTag>& tags, const std::string& label) {
+  for_each_element(tags, [&](const MjcfTag& tag, const std::vector<std::string>& open) {
+    if (tag.name != "body" || open != std::vector<std::string>{"worldbody"}) return;
+    refuse_place(tag, "a vehicle", "it begins where the mission does", label);
   });
 }
 
@@ -207,7 +220,10 @@ MjModelPtr compose_model(const WorldSpec& spec) {
     refuse(tags, kUnseen, what, label);
     // The pictures of a room are drawn once and shown from many places.
     if (what == "a room") refuse(tags, {"joint", "freejoint"}, what, label);
-    if (what == "a vehicle") expect_one_joint(tags, label);
+    if (what == "a vehicle") {
+      expect_one_joint(tags, label);
+      expect_no_place(tags, label);
+    }
     refuse_root_default(tags, what, label);
     parts.push_back({label, print_mjcf(tags)});
   }

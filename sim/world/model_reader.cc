@@ -309,6 +309,8 @@ VehicleParameters ModelReader::vehicle(double mass_scale) const {
                         " to fly (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
   }
   for (const char* name : kCameraNames) {
+    const bool needed = vehicle.X_BC.empty();
+    if (!needed && mj_name2id(&model_, mjOBJ_CAMERA, name) < 0) continue;
     const int camera = find_on_vehicle(mjOBJ_CAMERA, name);
     Eigen::Isometry3d X = pose(model_.cam_pos + 3 * camera, model_.cam_quat + 4 * camera);
     // MuJoCo's camera looks along -z with y up; C has z forward and y down.

@@ -7,7 +7,7 @@
 
 namespace dodgesim {
 
-// The two event cameras, by number, as the models name them.
+// The event cameras, by number, as the models name them; the second one may be missing.
 inline constexpr std::array<const char*, 2> kCameraNames = {"top", "bottom"};
 
 struct VehicleParameters {

@@ -165,9 +165,10 @@ TEST_F(DetectTest, RectifiesTheCamerasOfARig) {
   EXPECT_THAT(outcome.output, Not(HasSubstr("rectified")));
 }
 
-// W of the detections has the place where the vehicle began to fly for an origin. Depth from a
-// known size errs as soon as something of the room is taken for a part of the ball; the direction
-// does not.
+// W of the detections has the place where the vehicle began to fly for an origin, from which its
+// escape takes it away unknown to a pilot without a state estimate: nearer than a metre that turns
+// the ball's direction. Depth from a known size errs as soon as something of the room is taken for
+// a part of the ball; the direction does not.
 TEST_F(DetectTest, FindsWithOneCameraAndItsImuInWhichDirectionTheBallIs) {
   record(
       "seed: 5\nthrow: {distance_m: 2.5, speed_mps: 5, launch_s: 0.1, launch_height_m: 2.4, "
@@ -194,10 +195,11 @@ TEST_F(DetectTest, FindsWithOneCameraAndItsImuInWhichDirectionTheBallIs) {
     if (truth.at(row, "object_0_p_W_0").empty()) continue;
     const Eigen::Vector3d ball =
         vector(truth, row, "object_0_p_W") - vector(truth, row, "vehicle_p_W") - p_BC;
+    if (ball.norm() < 1) continue;
     const Eigen::Vector3d seen = vector(found, i, "p_W") - p_BC;
     errors_deg.push_back(std::acos(ball.normalized().dot(seen.normalized())) * 180 / M_PI);
   }
-  ASSERT_GT(errors_deg.size(), 2u);
+  ASSERT_GT(errors_deg.size(), 4u);
   std::sort(errors_deg.begin(), errors_deg.end());
   EXPECT_LT(errors_deg[errors_deg.size() / 2], 3);
 }

@@ -48,10 +48,11 @@ TEST_F(EmulateRefusalsTest, RefusesBadCamerasWithFileLineAndKey) {
             path + ":1:17: mismatch_sigma is \"much\", but must be a number between 0 and 1.\n");
   EXPECT_THAT(refused("- 1\n"), StartsWith(path + ":1:1: The file must be a map of keys"));
   EXPECT_EQ(refused(""), path + ": The file is empty.\n");
-  EXPECT_EQ(refused("sensors: {events: {leak_hz: 1}}\n"),
-            path +
-                ":1:1: The keys below sensors.events of a scenario stand at the root of a "
-                "camera's file.\n");
+  EXPECT_EQ(refused("events: {leak_hz: 1}\n"), path + ":1:1: events is not a known key.\n");
+  EXPECT_EQ(
+      refused("sensors: {events: {leak: 1}}\n"),
+      path +
+          ":1:20: sensors.events.leak is not a known key; did you mean sensors.events.leak_hz?\n");
   expect_refused(emulate("--camera sees --out " + out_), 2, "did you mean sees1?");
   expect_refused(emulate("--camera davis --out " + out_), 2,
                  "There is no event camera \"davis\"; known are sees1, ideal, noisy, low_light, "

@@ -266,6 +266,24 @@ TEST_F(ScenarioCommandTest, AMeshThatCrashesMujocoCostsASentenceAndExitCodeTwo) 
   EXPECT_FALSE(fs::exists("x"));
 }
 
+TEST_F(ScenarioCommandTest, AVehicleWithOneCameraFliesWhoeverNeedsNoMore) {
+  copy_models(root_);
+  const std::string two = contents("models/vehicles/qav_rxl.xml");
+  const std::regex lower("<camera name=\"bottom\"[^>]*/>");
+  write("models/vehicles/one_eyed.xml", std::regex_replace(two, lower, ""));
+  const auto run = [&](const std::string& settings) {
+    return dodgesim("run " + path("s.yaml") + " --models " + path("models") + " --out " +
+                    path("out") + " --force --set repeats=1 --set vehicle=one_eyed" + settings);
+  };
+  EXPECT_EQ(run("").exit_code, 0) << "nobody looks";
+  const Outcome stereo = run(" --set pilot=falanga2020");
+  EXPECT_EQ(stereo.exit_code, 2);
+  EXPECT_THAT(stereo.output, HasSubstr("vehicles/one_eyed.xml: Depth by stereo needs 2 camera(s)"));
+  const Outcome mono = run(" --set pilot=falanga2020 --set dodger.position.depth=mono");
+  EXPECT_EQ(mono.exit_code, 0) << mono.output;
+  EXPECT_THAT(column("out/throws.csv", "flown_status"), ::testing::ElementsAre("ok"));
+}
+
 TEST_F(ScenarioCommandTest, RoomsThatNoCameraCanSeeAndRotorsThatAreTooWeakAreUsageErrors) {
   copy_models(root_);
   write("models/rooms/hilly.xml",

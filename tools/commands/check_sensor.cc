@@ -91,7 +91,8 @@ void add_check_sensor_command(CLI::App& program, const std::string& command_line
       "check-sensor", "Test whether the event camera does what its parameters say");
   command
       ->add_option("--camera", arguments->camera,
-                   "sees1, ideal, noisy, low_light or a YAML file with the keys of sensors.events")
+                   "sees1, ideal, noisy, low_light, a YAML file with the keys of sensors.events, "
+                   "or a scenario")
       ->capture_default_str()
       ->type_name("CAMERA");
   CLI::Option* out =

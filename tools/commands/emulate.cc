@@ -29,7 +29,8 @@ constexpr const char* kEmulateFooter =
   sees1      the camera of the scenarios, 320 x 240 px in flight, but it takes any size
   noisy      a worn or badly biased one
   low_light  sees1 at 5 lux instead of 500
-  FILE.yaml  keys of a scenario's sensors.events at its root, "preset: ideal" among them
+  FILE.yaml  keys of a scenario's sensors.events at its root, "preset: ideal" among them; or a
+             scenario, whose camera is meant
 I is the luminance; between frames L runs linearly. The first frame sets the references. With
 a leak (leak_hz above 0: all but ideal) each starts below it, by a random share, from 0 to 1,
 of the pixel's ON threshold, as after a long rest: the first ON events come sooner and the

@@ -22,7 +22,8 @@ TEST(NoiseCheck, FailsForOtherRates) {
             (Names{"noise.shot.dark.on", "noise.shot.bright.on"}));
   EXPECT_EQ(failed([](auto& spec) { spec.shot_noise_bright_share = 0.3; }),
             (Names{"noise.shot.bright.on", "noise.shot.bright.off"}));
-  EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_hz *= 1.05; }), Names{"noise.hot.rate"});
+  EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_hz *= 1.05; }),
+            (Names{"noise.hot.rate", "noise.hot.above_mean"}));
   EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_fraction *= 2; }), Names{"noise.hot.pixels"});
   EXPECT_EQ(failed([](auto& spec) { spec.hot_pixel_sigma = 0.9; }), Names{"noise.hot.above_mean"});
   EventCameraSpec without_leak;

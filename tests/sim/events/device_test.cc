@@ -29,6 +29,7 @@ Specimen specimen(const std::string& device, std::uint64_t throw_index) {
   spec.device = device;
   spec.shot_noise_on_hz = spec.shot_noise_off_hz = spec.leak_hz = 0;
   spec.hot_pixel_fraction = 0.2;
+  spec.hot_pixel_sigma = 0;  // each soon shows that it is hot
   spec.dead_pixel_fraction = 0.2;
   Specimen out;
   EventCamera still(spec, kSide, kSide, 5, throw_index, "top");

@@ -74,6 +74,40 @@ TEST_F(ModelReaderTest, WhatStaysBehindWhenTheVehicleFliesIsNoPartOfIt) {
 }
 
 // The reference size is 0.1 m.
+// Where it begins, the scenario says.
+TEST_F(ModelReaderTest, AVehicleWithAPlaceOfItsOwnIsRefused) {
+  spec_.objects.clear();
+  const auto file = directory_ / "vehicles" / "qav_rxl.xml";
+  const std::string good = testing::contents(file), body = "<body name=\"vehicle\"";
+  for (const std::string place : {"pos=\"0 0 1\"", "euler=\"0 0 90\""}) {
+    std::string text = good;
+    testing::put(file, text.insert(text.find(body) + body.size(), " " + place));
+    EXPECT_THAT(world_message(), HasSubstr("The body of a vehicle must have no")) << place;
+  }
+}
+
+TEST_F(ModelReaderTest, TheLowerCameraMayBeMissingButNotTheUpperOne) {
+  spec_.objects.clear();
+  const auto file = directory_ / "vehicles" / "qav_rxl.xml";
+  const std::string good = testing::contents(file);
+  const auto without = [&](const std::string& camera) {
+    std::string text = good;
+    const std::size_t begin = text.find("<camera name=\"" + camera + "\"");
+    testing::put(file, text.erase(begin, text.find("/>", begin) + 2 - begin));
+  };
+  const std::size_t both = World(spec_).vehicle().X_BC.size();
+  const Eigen::Isometry3d top = World(spec_).vehicle().X_BC.front();
+  EXPECT_EQ(both, 2u);
+  without("bottom");
+  ASSERT_EQ(World(spec_).vehicle().X_BC.size(), 1u);
+  EXPECT_TRUE(World(spec_).vehicle().X_BC.front().isApprox(top));
+  spec_.vehicle_overrides.stereo_baseline_m = 0.2;
+  EXPECT_THAT(world_message(), HasSubstr("the model has no camera named 'bottom'"));
+  spec_.vehicle_overrides = {};
+  without("top");
+  EXPECT_THAT(world_message(), HasSubstr("the model has no camera named 'top'"));
+}
+
 TEST_F(ModelReaderTest, AnObjectIsAsLargeAsItsReferenceSizeSays) {
   const auto with = [&](const std::string& geom) {
     write_object(object(geom));

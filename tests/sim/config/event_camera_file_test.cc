@@ -1,0 +1,47 @@
+// Event cameras by the names of presets, of files of their own, and of scenarios.
+#include "sim/config/event_camera_file.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "sim/base/error.h"
+#include "tests/complaint.h"
+#include "tests/sim/files/temporary_directory.h"
+
+namespace dodgesim {
+namespace {
+
+class EventCameraFileTest : public ::testing::Test {
+ protected:
+  EventCameraSpec written(const std::string& yaml, const std::string& name = "mine.yaml") const {
+    testing::put(own_.path() / name, yaml);
+    return named_event_camera((own_.path() / name).string());
+  }
+
+  testing::TemporaryDirectory own_;
+};
+
+TEST_F(EventCameraFileTest, HoldsTheKeysOfACameraAndThoseOfItsPreset) {
+  const EventCameraSpec camera = written("preset: noisy\nleak_hz: 0.7\n");
+  EXPECT_EQ(camera.leak_hz, 0.7);
+  EXPECT_EQ(camera.refractory_us, event_camera_preset("noisy").refractory_us);
+}
+
+TEST_F(EventCameraFileTest, MayBeAScenarioWhoseCameraIsMeant) {
+  const EventCameraSpec camera =
+      written("pilot: none\nroom: field\nsensors: {events: {preset: ideal, latency_us: 7}}\n");
+  EXPECT_EQ(camera.latency_us, 7);
+  EXPECT_EQ(camera.leak_hz, 0);
+  EXPECT_EQ(written("extends: mine.yaml\nseed: 3\n", "other.yaml").latency_us, 7);
+}
+
+TEST_F(EventCameraFileTest, OfAScenarioIsReadAsOne) {
+  EXPECT_EQ(
+      testing::complaint<ScenarioError>([&] { written("sensors: {events: {latency_us: -7}}\n"); }),
+      (own_.path() / "mine.yaml").string() +
+          ":1:32: sensors.events.latency_us is -7, but must be between 0 and 100000.");
+}
+
+}  // namespace
+}  // namespace dodgesim
