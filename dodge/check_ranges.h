@@ -50,8 +50,8 @@ class RangeChecker {
 
 // Throws std::invalid_argument as RangeChecker does.
 template <class Config>
-void check_ranges(Config config, const std::string& path = "") {  // a copy: visit() is not const
-  RangeChecker checker(path);
+void check_ranges(Config config) {  // a copy: visit() is not const
+  RangeChecker checker;
   config.visit(checker);
 }
 

@@ -163,7 +163,7 @@ void validate(const Config& config) {
              {"position.max_range_m", config.position.max_range_m});
   check_less({"position.min_size_m", config.position.min_size_m},
              {"position.max_size_m", config.position.max_size_m});
-  if (config.position.depth == "mono") {  // a cluster's size is taken to be the known one
+  if (!config.position.stereo_depth()) {  // a cluster's size is taken to be the known one
     check_less({"position.min_size_m", config.position.min_size_m},
                {"position.known_size_m", config.position.known_size_m});
     check_less({"position.known_size_m", config.position.known_size_m},
@@ -187,7 +187,7 @@ void validate(const Config& config) {
                  {"landing.descent_mps", config.landing.descent_mps});
 
   if (!config.p_BR.allFinite()) fail("The range sensor's place p_BR is not finite.");
-  const std::size_t needed = config.position.depth == "stereo" ? 2 : 1;
+  const std::size_t needed = config.position.cameras();
   if (config.cameras.size() < needed) {
     fail("Depth by " + config.position.depth + " needs " + std::to_string(needed) +
          " camera(s), but the configuration has " + std::to_string(config.cameras.size()) + ".");
@@ -195,7 +195,7 @@ void validate(const Config& config) {
   for (std::size_t i = 0; i < config.cameras.size(); ++i) {
     check_camera(config.cameras[i], "Camera " + std::to_string(i));
   }
-  if (needed == 2) check_rectified(config.cameras[0], config.cameras[1]);
+  if (config.position.stereo_depth()) check_rectified(config.cameras[0], config.cameras[1]);
 }
 
 }  // namespace dodge

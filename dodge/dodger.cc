@@ -42,7 +42,7 @@ Dodger::Dodger(const Config& config)
       avoider_(config.repulsive, config.attractive, config.velocity_limit, config.escape),
       height_monitor_(config.height_monitor),
       landing_(config.landing) {
-  const std::size_t used = config.position.depth == "stereo" ? 2 : 1;
+  const std::size_t used = config.position.cameras();
   eyes_.reserve(used);  // copies of an eye would not keep the room that it has reserved
   for (std::size_t i = 0; i < used; ++i) eyes_.emplace_back(config_, config_.cameras[i]);
   for (const Eye& eye : eyes_)

@@ -36,17 +36,20 @@ class Course {
   }
 
   Vector3d position(double t_s) const {
-    const double pushed_s = std::clamp(t_s - start_s_, 0.0, length_s_);
-    const double coasted_s = std::max(0.0, t_s - start_s_ - length_s_);
-    const Vector3d moved_W = t_s * v_W_ + (0.5 * pushed_s * pushed_s + pushed_s * coasted_s) * a_W_;
+    const Vector3d moved_W = way_without_goal(t_s);
     return p_W_ + (has_arrived(moved_W) ? way_W_ : moved_W);
   }
   Vector3d velocity(double t_s) const {
-    if (has_arrived(position(t_s) - p_W_)) return Vector3d::Zero();
+    if (has_arrived(way_without_goal(t_s))) return Vector3d::Zero();
     return v_W_ + std::clamp(t_s - start_s_, 0.0, length_s_) * a_W_;
   }
 
  private:
+  Vector3d way_without_goal(double t_s) const {
+    const double pushed_s = std::clamp(t_s - start_s_, 0.0, length_s_);
+    const double coasted_s = std::max(0.0, t_s - start_s_ - length_s_);
+    return t_s * v_W_ + (0.5 * pushed_s * pushed_s + pushed_s * coasted_s) * a_W_;
+  }
   bool has_arrived(const Vector3d& moved_W) const {
     return way_W_.norm() > kNoDistanceM && moved_W.dot(way_W_) >= way_W_.squaredNorm();
   }

@@ -46,7 +46,7 @@ DepthEstimator::DepthEstimator(const DepthConfig& config, std::span<const Camera
 
 void DepthEstimator::locate(std::span<const View> views, const StateEstimate& state,
                             std::vector<Detection>& detections) {
-  if (config_.depth == "mono") {
+  if (!config_.stereo_depth()) {
     locate_by_size(*views[0].clusters, state, detections);
   } else {
     locate_by_stereo(views[0], views[1], state, detections);

@@ -64,6 +64,9 @@ struct DepthConfig {
   double min_size_m = 0.03;
   double max_size_m = 0.8;
 
+  bool stereo_depth() const { return depth == "stereo"; }
+  std::size_t cameras() const { return stereo_depth() ? 2 : 1; }  // the first of the vehicle's
+
   template <class Visitor>
   void visit(Visitor& v) {
     v("depth", depth, {"mono", "stereo"},

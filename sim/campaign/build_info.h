@@ -23,7 +23,7 @@ struct Machine {
   std::string cpu;        // model name
   std::string cpu_flags;  // byte-equality is promised only between machines with the same
   int cores = 0;
-  std::string system;  // kernel name and machine
+  std::string system;  // kernel with its release, and machine
 };
 
 Machine machine_info();

@@ -43,13 +43,13 @@ struct CampaignOptions {
 };
 
 struct CampaignSummary {
-  std::vector<ThrowResult> results;  // in throw order, without their detections
-  int wanted = 0;                    // throws of the shard
-  int missing = 0;                   // of these, not flown yet because somebody stopped it
-  std::string table;                 // Markdown: Tables::overview
-  int errors = 0;                    // throws of which a flight failed
-  EventTruthSums truth;              // of all throws, when their results have it
-  double wall_s = 0;                 // of this run, from its first throw's begin to the tables
+  std::vector<ThrowResult> results;   // in throw order, without rows (drop_rows())
+  int wanted = 0;                     // throws of the shard
+  int missing = 0;                    // of these, not flown yet because somebody stopped it
+  std::string table;                  // Markdown: Tables::overview
+  int errors = 0;                     // throws of which a flight failed
+  std::vector<EventTruthSums> truth;  // by value of the sweep, when the results have it
+  double wall_s = 0;                  // of this run, from its first throw's begin to the tables
   double real_time_factor = 0;  // simulated time of the flown pilots per computing time, one core
   WorkerMemory memory;          // of this run
   int flown = 0;                // throws of this run

@@ -57,27 +57,24 @@ void refuse_foreign(const fs::path& out, bool force) {
 
 DirectoryLock::DirectoryLock(const fs::path& out) {
   const fs::path path = out / kLockFile;
-  fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (fd_ < 0) {
+  file_ = Descriptor(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
+  if (!file_) {
     throw IoError(path.string() + " could not be written: " + std::strerror(errno) + ".");
   }
   // Workers must not inherit the lock, as they do that of flock().
   struct flock whole {};
   whole.l_type = F_WRLCK;
   whole.l_whence = SEEK_SET;
-  if (::fcntl(fd_, F_SETLK, &whole) == 0) return;
+  if (::fcntl(file_.get(), F_SETLK, &whole) == 0) return;
   const int error = errno;
   if (error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP || error == EINVAL) {
     return;  // a disk without locks, as clusters have: nothing keeps others away there
   }
-  ::close(fd_);
   if (error != EACCES && error != EAGAIN) {
     throw IoError(path.string() + " could not be locked: " + std::strerror(error) + ".");
   }
   throw ScenarioError(out.string() + " is being written to by another dodgesim.");
 }
-
-DirectoryLock::~DirectoryLock() { ::close(fd_); }
 
 void expect_free(const fs::path& out, bool force) {
   if (!holds_anything(out)) return;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "sim/base/descriptor.h"
 #include "sim/campaign/campaign.h"
 #include "sim/campaign/journal.h"
 
@@ -15,12 +16,9 @@ class DirectoryLock {
  public:
   // Throws ScenarioError if another process holds the lock, IoError.
   explicit DirectoryLock(const std::filesystem::path& out);
-  DirectoryLock(const DirectoryLock&) = delete;
-  DirectoryLock& operator=(const DirectoryLock&) = delete;
-  ~DirectoryLock();
 
  private:
-  int fd_ = -1;
+  Descriptor file_;
 };
 
 // Throws ScenarioError if a new campaign would overwrite one or stand beside other files, unless

@@ -1,8 +1,12 @@
 #include "sim/campaign/manifest.h"
 
 #include <ctime>
+#include <stdexcept>
 
+#include "sim/base/error.h"
+#include "sim/base/input_file.h"
 #include "sim/campaign/build_info.h"
+#include "sim/campaign/result_files.h"
 
 namespace dodgesim {
 
@@ -29,6 +33,15 @@ Json machine_group() {
           {"cpu_flags", machine.cpu_flags},
           {"cores", machine.cores},
           {"system", machine.system}};
+}
+
+Json read_manifest(const std::filesystem::path& directory) {
+  const std::filesystem::path path = directory / kManifestFile;
+  try {
+    return parse_json(read_file(path));
+  } catch (const std::invalid_argument& error) {
+    throw IoError(path.string() + " is no manifest of a campaign: " + error.what() + ".");
+  }
 }
 
 Json manifest_of(const Scenario& scenario, const CampaignOptions& options,

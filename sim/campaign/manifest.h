@@ -2,6 +2,7 @@
 // again.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "sim/campaign/campaign.h"
@@ -17,6 +18,9 @@ Json machine_group();
 // its parts.
 Json manifest_of(const Scenario& scenario, const CampaignOptions& options,
                  const CampaignSummary& summary, const std::string& started);
+
+// That of the campaign in the directory. Throws IoError.
+Json read_manifest(const std::filesystem::path& directory);
 
 // "2026-01-31T12:00:00Z". For people; no result depends on it.
 std::string utc_now();

@@ -1,10 +1,8 @@
 #include "sim/campaign/merge.h"
 
 #include <map>
-#include <stdexcept>
 
 #include "sim/base/error.h"
-#include "sim/base/input_file.h"
 #include "sim/base/joined.h"
 #include "sim/base/wall_clock.h"
 #include "sim/campaign/campaign_directory.h"
@@ -106,13 +104,7 @@ Sources collect(const std::vector<fs::path>& directories) {
 Json manifests_of(const std::vector<fs::path>& directories) {
   Json manifests = Json::array();
   for (const fs::path& directory : directories) {
-    const fs::path path = directory / kManifestFile;
-    if (!fs::exists(path)) continue;
-    try {
-      manifests.push_back(parse_json(read_file(path)));
-    } catch (const std::invalid_argument& error) {
-      throw IoError(path.string() + " is no manifest of a campaign: " + error.what() + ".");
-    }
+    if (fs::exists(directory / kManifestFile)) manifests.push_back(read_manifest(directory));
   }
   return manifests;
 }

@@ -5,6 +5,7 @@
 
 #include "sim/base/contains.h"
 #include "sim/base/error.h"
+#include "sim/config/expand.h"
 #include "sim/files/csv.h"
 #include "sim/files/directory.h"
 #include "sim/files/output_file.h"
@@ -109,12 +110,13 @@ void write_result_files(const fs::path& out, const Scenario& scenario, const Jou
                         bool truth, CampaignSummary& summary) {
   RowFiles rows(out, scenario, truth);
   double simulated_s = 0, computing_s = 0;
+  summary.truth.resize(static_cast<std::size_t>(sweep_count(scenario)));
   for_each_result(out / kJournalFile, index, [&](ThrowResult result) {
     rows.add(result);
     simulated_s += seconds(result.duration_us);
     computing_s += result.wall_s;
     if (any_error(result)) ++summary.errors;
-    summary.truth.add(result.truth_rows);
+    summary.truth.at(static_cast<std::size_t>(result.sweep)).add(result.truth_rows);
     result.drop_rows();
     summary.results.push_back(std::move(result));
   });

@@ -53,8 +53,8 @@ Shard parse_shard(const std::string& text, const Environment& environment) {
   std::optional<int> count;
   if (slash != std::string::npos) {
     count = number(text.substr(slash + 1));
-    const auto tasks = find(environment, text, "SLURM_ARRAY_TASK_COUNT");
-    if (automatic && count && tasks && tasks != count) {
+    const auto tasks = automatic ? find(environment, text, "SLURM_ARRAY_TASK_COUNT") : std::nullopt;
+    if (count && tasks && tasks != count) {
       refuse(text, "the array has " + std::to_string(*tasks) +
                        " tasks, so which part is this one's cannot be told; give its INDEX");
     }

@@ -132,7 +132,7 @@ void check_transport(const Scenario& scenario, ReadContext& context) {
               "event_timeout_us", window.event_timeout_us,
               "the pilot would never see an event; raise the timeout, or delay what it sees by "
               "delays.perception_us instead.");
-  if (scenario.dodger.position.depth != "stereo") return;
+  if (!scenario.dodger.position.stereo_depth()) return;
   expect_less("delays.lower_camera_us is ", delays.lower_camera_us, delays.least_lag_us(),
               "camera_lag_us", window.camera_lag_us,
               "the pilot would never see with both cameras at once; raise the lag.");

@@ -63,7 +63,9 @@ void check_mission_key(const Scenario& scenario, const std::string& type, const 
 
 void check_throws(const Scenario& scenario, ReadContext& context) {
   if (scenario.throw_spec && !scenario.throws.empty()) {
-    context.add_problem("throws", "throws and throw are both given; one of them is enough.");
+    context.add_problem("throw",
+                        "throw is given, and throws too; one of them is enough: 'throws: ~' takes "
+                        "away those of a scenario that this one extends.");
   }
   int objects = 0;
   for (const ThrowSpec& spec : scenario.throw_specs()) objects += spec.count;
@@ -226,7 +228,7 @@ void check_axis(const Scenario& scenario, const VariedKey& axis, bool in_grid,
   if (in_grid && axis.key == "pilot") {
     context.problems.add(axis.at, "pilot belongs into sweep: pilots are compared, not pooled.");
   }
-  if (axis.key == "stop" || axis.key.starts_with("stop.")) {
+  if (axis.key.starts_with("stop.")) {
     context.problems.add(axis.at, axis.key + " cannot vary: it is about the whole campaign.");
   }
   for (const VariedKey& other : scenario.sweep) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/base/contains.h"
 #include "sim/base/joined.h"
 #include "sim/config/dotted_keys.h"
 #include "sim/config/expand.h"
@@ -12,15 +13,15 @@ namespace dodgesim {
 namespace {
 
 struct IdleRule {
-  std::string key;     // or a group of them
-  std::string except;  // the key of the group that always counts
+  std::string key;                  // or a group of them
+  std::vector<std::string> except;  // keys of the group that always count
   bool (*acts)(const Scenario&);
   std::string reason;
 };
 
 bool sees(const Scenario& scenario) { return perceives(scenario.pilot); }
 
-bool stereo(const Scenario& scenario) { return scenario.dodger.position.depth == "stereo"; }
+bool stereo(const Scenario& scenario) { return scenario.dodger.position.stereo_depth(); }
 
 // A plug-in may do as it likes with the keys of dodger.
 bool may_measure_mono(const Scenario& s) { return s.pilot == kPluginPilot || !stereo(s); }
@@ -36,6 +37,11 @@ bool monitors(const Scenario& s) {
   return s.pilot == kPluginPilot || s.dodger.height_monitor.enabled;
 }
 
+bool flies_field(const Scenario& s) {
+  return s.pilot == kPluginPilot || s.dodger.escape.law == "potential_field";
+}
+
+constexpr const char* kNoField = "dodger.escape.law is closest_approach";
 constexpr const char* kCentres = "dodger.position.stereo.disparity is centres";
 constexpr const char* kGates = "dodger.association.gate_sigmas is not 0";
 constexpr const char* kNoMonitor = "dodger.height_monitor.enabled is false";
@@ -44,73 +50,97 @@ constexpr const char* kStereo = "dodger.position.depth is stereo";
 constexpr const char* kMono = "dodger.position.depth is mono";
 
 const IdleRule kRules[] = {
-    {"plugin_parameters", "", [](const Scenario& s) { return s.pilot == kPluginPilot; },
+    {"plugin_parameters",
+     {},
+     [](const Scenario& s) { return s.pilot == kPluginPilot; },
      "the pilot is not plugin"},
-    {"oracle", "", [](const Scenario& s) { return s.fly_oracle || s.pilot == kOraclePilot; },
+    {"oracle",
+     {},
+     [](const Scenario& s) { return s.fly_oracle || s.pilot == kOraclePilot; },
      "the pilot oracle does not fly"},
-    {"dodger.escape", "dodger.escape.law",
+    {"dodger.escape",
+     {"dodger.escape.law"},
      [](const Scenario& s) {
        return s.pilot == kPluginPilot || s.dodger.escape.law != "potential_field";
      },
      "dodger.escape.law is potential_field"},
-    {"dodger.window", "", sees, kBlind},
-    {"dodger.time_image", "", sees, kBlind},
-    {"dodger.cluster", "", sees, kBlind},
-    {"dodger.association", "", sees, kBlind},
-    {"dodger.position", "dodger.position.depth", sees, kBlind},
-    {"sensors.events", "sensors.events.latency_us", sees, kBlind},
-    {"sensors.render", "", sees, kBlind},
-    {"sensors.sampling", "", sees, kBlind},
-    {"sensors.keys", "", sees, kBlind},
-    {"dodger.position.stereo.search_px", "", correlates, kCentres},
-    {"dodger.position.stereo.min_correlation", "", correlates, kCentres},
-    {"dodger.position.stereo.min_share_of_best", "", correlates, kCentres},
-    {"dodger.association.first_radius_m", "", gates_by_metres, kGates},
-    {"dodger.association.first_speed_mps", "", gates_by_metres, kGates},
-    {"dodger.association.radius_m", "", gates_by_metres, kGates},
-    {"dodger.window.camera_lag_us", "", may_measure_stereo, kMono},
-    {"sensors.range", "", monitors, kNoMonitor},
-    {"dodger.landing", "", monitors, kNoMonitor},
-    {"dodger.range_sensor", "", monitors, kNoMonitor},
-    {"dodger.height_monitor", "dodger.height_monitor.enabled", monitors, kNoMonitor},
-    {"dodger.position.known_size_m", "", may_measure_mono, kStereo},
-    {"dodger.position.side_sigma_px", "", may_measure_mono, kStereo},
-    {"dodger.position.stereo", "", may_measure_stereo, kMono},
-    {"delays.lower_camera_us", "", stereo, kMono},
-    {"vehicle_overrides.lower_camera_turn_deg", "", stereo, kMono},
-    {"sensors.render.flicker_depth", "",
+    {"dodger.repulsive",
+     {"dodger.repulsive.k_r0", "dodger.repulsive.lambda_decay_1ps", "dodger.repulsive.k_tau"},
+     flies_field,
+     kNoField},
+    {"dodger.window", {}, sees, kBlind},
+    {"dodger.time_image", {}, sees, kBlind},
+    {"dodger.cluster", {}, sees, kBlind},
+    {"dodger.association", {}, sees, kBlind},
+    {"dodger.flow", {}, sees, kBlind},
+    {"dodger.ego_motion", {}, sees, kBlind},
+    {"dodger.position", {"dodger.position.depth"}, sees, kBlind},
+    {"delays.lower_camera_us", {}, sees, kBlind},
+    {"sensors.events", {"sensors.events.latency_us"}, sees, kBlind},
+    {"sensors.render", {}, sees, kBlind},
+    {"sensors.sampling", {}, sees, kBlind},
+    {"sensors.keys", {}, sees, kBlind},
+    {"dodger.position.stereo.search_px", {}, correlates, kCentres},
+    {"dodger.position.stereo.min_correlation", {}, correlates, kCentres},
+    {"dodger.position.stereo.min_share_of_best", {}, correlates, kCentres},
+    {"dodger.association.first_radius_m", {}, gates_by_metres, kGates},
+    {"dodger.association.first_speed_mps", {}, gates_by_metres, kGates},
+    {"dodger.association.radius_m", {}, gates_by_metres, kGates},
+    {"dodger.window.camera_lag_us", {}, may_measure_stereo, kMono},
+    {"sensors.range", {}, monitors, kNoMonitor},
+    {"dodger.landing", {}, monitors, kNoMonitor},
+    {"dodger.range_sensor", {}, monitors, kNoMonitor},
+    {"dodger.height_monitor", {"dodger.height_monitor.enabled"}, monitors, kNoMonitor},
+    {"dodger.position.known_size_m", {}, may_measure_mono, kStereo},
+    {"dodger.position.side_sigma_px", {}, may_measure_mono, kStereo},
+    {"dodger.position.stereo", {}, may_measure_stereo, kMono},
+    {"delays.lower_camera_us", {}, stereo, kMono},
+    {"vehicle_overrides.lower_camera_turn_deg", {}, stereo, kMono},
+    {"sensors.render.flicker_depth",
+     {},
      [](const Scenario& s) { return s.sensors.render.flicker.flicker_hz > 0; },
      "sensors.render.flicker_hz is 0"},
-    {"sensors.events.illuminance_lux", "",
+    {"sensors.events.illuminance_lux",
+     {},
      [](const Scenario& s) {
        const EventCameraSpec& camera = s.sensors.events;
        return camera.photoreceptor_hz > 0 || camera.shot_noise_on_hz > 0 ||
               camera.shot_noise_off_hz > 0;
      },
      "the camera has neither photoreceptor_hz nor shot noise"},
-    {"sensors.events.hot_pixel_hz", "",
+    {"sensors.events.hot_pixel_hz",
+     {},
      [](const Scenario& s) { return s.sensors.events.hot_pixel_fraction > 0; },
      "sensors.events.hot_pixel_fraction is 0"},
-    {"sensors.events.hot_pixel_sigma", "",
+    {"sensors.events.hot_pixel_sigma",
+     {},
      [](const Scenario& s) {
        return s.sensors.events.hot_pixel_fraction > 0 && s.sensors.events.hot_pixel_hz > 0;
      },
      "there is no hot pixel"},
-    {"sensors.events.photoreceptor_dark_hz", "",
+    {"sensors.events.photoreceptor_dark_hz",
+     {},
      [](const Scenario& s) { return s.sensors.events.photoreceptor_hz > 0; },
      "sensors.events.photoreceptor_hz is 0"},
-    {"sensors.state_estimate.height_drift_start_s", "",
+    {"sensors.state_estimate.height_drift_start_s",
+     {},
      [](const Scenario& s) { return s.sensors.state_estimate.height_drift_mps != 0; },
      "sensors.state_estimate.height_drift_mps is 0"},
-    {"mission.waypoint_radius_m", "",
+    {"mission.waypoint_radius_m",
+     {},
      [](const Scenario& s) { return s.mission.type == "waypoints"; },
      "mission.type is not waypoints"},
-    {"throw.interval_s", "",
+    {"throw.interval_s",
+     {},
      [](const Scenario& s) { return !s.throw_spec || s.throw_spec->count > 1; },
      "throw.count is 1"},
-    {"after_s", "", [](const Scenario& s) { return s.anyone_throws(); },
+    {"after_s",
+     {},
+     [](const Scenario& s) { return s.anyone_throws(); },
      "nobody throws, and duration_s is the length of a flight"},
-    {"duration_s", "", [](const Scenario& s) { return !s.anyone_throws(); },
+    {"duration_s",
+     {},
+     [](const Scenario& s) { return !s.anyone_throws(); },
      "after_s ends a flight with a throw"},
 };
 
@@ -119,7 +149,8 @@ std::vector<std::string> given(const IdleRule& rule, const Scenario& scenario) {
   std::vector<std::string> keys;
   for (const auto& [key, place] : scenario.places) {
     const bool ruled = key == rule.key || key.starts_with(rule.key + ".");
-    if (ruled && !is_group(scenario.places, key) && key != rule.except) keys.push_back(key);
+    if (ruled && !is_group(scenario.places, key) && !contains(rule.except, key))
+      keys.push_back(key);
   }
   return keys;
 }

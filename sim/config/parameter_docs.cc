@@ -128,10 +128,15 @@ std::string explain(const std::vector<ParameterDoc>& docs, const std::string& ke
     }
   }
   if (!text.empty()) return text;
-  std::vector<std::string> names;
+  std::vector<std::string> names, with_word;
   for (const ParameterDoc& doc : docs) {
     names.push_back(doc.path);
     names.push_back(last_part(doc.path));
+    if (!name_with(key, {last_part(doc.path)}).empty()) with_word.push_back(doc.path);
+  }
+  if (!with_word.empty()) {
+    throw ScenarioError("There is no key " + key + " in a scenario, but " +
+                        joined(with_word, {}, " and ") + ".");
   }
   throw ScenarioError("There is no key " + key + " in a scenario" +
                       did_you_mean(closest_name(key, names)));

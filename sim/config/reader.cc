@@ -353,10 +353,12 @@ bool Reader::read_model(const YamlNode& node, const std::string& name, const cha
         std::filesystem::path(context_.models_dir) / folder / (node.text + ".xml");
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) {
-      const std::string near = closest_name(node.text, models_in(file.parent_path()));
+      const std::vector<std::string> models = models_in(file.parent_path());
+      const std::string near = closest_name(node.text, models);
       return refuse(node, name,
                     "there is no model file " + file.string() +
-                        (near.empty() ? "" : " (did you mean " + near + "?)"));
+                        (near.empty() ? " (there are " + joined(models) + ")"
+                                      : " (did you mean " + near + "?)"));
     }
   }
   value = node.text;

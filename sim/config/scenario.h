@@ -99,8 +99,9 @@ struct MissionSpec {
       "Cruise speed towards the goal or a waypoint (1.5 in the paper), at most "
       "dodger.velocity_limit.max_speed_mps. The vehicle brakes within dodger.attractive.e_0_m "
       "of its goal: with less than speed_mps^2/25 (0.36 m for 3 m/s, 1 m for 5 m/s) it swings "
-      "through its goal forever. The default of 0.2 m is enough for 2 m/s of the nominal vehicle; "
-      "one whose rotors hardly lift it needs more.");
+      "through its goal forever. With the default of 0.2 m the nominal vehicle is at rest a second "
+      "after it has arrived at 1.5 m/s; at 2 m/s it rocks about its goal for three or four, tilted "
+      "by up to 65 degrees; one whose rotors hardly lift it needs more.");
   }
 };
 
@@ -134,7 +135,9 @@ struct ThrowSpec {
       "arrival. Nothing of the room may stand between launch and vehicle, or the throw is an "
       "error, not a miss.");
     v("bearing_deg", bearing_deg, -180, 180,
-      "Where the throw comes from, seen from the vehicle: 0 ahead, positive to the left.");
+      "Where the throw comes from, seen from above: 0 ahead, along the vehicle's x axis as it lies "
+      "when the object arrives, of which tilting to the side and forwards at once turns the "
+      "direction; positive to the left.");
     v("aim_offset_m", aim_offset_m, -2, 2,
       "Offset of the aim point from the vehicle's centre across the line of the throw, [left, up] "
       "for a viewer at the vehicle who looks at the thrower; a single distribution is drawn for "

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/base/random.h"
+#include "sim/events/stream_name.h"
 
 namespace dodgesim {
 

@@ -5,6 +5,7 @@
 
 #include "sim/base/normal_quantile.h"
 #include "sim/events/logarithm.h"
+#include "sim/events/stream_name.h"
 
 namespace dodgesim {
 
@@ -45,10 +46,6 @@ std::vector<PixelRate> rates_of_hot_pixels(const EventCameraSpec& spec, std::siz
 }
 
 }  // namespace
-
-std::string stream_name(std::string_view camera, const char* what) {
-  return std::string(camera) + "/" + what;
-}
 
 // The inverse of the distribution of that time, an exponential that ends with the period.
 double since_reset_s(double u, double leak_period_s, double noise_hz) {

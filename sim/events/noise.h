@@ -19,9 +19,6 @@
 
 namespace dodgesim {
 
-// Of the random stream of one thing in one camera.
-std::string stream_name(std::string_view camera, const char* what);
-
 struct NoiseEvent {
   TimeUs t_us = 0;
   std::uint32_t pixel = 0;  // y * width + x

@@ -5,6 +5,7 @@
 #include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/input_file.h"
+#include "sim/base/joined.h"
 #include "sim/base/numbers.h"
 
 namespace dodgesim {
@@ -123,9 +124,7 @@ const std::string& CsvTable::one_of(std::size_t row, const std::string& column,
                                     std::initializer_list<std::string_view> words) const {
   const std::string& text = at(row, column);
   if (contains(words, text)) return text;
-  std::string list;
-  for (const std::string_view word : words) list.append(list.empty() ? "" : " or ").append(word);
-  refuse(row, column, list);
+  refuse(row, column, joined(words, {}, " or "));
 }
 
 void CsvTable::refuse(std::size_t row, const std::string& column, const std::string& what) const {

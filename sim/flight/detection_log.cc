@@ -1,14 +1,8 @@
 #include "sim/flight/detection_log.h"
 
-#include <array>
+#include "sim/base/vector3.h"
 
 namespace dodgesim {
-
-namespace {
-
-std::array<double, 3> to_array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-}  // namespace
 
 DetectionLogger::DetectionLogger(const World& world, TimeUs output_delay_us)
     : world_(world), output_delay_us_(output_delay_us), found_(output_delay_us) {
@@ -64,7 +58,7 @@ void DetectionLogger::add(const Found& found) {
   const DetectionRow& row = found.row;
   log_.rows.push_back(row);
   if (!found.true_object) return;
-  const DetectionLog::First first{row.output_us, row.t_us, found.distance_m};
+  const DetectionLog::First first{row.output_us, row.t_us, found.distance_m, *row.object};
   if (!log_.first) log_.first = first;
   auto& of_object = log_.first_of_object[static_cast<std::size_t>(*row.object)];
   if (!of_object) of_object = first;

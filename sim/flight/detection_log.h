@@ -23,6 +23,7 @@ struct DetectionLog {
     TimeUs output_us = 0;
     TimeUs t_us = 0;        // the instant it speaks of
     double distance_m = 0;  // true distance object to camera then
+    int object = 0;
   };
   std::vector<DetectionRow> rows;                     // in the order of their outputs
   std::optional<First> first;                         // of any object

@@ -25,7 +25,7 @@ Encounter encounter(const FlightRecord& none) {
 
 using Commands = std::span<const FlightLog::Command>;
 
-// The commands from the first evasive one on.
+// The commands from the first evasive one at from_us or later on.
 Commands answer(const FlightLog& log, TimeUs from_us) {
   const Commands all = log.commands;
   const auto first = std::ranges::find_if(all, [&](const FlightLog::Command& command) {
@@ -122,24 +122,13 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
   return evidence;
 }
 
-// The object that was detected first.
-std::optional<std::size_t> first_detected(const FlightLog& log) {
-  std::optional<std::size_t> first;
-  const auto output_us = [&](std::size_t i) { return log.objects[i].detections.front().output_us; };
-  for (std::size_t i = 0; i < log.objects.size(); ++i) {
-    if (log.objects[i].detections.empty()) continue;
-    if (!first || output_us(i) < output_us(*first)) first = i;
-  }
-  return first;
-}
-
-// When the object that was detected came into view; if none was, any.
-std::optional<TimeUs> first_in_view_us(const FlightLog& log, std::optional<std::size_t> detected) {
-  if (detected && log.objects[*detected].in_view_us) {
-    return log.objects[*detected].in_view_us;
-  }
+// When the object that was detected first came into view; if none was, any.
+std::optional<TimeUs> first_in_view_us(const FlightRecord& flown) {
+  const std::vector<FlightLog::Object>& objects = flown.log.objects;
+  const std::optional<DetectionLog::First>& detected = flown.detections.first;
+  if (detected) return objects[static_cast<std::size_t>(detected->object)].in_view_us;
   std::optional<TimeUs> first_us;
-  for (const FlightLog::Object& object : log.objects) {
+  for (const FlightLog::Object& object : objects) {
     if (!object.in_view_us) continue;
     first_us = std::min(*object.in_view_us, first_us.value_or(*object.in_view_us));
   }
@@ -150,18 +139,16 @@ std::optional<TimeUs> first_in_view_us(const FlightLog& log, std::optional<std::
 
 void explain_throw(const FlightPlan& plan, const FlightRecord* none, const FlightRecord& flown,
                    ThrowResult& result) {
-  const std::optional<std::size_t> detected = first_detected(flown.log);
-  result.first_in_view_us = first_in_view_us(flown.log, detected);
+  const std::optional<DetectionLog::First>& detected = flown.detections.first;
+  result.first_in_view_us = first_in_view_us(flown);
   const std::optional<TimeUs> contact_us =
       result.none.hit_us ? result.none.hit_us : result.none.closest_us;
-  if (contact_us && result.first_detection_us && none && detected &&
-      none->verdict.nearest_object == static_cast<int>(*detected)) {
-    result.time_to_contact_us = *contact_us - *result.first_detection_us;
+  if (contact_us && none && detected && none->verdict.nearest_object == detected->object) {
+    result.time_to_contact_us = *contact_us - detected->output_us;
   }
   result.false_alarm =
       result.first_command_us && (plan.launches.empty() || perceives(plan.pilot)) &&
-      (!result.first_detection_us ||
-       *result.first_command_us - flown.command_delay_us < *result.first_detection_us);
+      (!detected || *result.first_command_us - flown.command_delay_us < detected->output_us);
   if (plan.pilot == kNoPilot) return;
   const CollisionEvidence evidence = evidence_of(plan, none, flown);
   const EscapeTimes times = escape_times(flown.agility, evidence);

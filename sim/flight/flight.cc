@@ -117,8 +117,8 @@ std::unique_ptr<EventRig> Flight::make_rig() const {
 }
 
 int Flight::cameras() const {
-  const auto there = static_cast<int>(world_.vehicle().X_BC.size());
-  return scenario_.dodger.position.depth == "stereo" ? there : 1;
+  return static_cast<int>(
+      std::min(scenario_.dodger.position.cameras(), world_.vehicle().X_BC.size()));
 }
 
 FlightLogger::Setup Flight::flight_logger_setup() const {

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "sim/base/vector3.h"
+
 namespace dodgesim {
 
 namespace {
 
 constexpr TimeUs kPeriodUs = 20000;
 constexpr TimeUs kMostSamples = 256;  // longer flights are sampled more seldom
-
-Eigen::Vector3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
@@ -78,7 +78,7 @@ void FlightLogger::add_detection(const DetectionRow& row, bool true_object) {
   if (true_object) {
     FlightLog::Object& object = log_.objects.at(static_cast<std::size_t>(*row.object));
     if (!object.known_us) object.known_us = row.output_us;
-    object.detections.push_back({row.output_us, vector(row.p_W) - vector(*row.true_p_W)});
+    object.detections.push_back({row.output_us, to_vector(row.p_W) - to_vector(*row.true_p_W)});
   }
   std::vector<Trajectory::Detection>& shown = log_.trajectory.detections;
   const auto recent = [&](const Trajectory::Detection& d) {
@@ -86,7 +86,7 @@ void FlightLogger::add_detection(const DetectionRow& row, bool true_object) {
            d.output_us > row.output_us - log_.trajectory.period_us / 2;
   };
   if (std::any_of(shown.rbegin(), shown.rend(), recent)) return;
-  shown.push_back({row.output_us, vector(row.p_W), true_object});
+  shown.push_back({row.output_us, to_vector(row.p_W), true_object});
 }
 
 void FlightLogger::add_told(int object, TimeUs output_us) {

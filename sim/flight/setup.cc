@@ -1,5 +1,7 @@
 #include "sim/flight/setup.h"
 
+#include "sim/config/pilot.h"
+
 namespace dodgesim {
 
 WorldSpec world_spec(const Scenario& scenario, const std::vector<FlightPlan::Launch>& launches) {
@@ -14,6 +16,10 @@ WorldSpec world_spec(const Scenario& scenario, const std::vector<FlightPlan::Lau
 
 Intrinsics intrinsics(const CameraSpec& camera) {
   return {camera.width, camera.height, focal_length_px(camera.width, camera.horizontal_fov_deg)};
+}
+
+int cameras_in_use(const Scenario& scenario) {
+  return perceives(scenario.pilot) ? static_cast<int>(scenario.dodger.position.cameras()) : 0;
 }
 
 std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,

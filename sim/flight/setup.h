@@ -18,6 +18,9 @@ WorldSpec world_spec(const Scenario& scenario, const std::vector<FlightPlan::Lau
 // The event cameras' geometry.
 Intrinsics intrinsics(const CameraSpec& camera);
 
+// Of the vehicle's cameras the pilot looks through the first so many; through none if it is blind.
+int cameras_in_use(const Scenario& scenario);
+
 // The cameras as the pilot is told of them, without lower_camera_turn_deg.
 std::vector<dodge::CameraModel> camera_models(const Scenario& scenario,
                                               const VehicleParameters& vehicle);

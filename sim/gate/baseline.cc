@@ -7,6 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/input_file.h"
+#include "sim/campaign/manifest.h"
 #include "sim/campaign/result_files.h"
 #include "sim/files/directory.h"
 #include "sim/files/json.h"
@@ -19,15 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kCopied[] = {kThrowsFile, kObjectsFile, kScenarioFile, kTableFile};
-
-Json read_manifest(const fs::path& directory) {
-  const fs::path path = directory / kManifestFile;
-  try {
-    return parse_json(read_file(path));
-  } catch (const std::invalid_argument& error) {
-    throw IoError(path.string() + " is no manifest of a campaign: " + error.what() + ".");
-  }
-}
 
 const Json& value_at(const Json& manifest, const std::string& group, const std::string& key) {
   if (manifest.is_object() && manifest.contains(group) && manifest[group].is_object() &&

@@ -7,12 +7,14 @@
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
 #include "sim/observers/stage_panels.h"
+#include "sim/world/vehicle_parameters.h"
 
 namespace dodgesim {
 
 namespace {
 
 constexpr int kSceneWidth = 640, kSceneHeight = 480;
+constexpr int kEyeHeight = kSceneHeight / 2;
 constexpr double kSceneDistanceM = 4.2;
 constexpr TimeUs kTrailEveryUs = 4000;
 constexpr TimeUs kLongestShownUs = 4000;  // events that no others follow
@@ -30,17 +32,19 @@ void EventPicture::add(std::span<const Event> events) {
 
 void EventPicture::clear() { image_.setTo(kNoEventColour); }
 
-Film::Film(const std::string& path, const Intrinsics& intrinsics, double slow)
+Film::Film(const std::string& path, const Intrinsics& intrinsics, int cameras, double slow)
     : picture_every_us_(std::lround(static_cast<double>(kShownEveryUs) / slow / kTickUs) * kTickUs),
       chase_camera_(kSceneDistanceM),
       picture_(kSceneHeight,
-               kSceneWidth + intrinsics.width * (kSceneHeight / 2) / intrinsics.height,
+               kSceneWidth + (cameras > 0 ? intrinsics.width * kEyeHeight / intrinsics.height : 0),
                cv::Vec3b(0, 0, 0)),
       // Exactly `slow` times slower, whatever became of the interval in whole ticks.
       video_(path, picture_.cols, picture_.rows,
              1e6 / (slow * static_cast<double>(picture_every_us_))) {
   // One by one: copies would share their pixels.
-  for (int i = 0; i < 2; ++i) eyes_.push_back({EventPicture(intrinsics.width, intrinsics.height)});
+  for (int i = 0; i < cameras; ++i) {
+    eyes_.push_back({EventPicture(intrinsics.width, intrinsics.height)});
+  }
 }
 
 void Film::on_tick(const World& world) {
@@ -75,12 +79,10 @@ void Film::compose(const Snapshot& snapshot) {
   scene_->draw(snapshot, chase_camera_.follow(snapshot.vehicle), trail_.dots(), scene.data);
   cv::cvtColor(scene, scene, cv::COLOR_RGB2BGR);
   scene.copyTo(picture_(cv::Rect(0, 0, kSceneWidth, kSceneHeight)));
-  const int width = picture_.cols - kSceneWidth, height = kSceneHeight / 2;
-  for (int i = 0; i < 2; ++i) {
-    cv::Mat3b eye;
-    cv::resize(eyes_[static_cast<std::size_t>(i)].picture.image(), eye, {width, height}, 0, 0,
-               cv::INTER_NEAREST);
-    eye.copyTo(picture_(cv::Rect(kSceneWidth, i * height, width, height)));
+  cv::Rect place(kSceneWidth, 0, picture_.cols - kSceneWidth, kEyeHeight);
+  for (const Eye& eye : eyes_) {
+    cv::resize(eye.picture.image(), picture_(place), place.size(), 0, 0, cv::INTER_NEAREST);
+    place.y += kEyeHeight;
   }
   caption(snapshot);
 }
@@ -94,11 +96,15 @@ void Film::caption(const Snapshot& snapshot) {
     write_caption(picture_, formatted("%s: centre at %.2f m", which.c_str(), distance_m), 10,
                   40 + 20 * static_cast<int>(i));
   }
-  write_caption(picture_,
-                std::to_string(detections_) + " detections" + (evading_ ? ", evading" : ""), 10,
-                kSceneHeight - 12);
-  write_caption(picture_, "events, top camera", kSceneWidth + 8, 18);
-  write_caption(picture_, "events, bottom camera", kSceneWidth + 8, kSceneHeight / 2 + 18);
+  std::string doing = evading_ ? "evading" : "";
+  if (!eyes_.empty()) {
+    doing = std::to_string(detections_) + " detections" + (evading_ ? ", evading" : "");
+  }
+  write_caption(picture_, doing, 10, kSceneHeight - 12);
+  for (std::size_t i = 0; i < eyes_.size(); ++i) {
+    write_caption(picture_, formatted("events, %s camera", kCameraNames.at(i)), kSceneWidth + 8,
+                  static_cast<int>(i) * kEyeHeight + 18);
+  }
 }
 
 void Film::finish(const std::string& verdict) {

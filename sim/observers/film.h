@@ -1,4 +1,4 @@
-// A throw as people look at it: a video of the scene with both event streams beside it.
+// A throw as people look at it: a video of the scene with the event streams beside it.
 #pragma once
 
 #include <memory>
@@ -27,8 +27,8 @@ class EventPicture {
   cv::Mat3b image_;
 };
 
-// Writes the video: outside view on the left, the event pictures of the two cameras on the right. A
-// picture between two packets of events shows those of the first.
+// Writes the video: outside view on the left, the event pictures of the cameras, if any are in use,
+// on the right. A picture between two packets of events shows those of the first.
 class Film : public FlightObserver {
  public:
   // How many times slower than real a flight may be shown: up to a picture a tick.
@@ -36,8 +36,8 @@ class Film : public FlightObserver {
 
   // MPEG-4 with H.264, which browsers open, of about 25 pictures a second, `slow` (1 to kSlowest)
   // times slower than real. Throws IoError as Mp4File does. The file gets its name, and takes the
-  // place of another, in finish().
-  Film(const std::string& path, const Intrinsics& intrinsics, double slow);
+  // place of another, in finish(). `cameras` are in use: none to two.
+  Film(const std::string& path, const Intrinsics& intrinsics, int cameras, double slow);
 
   void on_tick(const World& world) override;
   void on_events(int camera, const Packet& packet) override;

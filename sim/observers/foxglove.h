@@ -1,6 +1,6 @@
 // Messages as Foxglove and Lichtblick know them: their JSON, and the JSON schemas that say so
-// (https://docs.foxglove.dev/docs/visualization/message-schemas). Quaternions and lengths are in
-// the frame that a message names; distances in metres.
+// (https://docs.foxglove.dev/docs/visualization/message-schemas). Vectors and quaternions are
+// in the frame that a message names; lengths in metres.
 #pragma once
 
 #include <Eigen/Dense>

@@ -77,7 +77,8 @@ Json approach() {
 
 }  // namespace
 
-McapRecorder::McapRecorder(const std::string& path, const Intrinsics& intrinsics, TimeUs pilot_us)
+McapRecorder::McapRecorder(const std::string& path, const Intrinsics& intrinsics, int cameras,
+                           TimeUs pilot_us)
     : writer_(path), intrinsics_(intrinsics), detections_(pilot_us) {
   add_topic("/tf", schema::frame_transforms());
   for (const char* part : {"room", "vehicle", "objects", "paths", "detections", "command"}) {
@@ -85,7 +86,7 @@ McapRecorder::McapRecorder(const std::string& path, const Intrinsics& intrinsics
   }
   add_topic("/vehicle/truth", schema::pose_in_frame());
   add_topic("/vehicle/estimate", schema::pose_in_frame());
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(cameras); ++i) {
     add_topic(camera_topic(i, "events"), schema::compressed_image());
     add_topic(camera_topic(i, "calibration"), schema::camera_calibration());
     eyes_.emplace_back(intrinsics.width, intrinsics.height);
@@ -155,11 +156,10 @@ void McapRecorder::on_tick(const World& world) {
 }
 
 void McapRecorder::show_launches(const World& world) {
+  if (now_.launched == shown_) return;
   std::vector<Json> entities;
-  bool changed = false;
   for (std::size_t i = 0; i < now_.objects.size(); ++i) {
     if (!now_.launched[i]) continue;
-    changed = changed || !shown_[i];
     entities.push_back(foxglove::entity(now_.t_us, object_frame(i), object_frame(i)));
     foxglove::add_body(world.model(), world.object_body(static_cast<int>(i)), kObject,
                        entities.back());
@@ -168,10 +168,10 @@ void McapRecorder::show_launches(const World& world) {
           formatted("Object %zu is thrown, %.2f m away.", i,
                     (now_.objects[i].p_W - now_.vehicle.p_W).norm()));
     }
-    shown_[i] = true;
   }
+  shown_ = now_.launched;
   // All of them, because a reader that jumps in time takes the last message of a topic only.
-  if (changed) write("/scene/objects", now_.t_us, foxglove::scene_update(entities));
+  write("/scene/objects", now_.t_us, foxglove::scene_update(entities));
 }
 
 void McapRecorder::write_transforms() {

@@ -29,8 +29,9 @@ namespace dodgesim {
 class McapRecorder : public FlightObserver {
  public:
   // All functions throw IoError when the file cannot be written.
-  // pilot_us: how long after its cycle began the pilot gives out what it has detected.
-  McapRecorder(const std::string& path, const Intrinsics& intrinsics, TimeUs pilot_us);
+  // `cameras` are in use: none to two. pilot_us: how long after its cycle began the pilot gives out
+  // what it has detected.
+  McapRecorder(const std::string& path, const Intrinsics& intrinsics, int cameras, TimeUs pilot_us);
 
   void on_tick(const World& world) override;
   void on_imu(const ImuReading& reading) override;

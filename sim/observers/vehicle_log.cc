@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "sim/base/error.h"
+#include "sim/base/vector3.h"
 #include "sim/config/camera_calibration.h"
 #include "sim/config/pilot.h"
 #include "sim/files/csv.h"
@@ -32,12 +33,8 @@ struct TrueBody {
 };
 
 TrueBody true_body(const BodyState& body) {
-  const Eigen::Vector3d &p = body.p_W, &v = body.v_W, &w = body.w_W;
   const Eigen::Quaterniond& q = body.q_W;
-  return {{p.x(), p.y(), p.z()},
-          {q.w(), q.x(), q.y(), q.z()},
-          {v.x(), v.y(), v.z()},
-          {w.x(), w.y(), w.z()}};
+  return {to_array(body.p_W), {q.w(), q.x(), q.y(), q.z()}, to_array(body.v_W), to_array(body.w_W)};
 }
 
 }  // namespace
@@ -78,8 +75,7 @@ void VehicleLog::on_tick(const World& world) {
 
 void VehicleLog::open_cameras(const VehicleParameters& vehicle) {
   const dodge::Config config = core_config(scenario_, vehicle);
-  const std::size_t count = config.position.depth == "stereo" ? 2 : 1;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < config.position.cameras(); ++i) {
     const dodge::CameraModel& camera = config.cameras.at(i);
     const std::string path = (directory_ / kCameraNames.at(i)).string();
     cameras_.push_back(

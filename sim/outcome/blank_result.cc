@@ -1,5 +1,6 @@
 #include "sim/outcome/blank_result.h"
 
+#include "sim/base/vector3.h"
 #include "sim/config/resolve_throw.h"
 
 namespace dodgesim {
@@ -16,7 +17,7 @@ ObjectRow as_drawn(const Throw& toss, int throw_index, int object) {
   row.distance_m = toss.distance_m;
   row.bearing_deg = toss.bearing_deg;
   row.aim_offset_m = {toss.aim_offset_m.x(), toss.aim_offset_m.y()};
-  row.spin_radps = {toss.spin_radps.x(), toss.spin_radps.y(), toss.spin_radps.z()};
+  row.spin_radps = to_array(toss.spin_radps);
   row.launch_height_m = toss.launch_height_m;
   row.launch_us = toss.launch_us;
   return row;

@@ -1,5 +1,7 @@
 #include "sim/outcome/collision_cause.h"
 
+#include <iterator>
+
 namespace dodgesim {
 
 namespace {
@@ -40,39 +42,14 @@ CollisionCause cause_of_answer(const Agility& agility, const CollisionEvidence& 
 }  // namespace
 
 std::string to_text(CollisionCause cause) {
-  switch (cause) {
-    case CollisionCause::kNotSeen:
-      return "not seen";
-    case CollisionCause::kSeenFarOnly:
-      return "seen far only";
-    case CollisionCause::kNotDetected:
-      return "not detected";
-    case CollisionCause::kSecondObject:
-      return "second object";
-    case CollisionCause::kNotEvaded:
-      return "not evaded";
-    case CollisionCause::kEvadedLate:
-      return "evaded late";
-    case CollisionCause::kSeenLate:
-      return "seen late";
-    case CollisionCause::kWrongPosition:
-      return "wrong position";
-    case CollisionCause::kWrongDirection:
-      return "wrong direction";
-    case CollisionCause::kDirectionTurned:
-      return "direction turned";
-    case CollisionCause::kCommandedTooLittle:
-      return "commanded too little";
-    case CollisionCause::kNotEnoughThrust:
-      return "not enough thrust";
-    case CollisionCause::kLanding:
-      return "landing";
-    case CollisionCause::kFledIntoTheRoom:
-      return "fled into the room";
-    case CollisionCause::kFlewIntoTheRoom:
-      break;
-  }
-  return "flew into the room";
+  constexpr const char* kTexts[] = {
+      "not seen",         "seen far only",        "not detected",
+      "second object",    "not evaded",           "evaded late",
+      "seen late",        "wrong position",       "wrong direction",
+      "direction turned", "commanded too little", "not enough thrust",
+      "landing",          "fled into the room",   "flew into the room"};
+  static_assert(std::size(kTexts) == kCollisionCauses.size());
+  return kTexts[static_cast<std::size_t>(cause)];
 }
 
 EscapeTimes escape_times(const Agility& agility, const CollisionEvidence& evidence) {

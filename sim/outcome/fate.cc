@@ -1,5 +1,7 @@
 #include "sim/outcome/fate.h"
 
+#include <iterator>
+
 namespace dodgesim {
 
 Fate fate_of(const ThrowResult& result) {
@@ -14,29 +16,11 @@ Fate fate_of(const ThrowResult& result) {
 }
 
 std::string to_text(Fate fate) {
-  switch (fate) {
-    case Fate::kNotFlown:
-      return "not flown";
-    case Fate::kFailed:
-      return "failed";
-    case Fate::kHit:
-      return "hit";
-    case Fate::kCrashed:
-      return "crashed";
-    case Fate::kLanded:
-      return "landed";
-    case Fate::kQuiet:
-      return "quiet";
-    case Fate::kFalseAlarm:
-      return "false alarm";
-    case Fate::kNotJudged:
-      return "not judged";
-    case Fate::kDodged:
-      return "dodged";
-    case Fate::kWouldHaveMissed:
-      break;
-  }
-  return "would have missed";
+  constexpr const char* kTexts[] = {
+      "not flown", "failed",      "hit",        "crashed", "landed",
+      "quiet",     "false alarm", "not judged", "dodged",  "would have missed"};
+  static_assert(std::size(kTexts) == kFates.size());
+  return kTexts[static_cast<std::size_t>(fate)];
 }
 
 }  // namespace dodgesim

@@ -22,7 +22,7 @@ bool on_outline(const ObjectView& view, const Intrinsics& intrinsics, double x, 
 }
 
 Miss miss_of(const ObservedCycle& cycle, const dodge::DepthConfig& limits, int min_events) {
-  const bool stereo = limits.depth == "stereo";
+  const bool stereo = limits.stereo_depth();
   if (cycle.location) {
     const ObservedCycle::Location& found = *cycle.location;
     if (found.range_m < limits.min_range_m || found.range_m > limits.max_range_m)
@@ -40,23 +40,14 @@ Miss miss_of(const ObservedCycle& cycle, const dodge::DepthConfig& limits, int m
 }  // namespace
 
 std::string miss_text(Miss miss) {
-  switch (miss) {
-    case Miss::kFewEvents:
-      return "too few events";
-    case Miss::kNoCluster:
-      return "no cluster";
-    case Miss::kOneCamera:
-      return "cluster in one camera only";
-    case Miss::kNoMatch:
-      return "no stereo match";
-    case Miss::kRange:
-      return "located beyond the limits of distance";
-    case Miss::kSize:
-      return "located with a size beyond the limits";
-    case Miss::kElsewhere:
-      return "located, but at another instant or place";
-  }
-  return "";
+  constexpr const char* kTexts[] = {"too few events",
+                                    "no cluster",
+                                    "cluster in one camera only",
+                                    "no stereo match",
+                                    "located beyond the limits of distance",
+                                    "located with a size beyond the limits",
+                                    "located, but at another instant or place"};
+  return kTexts[static_cast<std::size_t>(miss)];
 }
 
 Miss miss_of(std::span<const ObservedCycle> cycles, const dodge::DepthConfig& limits,
@@ -101,7 +92,6 @@ void MissObserver::on_dodger_cycle(TimeUs now_us, const dodge::Dodger& dodger) {
   cycle.t_us = state->t_us;
   cycle.range_m = both.range_m();
   cycle.centre_in_view = both.centre_in_view;
-  cycle.whole_in_view = both.whole_in_view;
   for (std::size_t i = 0; i < rig_.X_BC.size(); ++i) {
     const int camera = static_cast<int>(i);
     const auto& window = truth_.window(camera);

@@ -19,7 +19,6 @@ struct ObservedCycle {
   TimeUs t_us = 0;
   double range_m = 0;
   bool centre_in_view = false;
-  bool whole_in_view = false;
   // By camera (mono: the first).
   std::array<int, 2> events{};    // of the window that the object made
   std::array<int, 2> clusters{};  // on its outline

@@ -1,7 +1,7 @@
 #include "sim/paper/miss_investigator.h"
 
 #include "sim/config/expand.h"
-#include "sim/flight/fly_throw.h"
+#include "sim/loop.h"
 
 namespace dodgesim {
 
@@ -20,8 +20,9 @@ Miss MissInvestigator::reason(int throw_index, const RangeBin& bin, TimeUs from_
 const std::vector<ObservedCycle>& MissInvestigator::cycles(int throw_index) {
   const auto known = flights_.find(throw_index);
   if (known != flights_.end()) return known->second;
-  MissObserver observer(case_of(campaign_.scenario, throw_index).scenario);
-  fly_throw(campaign_.scenario, throw_index, &observer);
+  const ThrowCase again = case_of(campaign_.scenario, throw_index);
+  MissObserver observer(again.scenario);
+  fly(again.scenario, plan_throw(again.scenario, again.stream), &observer);
   return flights_.emplace(throw_index, observer.cycles()).first->second;
 }
 

@@ -24,10 +24,10 @@ struct PaperSources {
   std::string models_dir, scenarios_dir;
 };
 
-// Reads the campaigns, times what is to be timed, and writes NAME.md and NAME.csv for each
-// experiment into `out`, and README.md with `command`, the line that made them. Returns the tables
-// for people. But for times, the same bytes for the same campaigns, program and command. Throws
-// IoError.
+// Reads the campaigns, times what is to be timed, and writes NAME.md, with `command`, the line that
+// made it, and NAME.csv for each experiment into `out`, and README.md, which lists them. Returns
+// the tables for people. But for times, the same bytes for the same campaigns, program and command.
+// Throws IoError; ScenarioError and std::invalid_argument for campaigns without a table.
 std::string write_paper_tables(const std::filesystem::path& out,
                                const std::vector<PaperExperiment>& experiments,
                                const PaperSources& sources, const std::string& command);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/vector3.h"
 #include "sim/flight/setup.h"
 #include "sim/world/world.h"
 
@@ -11,7 +12,7 @@ namespace dodgesim {
 CameraRig camera_rig(const Scenario& scenario) {
   const World world(world_spec(scenario, {}));
   CameraRig rig{intrinsics(scenario.sensors.camera), world.vehicle().X_BC};
-  rig.X_BC.resize(scenario.dodger.position.depth == "stereo" ? 2 : 1);
+  rig.X_BC.resize(scenario.dodger.position.cameras());
   return rig;
 }
 
@@ -44,9 +45,7 @@ ObjectView view_of(const CameraRig& rig, const Eigen::Isometry3d& X_WB, const Ei
   return view;
 }
 
-Eigen::Vector3d position_of(const DetectionRow& row) {
-  return {row.p_W[0], row.p_W[1], row.p_W[2]};
-}
+Eigen::Vector3d position_of(const DetectionRow& row) { return to_vector(row.p_W); }
 
 bool on_outline(const ObjectView& view, const Eigen::Vector3d& p_W) {
   const Eigen::Vector3d detected_C = view.X_WC.inverse() * p_W;

@@ -32,7 +32,7 @@ std::vector<std::string> row_of(const LoadedCampaign& campaign) {
     flown_s += seconds(result.duration_us);
   }
   return {scenario.pilot,
-          scenario.dodger.position.depth == "mono" ? "one" : "two",
+          scenario.dodger.position.stereo_depth() ? "two" : "one",
           scenario.room,
           scenario.mission.type,
           std::to_string(evaded.of),

@@ -3,13 +3,12 @@
 #include <array>
 
 #include "dodge/dodger.h"
+#include "sim/base/vector3.h"
 #include "sim/files/csv.h"
 
 namespace dodgesim {
 
 namespace {
-
-std::array<double, 3> xyz(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 struct CycleRow {
   TimeUs cycle_us = 0;  // its start
@@ -111,17 +110,17 @@ DetectionFiles::DetectionFiles(const std::filesystem::path& directory)
 int DetectionFiles::add(TimeUs now_us, const dodge::Pilot& pilot,
                         const dodge::VelocityCommand& command) {
   for (const dodge::Detection& d : pilot.detections()) {
-    detections_.write(csv_row(FoundRow{now_us, d.t_us, d.obstacle_id, xyz(d.centre_W), d.size_m,
-                                       d.depth_m, d.depth_sigma_m}));
+    detections_.write(csv_row(FoundRow{now_us, d.t_us, d.obstacle_id, to_array(d.centre_W),
+                                       d.size_m, d.depth_m, d.depth_sigma_m}));
   }
   for (const dodge::Obstacle& o : pilot.obstacles()) {
-    obstacles_.write(csv_row(
-        ObstacleRow{now_us, o.t_us, o.id, o.detections, xyz(o.p_WO), xyz(o.v_WO), o.size_m}));
+    obstacles_.write(csv_row(ObstacleRow{now_us, o.t_us, o.id, o.detections, to_array(o.p_WO),
+                                         to_array(o.v_WO), o.size_m}));
   }
   const int clusters = add_clusters(now_us, pilot);
   cycles_.write(csv_row(CycleRow{now_us, clusters, static_cast<int>(pilot.detections().size()),
                                  static_cast<int>(pilot.obstacles().size()), command.evading,
-                                 command.landing, xyz(command.v_W)}));
+                                 command.landing, to_array(command.v_W)}));
   return clusters;
 }
 

@@ -92,7 +92,7 @@ std::vector<Trial> trials_of(const Scenario& campaign) {
     trial.min_thrust_n = std::max(trial.min_thrust_n, scenario.motors.min_thrust_n);
     const bool seen = perceives(scenario.pilot);
     trial.seen |= seen;
-    trial.stereo |= seen && scenario.dodger.position.depth == "stereo";
+    trial.stereo |= seen && scenario.dodger.position.stereo_depth();
     trial.max_thrust_fraction =
         std::min(trial.max_thrust_fraction, scenario.controller.max_thrust_fraction);
     for (const ThrowSpec& spec : scenario.throw_specs()) {

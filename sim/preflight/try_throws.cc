@@ -97,6 +97,8 @@ TriedThrows try_throws(const Scenario& campaign) {
   if (!campaign.anyone_throws()) return tried;
   const int throws = throw_count(campaign);
   const std::int64_t stride = stride_through(throws);
+  std::string mistake;  // of the first throw that is impossible
+  int impossible = 0;
   Budget budget;
   for (; tried.solved < throws && budget.flown_s() < kMostSolvedS; ++tried.solved) {
     const ThrowCase thrown = case_of(campaign, static_cast<int>(tried.solved * stride % throws));
@@ -109,11 +111,17 @@ TriedThrows try_throws(const Scenario& campaign) {
     } catch (const Budget::Spent&) {
       break;
     } catch (const std::runtime_error& error) {
-      throw ScenarioError(
-          placed("In " + name_of(thrown) + ": " + error.what(), place_of(error.what(), campaign)));
+      if (++impossible > 1) continue;
+      mistake =
+          placed("In " + name_of(thrown) + ": " + error.what(), place_of(error.what(), campaign));
     }
   }
-  return tried;
+  if (impossible == 0) return tried;
+  if (tried.solved > 1) {
+    mistake +=
+        formatted(" Of %d throws that were tried %d cannot be flown.", tried.solved, impossible);
+  }
+  throw ScenarioError(mistake);
 }
 
 }  // namespace dodgesim

@@ -7,17 +7,20 @@
 
 namespace dodgesim {
 
-// Solves throws of the campaign and launches them at a vehicle without a pilot, as many as take
-// kMostSolvedS of simulated time in sum, and one at least unless that takes more than kMostTriedS;
-// every cell before any has a second.
-// Throws ScenarioError for one that is impossible: it starts behind a wall or inside something, or
-// the air stops it. After try_models() (try_models.h).
+// Of the simulated time of throws that are tried.
 inline constexpr double kMostSolvedS = 120;  // 2 s of computing
 inline constexpr double kMostTriedS = 480;
+
 struct TriedThrows {
   int solved = 0;
   std::string crash;  // a sentence on the first whose vehicle crashes before it is thrown
 };
+
+// Solves throws of the campaign and launches them at a vehicle without a pilot, as many as take
+// kMostSolvedS of simulated time in sum, and one at least unless that takes more than kMostTriedS;
+// every cell before any has a second.
+// Throws ScenarioError for the first one that is impossible, with how many are: it starts behind a
+// wall or inside something, or the air stops it. After try_models() (try_models.h).
 TriedThrows try_throws(const Scenario& campaign);
 
 }  // namespace dodgesim

@@ -6,9 +6,9 @@
 // Range  t_us,range_m: along -z of B
 //
 // Lines as in text_columns.h. Columns in any order, others are passed over; columns in brackets may
-// be missing as a group: then forces are 0, and a state's angular velocity is that by which it
-// turned until the next. The axes of an IMU's log are those of the sensor (see
-// camera_calibration.h).
+// be missing as a group: then forces are 0, and a state's angular velocity is between the means by
+// which it turned since the last and until the next. The axes of an IMU's log are those of the
+// sensor (see camera_calibration.h).
 #pragma once
 
 #include <string>
@@ -19,7 +19,8 @@
 namespace dodgesim {
 
 // Throw IoError for a file that cannot be read, ScenarioError for a cell that is no number, if
-// there is no row or time stands still; both in one sentence that names the file and the line.
+// there is no row (but of ranges, as when the ground was out of reach) or time stands still; both
+// in one sentence that names the file and the line.
 std::vector<ImuReading> read_imu_log(const std::string& path);
 std::vector<StateReading> read_state_log(const std::string& path);
 std::vector<RangeReading> read_range_log(const std::string& path);

@@ -33,14 +33,8 @@ Imu::Imu(const ImuSpec& spec, std::uint64_t seed, std::uint64_t throw_index, std
                      spec.accelerometer_initial_bias_mps2, spec.accelerometer_range_mps2, seed,
                      throw_index, std::string(name) + "/accelerometer") {}
 
-double Imu::seconds_since_last(TimeUs now_us) {
-  const double dt_s = last_us_ < 0 ? 0 : seconds(now_us - last_us_);
-  last_us_ = now_us;
-  return dt_s;
-}
-
 ImuReading Imu::sample(const Snapshot& truth) {
-  const double dt_s = seconds_since_last(truth.t_us);
+  const double dt_s = clock_.step_s(truth.t_us);
   const Eigen::Quaterniond q_BW = truth.vehicle.q_W.conjugate();
   const Eigen::Vector3d f_W = truth.vehicle_a_W + Eigen::Vector3d(0, 0, kGravityMps2);
   return {truth.t_us, gyro_.read(q_BW * truth.vehicle.w_W, dt_s),
@@ -48,8 +42,7 @@ ImuReading Imu::sample(const Snapshot& truth) {
 }
 
 Eigen::Vector3d Imu::sample_gyro(const Snapshot& truth) {
-  return gyro_.read(truth.vehicle.q_W.conjugate() * truth.vehicle.w_W,
-                    seconds_since_last(truth.t_us));
+  return gyro_.read(truth.vehicle.q_W.conjugate() * truth.vehicle.w_W, clock_.step_s(truth.t_us));
 }
 
 }  // namespace dodgesim

@@ -83,12 +83,9 @@ class Imu {
     GaussMarkov<3> bias;
   };
 
-  double seconds_since_last(TimeUs now_us);
-
   SampleClock clock_;
   Triad gyro_;
   Triad accelerometer_;
-  TimeUs last_us_ = -1;
 };
 
 }  // namespace dodgesim

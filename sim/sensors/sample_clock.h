@@ -24,8 +24,16 @@ class SampleClock {
 
   bool due(TimeUs t_us) const { return t_us % period_us_ == 0; }
 
+  // Since the last call; 0 at the first.
+  double step_s(TimeUs now_us) {
+    const double step_s = last_us_ < 0 ? 0 : seconds(now_us - last_us_);
+    last_us_ = now_us;
+    return step_s;
+  }
+
  private:
   TimeUs period_us_ = 0;
+  TimeUs last_us_ = -1;
 };
 
 }  // namespace dodgesim

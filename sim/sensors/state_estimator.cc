@@ -30,8 +30,7 @@ void StateEstimator::step_drift(TimeUs t_us, double dt_s) {
 }
 
 StateReading StateEstimator::sample(const Snapshot& truth) {
-  const double dt_s = last_us_ < 0 ? 0 : seconds(truth.t_us - last_us_);
-  last_us_ = truth.t_us;
+  const double dt_s = clock_.step_s(truth.t_us);
   step_drift(truth.t_us, dt_s);
   const Eigen::Quaterniond yaw_error = rotation(Eigen::Vector3d(0, 0, yaw_walk_.step(dt_s)[0]));
   const Eigen::Vector2d tilt = tilt_error_.step(dt_s);

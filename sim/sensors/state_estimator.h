@@ -93,7 +93,6 @@ class StateEstimator {
   RandomStream attitude_white_;
   RandomStream rate_white_;
   FrameDrift drift_;
-  TimeUs last_us_ = -1;
 };
 
 }  // namespace dodgesim

@@ -23,7 +23,7 @@ void check_confidence(double confidence);
 // Wilson score interval of a proportion (Wilson 1927), without continuity correction: its coverage
 // is close to the confidence on average over the true rates. [0, 1] when there were no trials.
 Interval wilson(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
-// The same for a quantile z of the normal distribution; trials > 0.
+// The same for a quantile z of the normal distribution; unchecked, trials > 0.
 Interval wilson_of_quantile(std::int64_t successes, std::int64_t trials, double z);
 // The same of a share in [0, 1] of trials that come in clusters of the given sizes (all > 0), each
 // of which may have succeeded or failed together: it is of (sum m)^2 / sum m^2 trials, the

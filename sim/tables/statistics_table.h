@@ -35,7 +35,7 @@ StatisticsTable of_sweep(const Part& part, StatisticsTable table);
 // Who is worth a column: not the oracle if it flew nowhere.
 std::vector<Role> shown_pilots(const StatisticsTable& table);
 
-// Rates with counts and intervals (those of dodged throws on request).
+// Rates with counts and intervals (those of dodged throws, too, unless asked not to).
 std::string rates_to_markdown(const StatisticsTable& table, bool with_dodged = true);
 
 // The rates; then samples as "median (10 % to 90 % quantile), count".

@@ -281,6 +281,9 @@ std::string head_of(const LoadedCampaign& campaign) {
         " Cells: dodged / would have hit (rate, 95 % Wilson interval); for the "
         "pilot none: would have hit / throws.";
   }
+  if (std::ranges::any_of(results, [](const ThrowResult& r) { return r.objects > 1; })) {
+    text += " Of several objects a throw, size, distance, speed and so on are those of the first.";
+  }
   text += "\n\n";
   const int planned = throw_count(campaign.scenario);
   if (static_cast<int>(results.size()) < planned && !campaign.ended_early()) {

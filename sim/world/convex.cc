@@ -211,6 +211,16 @@ double reach_m(const std::vector<Convex>& parts, const Eigen::Vector3d& directio
   return farthest_m;
 }
 
+std::vector<Convex> colliding_parts(const mjModel& model, int body, const std::string& label,
+                                    const std::function<bool(int geom)>& collides) {
+  std::vector<Convex> parts;
+  const int first = model.body_geomadr[body];
+  for (int geom = first; geom < first + model.body_geomnum[body]; ++geom) {
+    if (collides(geom)) parts.push_back(Convex::from_geom(model, geom, label));
+  }
+  return parts;
+}
+
 double radius_m(const std::vector<Convex>& parts) {
   double radius_m = 0;
   for (const Convex& part : parts) {

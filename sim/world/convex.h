@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -54,12 +55,16 @@ class Convex {
 // vector; 0 if none does.
 double reach_m(const std::vector<Convex>& parts, const Eigen::Vector3d& direction);
 
+// Of the geoms of a body that collide, in the body's frame. Throws as from_geom() does.
+std::vector<Convex> colliding_parts(const mjModel& model, int body, const std::string& label,
+                                    const std::function<bool(int geom)>& collides);
+
 // Radius [m] of a sphere about the frame's origin that encloses the parts, each by its own sphere;
 // 0 without parts.
 double radius_m(const std::vector<Convex>& parts);
 
 // Distance [m] between the surfaces, 0 if they touch. X_AB: pose of b's frame in a's frame. Exact
-// to about 1e-9 m for bodies with corners, 1e-6 m for cylinders and ellipsoids.
+// to about 1e-7 m for bodies with corners, 1e-6 m for cylinders and ellipsoids.
 double convex_gap_m(const Convex& a, const Convex& b, const Eigen::Isometry3d& X_AB);
 
 // The least between the parts of two bodies; `most_m` if they are at least that far apart.

@@ -30,6 +30,7 @@ struct ContactBits {
 };
 constexpr std::array<ContactBits, 3> kContactBits = {
     {{"the room", 1, 6}, {"the vehicle", 2, 5}, {"an object", 4, 7}}};
+constexpr std::size_t kObjects = 2;
 
 // Torque per thrust of a rotor: those of vehicles have a tenth of this or two.
 constexpr double kMostKappaM = 0.1;
@@ -102,7 +103,11 @@ void ModelReader::check_contact(int geom) const {
                                                                 : 2;
   for (std::size_t i = 0; i < kContactBits.size(); ++i) {
     const ContactBits& other = kContactBits[i];
-    if (i == own || (type & other.conaffinity) != 0 || (other.contype & affinity) != 0) continue;
+    if (i == own) {  // of the kinds there may be several objects only
+      if (i != kObjects || (type & affinity) != 0) continue;
+    } else if ((type & other.conaffinity) != 0 || (other.contype & affinity) != 0) {
+      continue;
+    }
     const ContactBits& usual = kContactBits[own];
     throw ScenarioError(
         file_ +
@@ -327,12 +332,8 @@ VehicleParameters ModelReader::vehicle(double mass_scale) const {
 }
 
 void ModelReader::check_reach(int body, double size_m) const {
-  std::vector<Convex> parts;
-  const int first = model_.body_geomadr[body];
-  for (int g = first; g < first + model_.body_geomnum[body]; ++g) {
-    if (!collides(model_, g)) continue;
-    parts.push_back(Convex::from_geom(model_, g, file_));
-  }
+  const std::vector<Convex> parts =
+      colliding_parts(model_, body, file_, [this](int geom) { return collides(model_, geom); });
   if (parts.empty()) return;
   const auto [reach_m, length_m] = extent_of(parts);
   if (reach_m <= kLeastReach * size_m || reach_m >= kMostReach * size_m) {

@@ -43,8 +43,8 @@ std::string complaint_about(const WorldSpec& spec, const std::vector<VehiclePlac
     for (const VehiclePlace& place : places) check_place(place, world, referee);
     for (int i = 0; i < world.object_count(); ++i) {
       BodyState state;
-      state.p_W = Eigen::Vector3d(0, 0, 100 + 3 * i);
-      world.launch(i, state);
+      state.p_W = Eigen::Vector3d(0, 0, 100);  // where a ceiling may be solid
+      world.launch(i, state, false);
     }
     for (int tick = 0; tick < kTicks; ++tick) world.step({});
   } catch (const std::bad_alloc&) {

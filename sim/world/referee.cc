@@ -48,15 +48,11 @@ Referee::Referee(const World& world)
 }
 
 Referee::Body Referee::read_body(const World& world, int body, const std::string& file) {
-  const mjModel& model = world.model();
   const std::string label = world.spec().path(file) + ": The body";
   Body out;
   out.id = body;
-  const int first = model.body_geomadr[body];
-  for (int g = first; g < first + model.body_geomnum[body]; ++g) {
-    if (!world.can_collide(g)) continue;
-    out.parts.push_back(Convex::from_geom(model, g, label));
-  }
+  out.parts = colliding_parts(world.model(), body, label,
+                              [&world](int geom) { return world.can_collide(geom); });
   out.radius_m = radius_m(out.parts);
   if (out.parts.empty()) throw ScenarioError(label + " has no geom that can collide.");
   return out;

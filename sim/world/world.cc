@@ -71,10 +71,10 @@ void World::reset(const Eigen::Vector3d& p_WB, double yaw_rad, const Eigen::Vect
   fill_snapshot();
 }
 
-void World::launch(int i, const BodyState& state) {
+void World::launch(int i, const BodyState& state, bool touches) {
   const auto index = static_cast<std::size_t>(i);
   set_state(objects_free_.at(index), state);
-  set_collisions(i, true);
+  set_collisions(i, touches);
   snapshot_.launched[index] = true;
   object_a_W_[index] = Eigen::Vector3d(0, 0, -kGravityMps2);
   update_positions();

@@ -45,8 +45,8 @@ class World {
   // away, invisible and unable to collide.
   void reset(const Eigen::Vector3d& p_WB, double yaw_rad, const Eigen::Vector3d& v_W);
 
-  // Object i flies free from now on.
-  void launch(int i, const BodyState& state);
+  // Object i flies free from now on, and touches what is in its way or, to try it, nothing.
+  void launch(int i, const BodyState& state, bool touches = true);
 
   // What object i is inside by more than a body that rests sinks in, now; nothing if it is free.
   std::optional<Overlap> overlap(int i) const;
@@ -67,7 +67,10 @@ class World {
 
   // Whether the geom belongs to the room, a hull or an object's surface, rather than being for the
   // eye only. (The model's own contact bits of objects are off before their launch.)
-  bool can_collide(int geom) const { return contype_[static_cast<std::size_t>(geom)] != 0; }
+  bool can_collide(int geom) const {
+    const auto g = static_cast<std::size_t>(geom);
+    return contype_[g] != 0 || conaffinity_[g] != 0;
+  }
 
  private:
   BodyState state(const FreeBody& body) const;

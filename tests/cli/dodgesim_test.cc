@@ -195,6 +195,19 @@ TEST_F(DodgesimTest, ReplaysNoScenarioThatWasChangedAfterTheFlight) {
   EXPECT_EQ(dodgesim("replay " + out + " --throw 0").exit_code, 0);
 }
 
+TEST_F(DodgesimTest, TellsTheTruthAboutEventsOfEachValueOfASweep) {
+  const std::string scenario = file(
+      "fly_oracle: false\nafter_s: 0.1\nthrow: {distance_m: 1.5, speed_mps: 6, launch_s: 0.1}\n");
+  const std::string out = (root_ / "out").string();
+  const Outcome sweep = dodgesim("sweep " + scenario + " --out " + out +
+                                 " --throws 1 --truth --over pilot=none,falanga2020");
+  ASSERT_EQ(sweep.exit_code, 0) << sweep.output;
+  EXPECT_THAT(sweep.output,
+              HasSubstr("pilot none:\nEvents before the vehicle evades: precision undefined of 0"));
+  EXPECT_THAT(sweep.output,
+              HasSubstr("pilot falanga2020:\nEvents before the vehicle evades: precision 0."));
+}
+
 TEST_F(DodgesimTest, WritesTheTruthAboutEvents) {
   const std::string scenario = file(
       "fly_oracle: false\nafter_s: 0.1\n"

@@ -177,7 +177,7 @@ TEST_F(FaultsTest, ADivergedSimulationCountsAsNoSuccessAndReplays) {
   const Outcome run = dodgesim(run_arguments("out", "--throws 2 " + models));
   EXPECT_EQ(run.exit_code, 3) << run.output;
   EXPECT_THAT(run.output, HasSubstr("- throw 1, pilot none: The simulation diverged: "));
-  EXPECT_THAT(run.output, HasSubstr("2 throws could not be flown"));
+  EXPECT_THAT(run.output, HasSubstr("2 throws had a flight that failed"));
   const Outcome replay =
       dodgesim("replay " + path("out") + " --throw 1 " + models + " --mcap " + path("a.mcap"));
   EXPECT_EQ(replay.exit_code, 0);

@@ -86,6 +86,13 @@ TEST_F(PaperCommandTest, GivesTheSameFilesForAnyNumberOfWorkersAndAfterAStop) {
   }
 }
 
+TEST_F(PaperCommandTest, RefusesCampaignsThatEndEarly) {
+  const Outcome outcome =
+      dodgesim("paper shapes --out " + path("out") + " --set 'stop={half_width: 0.1}'");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.output, "The paper's tables need every throw: no key stop.\n");
+}
+
 // The oracle's campaign, over the open field, would be flown first.
 TEST_F(PaperCommandTest, TriesAllModelsBeforeTheFirstFlight) {
   const Outcome outcome = dodgesim("paper latency --throws 1 --out " + path("out") +

@@ -53,7 +53,7 @@ TEST_F(PluginTest, ThatFailsCostsTheFlightAndCanBeReplayed) {
   write("s.yaml", "pilot: plugin\nrepeats: 1\nthrow: {launch_s: 0.1, distance_m: 2}\n");
   const Outcome outcome = run("--set plugin_parameters=throw" + plugin);
   EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_THAT(outcome.output, HasSubstr("1 throw could not be flown"));
+  EXPECT_THAT(outcome.output, HasSubstr("1 throw had a flight that failed"));
   EXPECT_THAT(outcome.output, HasSubstr("Throw 0: The pilot failed: I have lost my way, and"));
   EXPECT_THAT(contents("out/table.md"), HasSubstr("1 / 1"));  // none was hit
   const Outcome again = dodgesim("replay " + path("out") + " --throw 0" + plugin);

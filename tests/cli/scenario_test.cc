@@ -21,6 +21,7 @@ using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class ScenarioCommandTest : public dodgesim::testing::CommandTest {
  protected:
@@ -264,6 +265,39 @@ TEST_F(ScenarioCommandTest, AMeshThatCrashesMujocoCostsASentenceAndExitCodeTwo) 
     EXPECT_THAT(refused.output, AllOf(HasSubstr("objects/evil.xml"), ::testing::EndsWith(".\n")));
   }
   EXPECT_FALSE(fs::exists("x"));
+}
+
+TEST_F(ScenarioCommandTest, AVehicleThatThePilotTakesForASmallerOneIsNamed) {
+  copy_models(root_);
+  std::string large = contents("models/vehicles/qav_rxl.xml");
+  const std::string size = "size=\"0.17 0.17 0.05\"";
+  write("models/vehicles/large.xml",
+        large.replace(large.find(size), size.size(), "size=\"0.3 0.4 0.05\""));
+  const auto validate = [&](const std::string& settings) {
+    return dodgesim("validate " + path("s.yaml") + " --models " + path("models") + settings);
+  };
+  const std::string own = " --set pilot=dodgesim";
+  EXPECT_THAT(validate(own).output, Not(HasSubstr("hull")));
+  const Outcome named = validate(own + " --set vehicle=large");
+  EXPECT_EQ(named.exit_code, 0);
+  EXPECT_THAT(named.output, HasSubstr("dodger.escape.hull_radius_m is 0.25, but the hull of "
+                                      "vehicles/large.xml reaches 0.5 m from its centre."));
+  const std::string told = " --set dodger.escape.hull_radius_m=0.5";
+  EXPECT_THAT(validate(own + " --set vehicle=large" + told).output, Not(HasSubstr("hull of")));
+  EXPECT_THAT(validate(" --set pilot=falanga2020 --set vehicle=large").output,
+              Not(HasSubstr("hull of")));
+}
+
+TEST_F(ScenarioCommandTest, AMissionTooFastToEndIsNamed) {
+  const auto validate = [&](const std::string& speed) {
+    return dodgesim("validate " + path("s.yaml") + " --set mission.type=goal --set " +
+                    "'mission.goal_m=[2, 0, 2]' --set mission.speed_mps=" + speed);
+  };
+  const Outcome fast = validate("5");
+  EXPECT_EQ(fast.exit_code, 0);
+  EXPECT_THAT(fast.output, HasSubstr("mission.speed_mps is 5, but dodger.attractive.e_0_m is 0.2: "
+                                     "below 1 m the nominal vehicle swings"));
+  EXPECT_THAT(validate("2").output, Not(HasSubstr("swings")));
 }
 
 TEST_F(ScenarioCommandTest, AVehicleWithOneCameraFliesWhoeverNeedsNoMore) {

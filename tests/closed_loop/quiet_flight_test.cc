@@ -34,9 +34,14 @@ TEST(QuietFlight, DodgesimDoesNotTakeTheRoomForAnObject) {
 }
 
 TEST(QuietFlight, ThePapersPilotDoesNotEvadeSingleFalseDetections) {
-  EXPECT_FALSE(evades_the_room("falanga2020", 7131, 39, 4, "{}"));
-  EXPECT_TRUE(evades_the_room("falanga2020", 7131, 39, 4, "{association: {min_detections: 1}}"))
-      << "There is none any more: look for another flight that has some.";
+  bool satisfied_with_one = false;
+  for (const int flight : {4, 14}) {
+    EXPECT_FALSE(evades_the_room("falanga2020", 7131, flight, 4, "{}"));
+    satisfied_with_one =
+        satisfied_with_one ||
+        evades_the_room("falanga2020", 7131, flight, 4, "{association: {min_detections: 1}}");
+  }
+  EXPECT_TRUE(satisfied_with_one) << "There is none any more: look for flights that have some.";
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ CampaignSummary fly_campaign(const Scenario& scenario, const CampaignOptions& op
 int report_stop(const std::string& flown, const CampaignOptions& options);
 int report_stop(const CampaignSummary& summary, const CampaignOptions& options);
 
-// Says how many throws could not be flown, and why the first; returns the exit code.
+// Says how many throws had a flight that failed, and why the first; returns the exit code.
 int report_errors(const CampaignSummary& summary);
 
 }  // namespace dodgesim

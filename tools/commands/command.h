@@ -17,7 +17,7 @@ struct LoadedCampaign;
 inline constexpr int kOk = 0;
 inline constexpr int kBelowBar = 1;    // below the baseline, or not what was flown before
 inline constexpr int kUsageError = 2;  // bad command line or scenario
-inline constexpr int kIncomplete = 3;  // some throws could not be flown
+inline constexpr int kIncomplete = 3;  // flights failed, or are missing
 inline constexpr int kIoError = 4;     // a file could not be read or written
 
 // Each adds its subcommand, which sets `exit_code` when it is run. Errors leave as exceptions.

@@ -158,7 +158,7 @@ dodge::Config pilot_config(const Scenario& scenario,
   dodge::Config config = scenario.dodger;
   for (const CameraCalibration& c : calibrations) config.cameras.push_back(c.camera);
   config.p_BR = calibrations.front().p_BR;
-  if (calibrations.size() == 1 && config.position.depth != "mono") {
+  if (calibrations.size() == 1 && config.position.stereo_depth()) {
     config.position.depth = "mono";
     std::printf("One camera: depth comes from a known size, %g m (dodger.position.known_size_m).\n",
                 config.position.known_size_m);
@@ -310,7 +310,7 @@ void detect(const DetectArguments& arguments) {
   expect_no_campaign(arguments.out);
   const Scenario scenario = load(arguments);
   const std::vector<CameraCalibration> calibrations =
-      load_calibrations(arguments, scenario.dodger.position.depth == "stereo");
+      load_calibrations(arguments, scenario.dodger.position.stereo_depth());
   const dodge::Config config = pilot_config(scenario, calibrations, arguments.calibrations);
   RecordedSensors sensors = load_sensors(arguments, calibrations);
   std::vector<Coverage> logs;

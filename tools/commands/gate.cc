@@ -143,7 +143,7 @@ int update(const GateArguments& arguments, const GateRules& rules, const Campaig
   std::cout << summary.table;
   if (summary.errors > 0) {
     std::cerr << count_text(summary.errors, "throw")
-              << " could not be flown: no baseline is made.\n";
+              << " had a flight that failed: no baseline is made.\n";
     return kIncomplete;
   }
   write_baseline(arguments.baseline, arguments.options.out, rules);

@@ -88,7 +88,7 @@ void protect_measured(const PaperArguments& arguments,
 
 struct Flown {
   std::size_t campaigns = 0;  // to their end
-  int errors = 0;             // throws that could not be flown
+  int errors = 0;             // throws of which a flight failed
 };
 
 Flown fly(const PaperArguments& arguments, const std::vector<PaperFlight>& flights,
@@ -121,6 +121,9 @@ int paper(const PaperArguments& arguments) {
   scenarios.reserve(flights.size());
   for (const PaperFlight& flight : flights) {
     scenarios.push_back(scenario_of(flight, arguments.models_dir));
+    if (scenarios.back().stop) {
+      throw ScenarioError("The paper's tables need every throw: no key stop.");
+    }
     if (!flies_plugin(scenarios.back())) continue;
     throw ScenarioError(
         "pilot is plugin, but the paper's tables are of its pilot, of dodgesim and of oracle.");
@@ -143,7 +146,7 @@ int paper(const PaperArguments& arguments) {
                                   {arguments.models_dir, DODGESIM_SCENARIOS_DIR},
                                   table_command(arguments));
   if (flown.errors == 0) return kOk;
-  std::cerr << count_text(flown.errors, "throw") << " could not be flown; see the tables in "
+  std::cerr << count_text(flown.errors, "throw") << " had a flight that failed; see the tables in "
             << (arguments.options.out / "flights").string() << ".\n";
   return kIncomplete;
 }

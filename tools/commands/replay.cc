@@ -158,8 +158,9 @@ class Onlookers {
     observers_.add(&stopper_);
     if (duration_us) observers_.add(&progress_.emplace(*duration_us));
     const Intrinsics camera = intrinsics(scenario.sensors.camera);
+    const int cameras = cameras_in_use(scenario);
     if (!arguments.video.empty()) {
-      film_ = std::make_unique<Film>(arguments.video, camera, arguments.slow);
+      film_ = std::make_unique<Film>(arguments.video, camera, cameras, arguments.slow);
       observers_.add(film_.get());
     }
     if (!arguments.stages.empty()) {
@@ -167,7 +168,8 @@ class Onlookers {
       observers_.add(stages_.get());
     }
     if (!arguments.mcap.empty()) {
-      mcap_ = std::make_unique<McapRecorder>(arguments.mcap, camera, scenario.delays.pilot_us());
+      mcap_ = std::make_unique<McapRecorder>(arguments.mcap, camera, cameras,
+                                             scenario.delays.pilot_us());
       observers_.add(mcap_.get());
     }
     if (!arguments.picture.empty()) {
@@ -271,7 +273,7 @@ void expect_showable(const Scenario& scenario, const ReplayArguments& arguments)
     refuse({events, stages}, "the pilot of throw " + number + " is " + scenario.pilot +
                                  ", which flies without cameras.");
   }
-  if (scenario.dodger.position.depth == "mono" && arguments.camera != kCameraNames[0]) {
+  if (!scenario.dodger.position.stereo_depth() && arguments.camera != kCameraNames[0]) {
     refuse({events}, "with dodger.position.depth mono there are no events of the camera " +
                          arguments.camera + ".");
   }

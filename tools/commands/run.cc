@@ -10,6 +10,7 @@
 #include "sim/base/error.h"
 #include "sim/campaign/progress.h"
 #include "sim/config/expand.h"
+#include "sim/config/pilot.h"
 #include "sim/files/text_table.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
@@ -46,6 +47,21 @@ void warn_of_lost_events(const std::vector<ThrowResult>& results) {
   std::printf(
       "The event cameras' readout (sensors.events.readout_max_hz) lost %lld events in %s.\n",
       static_cast<long long>(lost), count_text(throws, "throw").c_str());
+}
+
+// By value of the sweep, which must not be pooled.
+void print_truth(const Scenario& scenario, const std::vector<EventTruthSums>& truth) {
+  const int throws_of_a_value = throw_count(scenario) / sweep_count(scenario);
+  for (std::size_t sweep = 0; sweep < truth.size(); ++sweep) {
+    const ThrowCase first = case_of(scenario, static_cast<int>(sweep) * throws_of_a_value);
+    if (!first.sweep_values.empty()) std::cout << label(first.sweep_values) << ":\n";
+    if (first.scenario.pilot == kPluginPilot) {
+      std::cout
+          << "Which events a plug-in takes for an obstacle's is not known: truth.csv has none.\n";
+    } else {
+      std::cout << truth_text(truth[sweep]) << "\n";
+    }
+  }
 }
 
 // Whether the bracket that opens the text is closed at its end only: [0.1, 0.2], but not [0, 0],
@@ -107,12 +123,7 @@ int run(const RunArguments& arguments) {
                 summary.memory.first_mb, summary.memory.last_mb);
   }
   warn_of_lost_events(summary.results);
-  if (options.truth && flies_plugin(scenario)) {
-    std::cout
-        << "Which events a plug-in takes for an obstacle's is not known: truth.csv has none.\n";
-  } else if (options.truth) {
-    std::cout << truth_text(summary.truth) << "\n";
-  }
+  if (options.truth) print_truth(scenario, summary.truth);
   return report_errors(summary);
 }
 

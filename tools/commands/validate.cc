@@ -8,6 +8,7 @@
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
 #include "sim/preflight/try_throws.h"
+#include "sim/preflight/vehicle_notes.h"
 #include "tools/commands/command.h"
 
 namespace dodgesim {
@@ -33,6 +34,7 @@ void validate(const ValidateArguments& arguments) {
     return;
   }
   for (const std::string& note : idle_keys(scenario)) std::cerr << note << "\n";
+  for (const std::string& note : vehicle_notes(scenario)) std::cerr << note << "\n";
   const TriedThrows tried = try_throws(scenario);
   if (!tried.crash.empty()) std::cerr << tried.crash << "\n";
   std::cout << arguments.scenario << ": a valid scenario";

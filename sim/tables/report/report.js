@@ -182,7 +182,7 @@ function fillSection() {
 }
 
 function openNumber(text) {
-  const i = throws.number.indexOf(Number(text));
+  const i = text.trim() === '' ? -1 : throws.number.indexOf(Number(text));
   if (i < 0) return false;
   if (throws.sweep[i] !== section().sweep) {
     chooseSection(data.sections.findIndex((s) => s.sweep === throws.sweep[i]));

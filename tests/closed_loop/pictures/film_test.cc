@@ -42,7 +42,7 @@ TEST(EventPicture, ShowsOnWhiteAndOffBlackAtTheirPixels) {
 TEST_F(FilmTest, WritesAVideoWithAPictureEvery4Ms) {
   const Scenario s = scenario("duration_s: 0.1\npilot: none\n");
   const std::string video = path("a.mp4");
-  Film film(video, intrinsics(s.sensors.camera), 10);
+  Film film(video, intrinsics(s.sensors.camera), 2, 10);
   fly(s, plan_throw(s, 0), &film);
   film.finish("dodged");
   EXPECT_EQ(testing::pictures_per_s(video), 25);
@@ -64,7 +64,7 @@ TEST_F(FilmTest, ShowsAFlightAsSlowlyAsAskedFor) {
   const Scenario s = scenario("duration_s: 0.1\npilot: none\n");
   for (const double slow : {1.0, 3.0, 7.5}) {
     const std::string video = path("slow.mp4");
-    Film film(video, intrinsics(s.sensors.camera), slow);
+    Film film(video, intrinsics(s.sensors.camera), 2, slow);
     fly(s, plan_throw(s, 0), &film);
     film.finish("dodged");
     const auto pictures = static_cast<double>(testing::decoded(video).size());
@@ -75,7 +75,7 @@ TEST_F(FilmTest, ShowsAFlightAsSlowlyAsAskedFor) {
 
 TEST_F(FilmTest, ShowsTheTopCamerasEventsAboveThoseOfTheBottomOne) {
   const Scenario s = scenario("{}");
-  Film film(path("b.mp4"), intrinsics(s.sensors.camera), 10);
+  Film film(path("b.mp4"), intrinsics(s.sensors.camera), 2, 10);
   const std::vector<Event> top = {{1, 100, 60, 1}}, bottom = {{1, 200, 180, -1}};
   film.on_events(0, {1000, top});
   film.on_events(1, {1000, bottom});
@@ -99,13 +99,26 @@ TEST_F(FilmTest, ShowsTheTopCamerasEventsAboveThoseOfTheBottomOne) {
   EXPECT_EQ(film.picture()(60, 640 + 101), kGrey);
 }
 
+TEST_F(FilmTest, ShowsNoEventsOfCamerasThatNobodyUses) {
+  const Scenario s = scenario("{}");
+  World world({s.models_dir, s.room, s.vehicle, {}});
+  Film blind(path("blind.mp4"), intrinsics(s.sensors.camera), 0, 10);
+  blind.on_tick(world);
+  EXPECT_EQ(blind.picture().size(), cv::Size(640, 480));
+  Film mono(path("mono.mp4"), intrinsics(s.sensors.camera), 1, 10);
+  mono.on_tick(world);
+  EXPECT_EQ(mono.picture().size(), cv::Size(640 + 320, 480));
+  EXPECT_EQ(mono.picture()(120, 800), kGrey);
+  EXPECT_EQ(mono.picture()(400, 800), kBlack);
+}
+
 TEST_F(FilmTest, AVideoThatCannotBeWrittenIsAnIoError) {
-  EXPECT_THROW(Film(path("no/such/folder/a.mp4"), Intrinsics{}, 10), IoError);
+  EXPECT_THROW(Film(path("no/such/folder/a.mp4"), Intrinsics{}, 2, 10), IoError);
 }
 
 TEST_F(FilmTest, AVideoThatIsGoneIsAnIoError) {
   const Scenario s = scenario("duration_s: 0.1\npilot: none\n");
-  Film film(path("c.mp4"), intrinsics(s.sensors.camera), 10);
+  Film film(path("c.mp4"), intrinsics(s.sensors.camera), 2, 10);
   fly(s, plan_throw(s, 0), &film);
   fs::remove(path("c.mp4.partial"));
   EXPECT_THROW(film.finish("dodged"), IoError);
@@ -113,14 +126,14 @@ TEST_F(FilmTest, AVideoThatIsGoneIsAnIoError) {
 
 TEST_F(FilmTest, AVideoThatIsNotFinishedLeavesAnOtherOfItsName) {
   std::ofstream(path("d.mp4")) << "old";
-  { const Film film(path("d.mp4"), Intrinsics{}, 10); }
+  { const Film film(path("d.mp4"), Intrinsics{}, 2, 10); }
   EXPECT_EQ(fs::file_size(path("d.mp4")), 3u);
   EXPECT_FALSE(fs::exists(path("d.mp4.partial")));
 }
 
 TEST_F(FilmTest, TwoDoNotTakeOneName) {
-  const Film film(path("e.mp4"), Intrinsics{}, 10);
-  EXPECT_THROW(Film(path("e.mp4"), Intrinsics{}, 10), IoError);
+  const Film film(path("e.mp4"), Intrinsics{}, 2, 10);
+  EXPECT_THROW(Film(path("e.mp4"), Intrinsics{}, 2, 10), IoError);
   EXPECT_TRUE(fs::exists(path("e.mp4.partial")));
 }
 

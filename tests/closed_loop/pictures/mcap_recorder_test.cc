@@ -65,7 +65,8 @@ class McapRecorderTest : public ::testing::Test {
  protected:
   std::string record(const Scenario& s) {
     const std::string path = directory_ / "throw.mcap";
-    McapRecorder recorder(path, intrinsics(s.sensors.camera), s.delays.pilot_us());
+    McapRecorder recorder(path, intrinsics(s.sensors.camera), cameras_in_use(s),
+                          s.delays.pilot_us());
     result_ = fly_throw(s, 0, &recorder);
     recorder.finish(result_);
     return testing::contents(path);
@@ -187,7 +188,7 @@ class DetectingPilot : public dodge::Pilot {
 
 TEST_F(McapRecorderTest, ShowsDetectionsWhenThePilotGivesThemOut) {
   const std::string path = directory_ / "late.mcap";
-  McapRecorder recorder(path, intrinsics(scenario_.sensors.camera), 20000);
+  McapRecorder recorder(path, intrinsics(scenario_.sensors.camera), 2, 20000);
   World world({scenario_.models_dir, scenario_.room, scenario_.vehicle, {}});
   const std::array<double, 4> thrust{2.45, 2.45, 2.45, 2.45};
   while (world.snapshot().t_us < 50000) {
@@ -207,7 +208,7 @@ TEST_F(McapRecorderTest, ShowsDetectionsWhenThePilotGivesThemOut) {
 // The test plays the event cameras, as the pilot needs none.
 TEST_F(McapRecorderTest, ShowsTheEventsOfTenMilliseconds) {
   const std::string path = directory_ / "eyes.mcap";
-  McapRecorder recorder(path, intrinsics(scenario_.sensors.camera), 0);
+  McapRecorder recorder(path, intrinsics(scenario_.sensors.camera), 2, 0);
   World world({scenario_.models_dir, scenario_.room, scenario_.vehicle, {}});
   const std::array<double, 4> thrust{2.45, 2.45, 2.45, 2.45};
   const std::vector<Event> on = {{9500, 100, 60, 1}}, off = {{15000, 7, 8, -1}};

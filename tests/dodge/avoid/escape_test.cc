@@ -71,6 +71,28 @@ TEST(EscapePlanner, FindsTheNearestPointOfAParabola) {
   }
 }
 
+// Wherever its goal is, a vehicle that has arrived there is at rest.
+TEST(EscapePlanner, MeetsAtTheGoalAVehicleAtRest) {
+  const EscapePlanner planner(closest_approach(), kSpeedMps);
+  const auto meeting_at = [&](const Vector3d& offset_W) {
+    Intent intent;
+    intent.v_W = Vector3d(1.5, 0, 0);
+    intent.p_WG = offset_W + Vector3d(0.3, 0.1, 0);
+    return planner.meeting(
+        0, at(offset_W, intent.v_W), intent,
+        ball(offset_W + Vector3d(1, 3, 0), offset_W + Vector3d(0.4, 0.1, 0), 0.5));
+  };
+  const auto expected = meeting_at(Vector3d::Zero());
+  ASSERT_TRUE(expected);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d offset_W(std::sin(1.0 * i), 3 * std::cos(2.0 * i), 2 + 0.013 * i);
+    const auto meeting = meeting_at(offset_W);
+    ASSERT_TRUE(meeting);
+    EXPECT_LT((meeting->along_W - expected->along_W).norm(), 1e-6) << offset_W.transpose();
+    EXPECT_LT((meeting->miss_W - expected->miss_W).norm(), 1e-6) << offset_W.transpose();
+  }
+}
+
 // How far it still is when the horizon ends is no miss: only what it misses by to the side counts.
 TEST(EscapePlanner, FollowsWhatComesBeyondTheHorizonStraightOn) {
   const EscapePlanner planner(closest_approach(), kSpeedMps);

@@ -37,8 +37,9 @@ TEST_F(CampaignTest, WritesTheTruthOnRequestOnly) {
             "0,500000,0,100,40,20,10,0.5,0.25\n"
             "1,500000,0,100,40,20,10,0.5,0.25\n"
             "2,500000,1,100,40,20,10,0.5,0.25\n");
-  EXPECT_EQ(summary.truth.before.object_events, 80);
-  EXPECT_EQ(summary.truth.after.object_events, 40);
+  ASSERT_EQ(summary.truth.size(), 1u);
+  EXPECT_EQ(summary.truth[0].before.object_events, 80);
+  EXPECT_EQ(summary.truth[0].after.object_events, 40);
   run_campaign(scenario_, options("without"), fly_one);
   EXPECT_FALSE(fs::exists(root_ / "without/truth.csv"));
   for (const char* name : {"throws.csv", "detections.csv", "table.md"}) {

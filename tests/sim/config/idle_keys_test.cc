@@ -42,6 +42,15 @@ TEST(IdleKeys, OfAGroupAreNamedTogether) {
   EXPECT_THAT(notes_on("pilot: plugin\n" + escape + "}\n"), IsEmpty());
 }
 
+TEST(IdleKeys, AreThoseOfTheFieldIfTheEscapeIsByTheClosestApproach) {
+  const std::string field = "dodger: {repulsive: {gamma: 3, upward: false, k_tau: 0.002}}\n";
+  EXPECT_THAT(notes_on(field), IsEmpty());
+  EXPECT_THAT(notes_on("pilot: plugin\n" + field), IsEmpty());
+  EXPECT_THAT(notes_on("pilot: dodgesim\n" + field),
+              ElementsAre("s.yaml:2:29: dodger.repulsive.gamma and dodger.repulsive.upward have no "
+                          "effect: dodger.escape.law is closest_approach."));
+}
+
 TEST(IdleKeys, AreThoseOfPerceptionIfNobodyPerceives) {
   const std::string keys =
       "dodger: {time_image: {threshold_b: 0.2}, position: {depth: mono}}\n"

@@ -8,6 +8,7 @@
 
 #include "sim/base/error.h"
 #include "sim/config/closest_name.h"
+#include "tests/complaint.h"
 #include "tests/sim/config/parse.h"
 
 namespace dodgesim {
@@ -162,6 +163,8 @@ TEST(Explain, FindsAKeyByItsPathOrItsLastPart) {
   EXPECT_THAT(explain(docs, "throw.size_m"), ::testing::StartsWith("throw.size_m\n"));
   EXPECT_THAT(explain(docs, "compute_us"), ::testing::StartsWith("delays.compute_us\n"));
   EXPECT_THAT(explain(docs, "throw"), ::testing::HasSubstr("throw.launch_s\n"));
+  EXPECT_EQ(testing::complaint<ScenarioError>([&] { explain(docs, "lux"); }),
+            "There is no key lux in a scenario, but sensors.events.illuminance_lux.");
   EXPECT_THAT(explain(docs, "height_monitor"),
               ::testing::HasSubstr("dodger.height_monitor.persist_us\n"));
   EXPECT_THAT(

@@ -113,8 +113,8 @@ TEST(Outcomes, RefuseTablesThatAreNotOfACampaign) {
   ThrowResult damaged = throw_that(0, 'd');
   damaged.flown.status = "okk";
   EXPECT_THAT(refusal(tables_of({damaged})),
-              ThrowsMessage<IoError>(HasSubstr("throws.csv:2: flown_status is \"okk\", not ok or "
-                                               "error or lost or not flown.")));
+              ThrowsMessage<IoError>(HasSubstr("throws.csv:2: flown_status is \"okk\", not ok, "
+                                               "error, lost or not flown.")));
   tables = tables_of({throw_of_two(0)});
   tables.objects.reset();
   EXPECT_THAT(

@@ -216,7 +216,7 @@ TEST_F(OwnModels, AnObjectOfManyGeomsMayLieOnTheFloor) {
   std::string slats;
   for (int i = 0; i < 14; ++i) {
     slats += "<geom type='box' size='0.05 0.003 0.0025' pos='0 " +
-             std::to_string(0.0066 * i - 0.043) + " 0' contype='4' conaffinity='3'/>";
+             std::to_string(0.0066 * i - 0.043) + " 0' contype='4' conaffinity='7'/>";
   }
   write_object(object(slats));
   World world(spec_);

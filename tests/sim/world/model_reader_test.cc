@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "sim/world/referee.h"
 #include "tests/sim/world/own_models.h"
 
 namespace dodgesim {
@@ -165,7 +166,8 @@ TEST_F(ModelReaderTest, WhatCollidesTouchesAllTheOthers) {
   EXPECT_THAT(with("contype='8' conaffinity='8'"),
               HasSubstr("own.xml: a geom with a contype of 8 and a conaffinity of 8 would go "
                         "through the room; those of an object have 4 and 7"));
-  EXPECT_THAT(with("contype='4' conaffinity='1'"), "");
+  EXPECT_THAT(with("contype='4' conaffinity='3'"), HasSubstr("would go through an object"));
+  EXPECT_EQ(with("contype='4' conaffinity='5'"), "");
   EXPECT_THAT(with("contype='0' conaffinity='1'"), HasSubstr("would go through the vehicle"));
 
   const auto swapped = [&](const std::string& file, const std::string& bits) {
@@ -188,6 +190,20 @@ TEST_F(ModelReaderTest, WhatCollidesTouchesAllTheOthers) {
   EXPECT_THAT(swapped("vehicles/qav_rxl.xml", "contype=\"2\" conaffinity=\"5\""),
               HasSubstr("qav_rxl.xml: a geom with a contype of 16 and a conaffinity of 16 would go "
                         "through the room; those of the vehicle have 2 and 5"));
+}
+
+// MuJoCo lets two geoms touch if either's type is in the other's affinity.
+TEST_F(ModelReaderTest, WhatCollidesByItsAffinityAloneBelongsToTheHull) {
+  const auto file = directory_ / "vehicles" / "qav_rxl.xml";
+  std::string text = testing::contents(file);
+  const std::string hull = "<geom name=\"hull\"";
+  text.insert(text.find(hull),
+              "<geom type=\"sphere\" size=\"0.02\" pos=\"0.4 0 0\" group=\"4\" contype=\"0\" "
+              "conaffinity=\"5\"/>");
+  testing::put(file, text);
+  spec_.objects.clear();
+  const World world(spec_);
+  EXPECT_NEAR(reach_m(Referee(world).hull(), Eigen::Vector3d::UnitX()), 0.42, 1e-9);
 }
 
 TEST_F(ModelReaderTest, ARoomHasSomethingToStandOn) {

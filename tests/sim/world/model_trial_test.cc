@@ -69,6 +69,28 @@ TEST_F(ModelTrial, GoodModelsPass) {
   EXPECT_EQ(complaint(), "");
 }
 
+// The solid half of a ceiling that is a plane reaches up for ever.
+TEST_F(ModelTrial, AllObjectsOfTheProjectFlyTogetherInEachOfItsRooms) {
+  spec_.objects.clear();
+  for (const auto& entry : fs::directory_iterator(fs::path(testing::kModels) / "objects")) {
+    spec_.objects.push_back({entry.path().stem().string(), 0.2});
+  }
+  ASSERT_GE(spec_.objects.size(), 6u);
+  for (const auto& entry : fs::directory_iterator(fs::path(testing::kModels) / "rooms")) {
+    spec_.room = entry.path().stem().string();
+    EXPECT_EQ(complaint(), "") << spec_.room;
+  }
+}
+
+TEST_F(ModelTrial, AnObjectThatIsVeryLightFliesUnderACeiling) {
+  write_object(kBall, "", "1e-6 1e-6 1e-6");
+  std::string object = testing::contents(directory_ / "objects/own.xml");
+  const std::string mass = "mass='1'";
+  write("objects/own.xml", object.replace(object.find(mass), mass.size(), "mass='0.003'"));
+  spec_.room = "room";
+  EXPECT_EQ(complaint(), "");
+}
+
 TEST_F(ModelTrial, APlaceInsideOrOutsideOfWhatStandsThereCostsASentence) {
   write_object(kBall);
   spec_.room = "room";
