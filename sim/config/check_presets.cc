@@ -70,7 +70,7 @@ void check_varied_preset(const Preset& preset, const std::string& own, const Sce
     if (!preset.has(key) || is_group(context.where, key) || varies(scenario, key)) continue;
     context.problems.add(at, key + " is given, but " + preset.key + " " + other->text +
                                  " brings its own; to hold for all values of " + preset.key +
-                                 " it must stand in the sweep, too, as a list of one value.");
+                                 " it must stand there, too, as a list of one value.");
   }
 }
 

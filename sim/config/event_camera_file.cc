@@ -1,5 +1,6 @@
 #include "sim/config/event_camera_file.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "sim/base/contains.h"
@@ -33,8 +34,12 @@ std::vector<std::string> preset_names() {
   return visitor.names;
 }
 
+// Whether a key of a scenario stands at the root: none of a camera is called so.
 bool is_scenario(const YamlNode& root) {
-  return root.find("sensors") != nullptr || root.find("extends") != nullptr;
+  const std::vector<ParameterDoc> docs = scenario_docs();
+  return std::ranges::any_of(root.keys, [&](const YamlNode::Key& key) {
+    return key.name == "extends" || contains(docs, key.name, &ParameterDoc::path);
+  });
 }
 
 EventCameraSpec load(const std::string& path) {

@@ -18,7 +18,7 @@ constexpr const char* kPilots = "sweep: {pilot: [falanga2020, dodgesim]}\n";
 TEST(CheckPresets, AKeyThatOnePilotOfASweepWouldLoseIsRefusedOnce) {
   EXPECT_EQ(complaint(std::string("dodger: {time_image: {threshold_b: 0.9}}\n") + kPilots),
             "test.yaml:1:36: dodger.time_image.threshold_b is given, but pilot dodgesim brings its "
-            "own; to hold for all values of pilot it must stand in the sweep, too, as a list of "
+            "own; to hold for all values of pilot it must stand there, too, as a list of "
             "one value.");
   EXPECT_EQ(complaint(kPilots), "");
 }
@@ -43,8 +43,8 @@ TEST(CheckPresets, AKeyOfASweptCameraIsRefusedInSweepAndGrid) {
     const std::string cameras = axis + ": {sensors.events.preset: [ideal, sees1]}\nthrow: {}\n";
     EXPECT_EQ(complaint("sensors: {events: {leak_hz: 3}}\n" + cameras),
               "test.yaml:1:29: sensors.events.leak_hz is given, but sensors.events.preset ideal "
-              "brings its own; to hold for all values of sensors.events.preset it must stand in "
-              "the sweep, too, as a list of one value.");
+              "brings its own; to hold for all values of sensors.events.preset it must stand "
+              "there, too, as a list of one value.");
     EXPECT_EQ(complaint("sensors: {camera: {width: 32}}\n" + cameras), "");
   }
 }

@@ -34,6 +34,7 @@ TEST_F(EventCameraFileTest, MayBeAScenarioWhoseCameraIsMeant) {
   EXPECT_EQ(camera.latency_us, 7);
   EXPECT_EQ(camera.leak_hz, 0);
   EXPECT_EQ(written("extends: mine.yaml\nseed: 3\n", "other.yaml").latency_us, 7);
+  EXPECT_EQ(written("throw: {speed_mps: 5}\n").preset, "sees1");
 }
 
 TEST_F(EventCameraFileTest, OfAScenarioIsReadAsOne) {
