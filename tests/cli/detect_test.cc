@@ -165,10 +165,9 @@ TEST_F(DetectTest, RectifiesTheCamerasOfARig) {
   EXPECT_THAT(outcome.output, Not(HasSubstr("rectified")));
 }
 
-// W of the detections has the place where the vehicle began to fly for an origin, from which its
-// escape takes it away unknown to a pilot without a state estimate: nearer than a metre that turns
-// the ball's direction. Depth from a known size errs as soon as something of the room is taken for
-// a part of the ball; the direction does not.
+// W of the detections has the place where the vehicle began to fly for an origin; its escape, of
+// which a pilot without a state estimate knows nothing, turns the direction of a ball that is
+// nearer than a metre. Depth errs as soon as something of the room is taken for a part of the ball.
 TEST_F(DetectTest, FindsWithOneCameraAndItsImuInWhichDirectionTheBallIs) {
   record(
       "seed: 5\nthrow: {distance_m: 2.5, speed_mps: 5, launch_s: 0.1, launch_height_m: 2.4, "

@@ -46,13 +46,8 @@ struct ReplayArguments {
   std::string models_dir;
   std::string plugin;
   int throw_index = 0;
-  std::string video;    // empty: none
-  double slow = 10;     // of the video
-  std::string stages;   // empty: none
-  std::string picture;  // empty: none
-  std::string mcap;     // empty: none
-  std::string events;   // empty: none
-  std::string record;   // empty: none
+  std::string video, stages, picture, mcap, events, record;  // where they go; empty: none
+  double slow = 10;                                          // of the video
   std::string camera = kCameraNames[0];
 };
 
