@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 
 namespace dodgesim {
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "sim/base/error.h"
-#include "sim/campaign/progress.h"
+#include "sim/base/progress.h"
 #include "sim/campaign/running_campaign.h"
 #include "sim/campaign/workers.h"
 #include "sim/outcome/blank_result.h"

@@ -7,8 +7,7 @@
 #include <cstring>
 
 #include "sim/base/error.h"
-#include "sim/campaign/result_files.h"
-#include "sim/config/scenario_changes.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/files/staged_file.h"
 #include "sim/files/text_table.h"
 
@@ -83,21 +82,6 @@ void expect_free(const fs::path& out, bool force) {
   throw ScenarioError(out.string() +
                       " holds a campaign already; choose another directory, or add --force to "
                       "overwrite it.");
-}
-
-std::string difference(const CampaignIdentity& a, const CampaignIdentity& b) {
-  if (a.scenario != b.scenario) {
-    return "of another scenario (" + scenario_difference(a.scenario, b.scenario) + ")";
-  }
-  if (a.program != b.program) {
-    return "of another version of dodgesim (" + a.program + ", not " + b.program + ")";
-  }
-  if (a.models != b.models) return "of other models (room, vehicle or objects have changed)";
-  if (a.plugin != b.plugin) {
-    if (b.plugin.empty()) return "of a plug-in (add --plugin FILE.so)";
-    return a.plugin.empty() ? "without a plug-in" : "of another plug-in (the library has changed)";
-  }
-  return a.truth ? "with --truth, not without" : "without --truth, not with it";
 }
 
 std::optional<JournalIndex> find_journal(const CampaignOptions& options,

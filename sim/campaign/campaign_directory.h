@@ -31,7 +31,4 @@ void expect_free(const std::filesystem::path& out, bool force);
 std::optional<JournalIndex> find_journal(const CampaignOptions& options,
                                          const CampaignIdentity& identity);
 
-// How `a` differs from `b`, to follow "results": "of another scenario (seed is 3, not 4)".
-std::string difference(const CampaignIdentity& a, const CampaignIdentity& b);
-
 }  // namespace dodgesim

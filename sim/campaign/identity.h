@@ -24,4 +24,7 @@ struct CampaignIdentity {
   }
 };
 
+// How `a` differs from `b`, to follow "results": "of another scenario (seed is 3, not 4)".
+std::string difference(const CampaignIdentity& a, const CampaignIdentity& b);
+
 }  // namespace dodgesim

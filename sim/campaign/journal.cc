@@ -12,7 +12,7 @@
 
 #include "sim/base/descriptor.h"
 #include "sim/base/error.h"
-#include "sim/campaign/result_files.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/campaign/wire.h"
 #include "sim/files/staged_file.h"
 

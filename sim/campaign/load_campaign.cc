@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "sim/campaign/campaign_files.h"
 #include "sim/campaign/journal.h"
-#include "sim/campaign/result_files.h"
 
 namespace dodgesim {
 

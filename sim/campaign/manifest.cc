@@ -6,7 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/base/input_file.h"
 #include "sim/campaign/build_info.h"
-#include "sim/campaign/result_files.h"
+#include "sim/campaign/campaign_files.h"
 
 namespace dodgesim {
 

@@ -6,6 +6,7 @@
 #include "sim/base/joined.h"
 #include "sim/base/wall_clock.h"
 #include "sim/campaign/campaign_directory.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/campaign/journal.h"
 #include "sim/campaign/load_campaign.h"
 #include "sim/campaign/manifest.h"

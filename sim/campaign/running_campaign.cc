@@ -2,6 +2,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/build_info.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/campaign/manifest.h"
 #include "sim/campaign/result_files.h"
 #include "sim/files/directory.h"

@@ -146,7 +146,7 @@ class Pool {
 
   WorkerMemory run() {
     const std::size_t jobs = static_cast<std::size_t>(std::max(1, tasks_.jobs));
-    while (workers_.size() < jobs && start_worker()) {
+    while (workers_.size() < jobs && go_on()) {
     }
     while (!workers_.empty()) {
       if (tasks_.stop && tasks_.stop()) break;
@@ -167,10 +167,14 @@ class Pool {
     double first_mb = 0, last_mb = 0;
   };
 
-  // False if there is nothing to fly.
-  bool start_worker() {
+  // Flies the next throw in a new worker. False if there is nothing to fly.
+  bool go_on() {
     const std::optional<Task> task = tasks_.next();
-    if (!task) return false;
+    if (task) start_worker(*task);
+    return task.has_value();
+  }
+
+  void start_worker(const Task& task) {
     int fds[2];
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, fds) != 0) {
       throw IoError(std::string("A worker's socket could not be made: ") + std::strerror(errno) +
@@ -198,33 +202,29 @@ class Pool {
     worker.pid = pid;
     worker.fd = fds[0];
     workers_.push_back(worker);
-    assign(workers_.back(), *task);
-    return true;
+    assign(workers_.back(), task);
   }
 
-  static void assign(Worker& worker, const Task& task) {
+  // False if the worker is no more.
+  static bool assign(Worker& worker, const Task& task) {
     worker.task = task;
     worker.begin = WallClock::now();
-    // A worker that died between two throws is noticed when its socket reports the end.
-    send_all(worker.fd, bytes_of(task));
+    return send_all(worker.fd, bytes_of(task));
   }
 
-  int reap(Worker& worker) {
+  // The status with which it ended.
+  int end(Worker& worker) {
     if (worker.first_mb > 0) {
       first_mb_ += worker.first_mb;
       last_mb_ += worker.last_mb;
       ++counted_;
     }
+    ::kill(worker.pid, SIGKILL);
     ::close(worker.fd);
     int status = 0;
     while (::waitpid(worker.pid, &status, 0) < 0 && errno == EINTR) {
     }
     return status;
-  }
-
-  int end(Worker& worker) {
-    ::kill(worker.pid, SIGKILL);
-    return reap(worker);
   }
 
   void wait_for_results() {
@@ -281,9 +281,11 @@ class Pool {
     if (worker.first_mb == 0) worker.first_mb = header.resident_mb;
     worker.last_mb = header.resident_mb;
     tasks_.receive(worker.task, result_from_bytes(body));
-    if (const std::optional<Task> next = tasks_.next()) return assign(worker, *next);
-    reap(worker);
+    const std::optional<Task> next = tasks_.next();
+    if (next && assign(worker, *next)) return;
+    end(worker);
     workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
+    if (next) start_worker(*next);  // a worker that died between two throws costs neither
   }
 
   // The throw of a worker that is no more.
@@ -291,7 +293,7 @@ class Pool {
     const Task task = workers_[i].task;
     workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
     tasks_.receive(task, failed_throw(tasks_, task, reason));
-    start_worker();
+    go_on();
   }
 
   const WorkerTasks& tasks_;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 #include "sim/check/film.h"
 
 namespace dodgesim {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 #include "sim/check/film.h"
 #include "sim/check/quantile.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/base/normal_distribution.h"
 #include "sim/check/film.h"
 #include "sim/events/photoreceptor.h"
 #include "sim/events/response.h"
@@ -120,8 +121,7 @@ Series expected_curve(const std::string& name, int colour, double mean, double s
   const double width = (to - from) / bins;
   for (int i = 0; sd > 0 && i < bins; ++i) {
     const double x = from + (i + 0.5) * width;
-    const double z = (x - mean) / sd;
-    curve.add(x, width / sd * std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi));
+    curve.add(x, width / sd * normal_density((x - mean) / sd));
   }
   return curve;
 }
@@ -131,8 +131,8 @@ Series expected_curve(const std::string& name, int colour, double mean, double s
 Moments clipped_normal(double mean, double sd, double lowest) {
   if (sd <= 0) return {std::max(mean, lowest), 0};
   const double a = (lowest - mean) / sd;
-  const double below = 0.5 * std::erfc(-a / std::numbers::sqrt2);
-  const double density = std::exp(-0.5 * a * a) / std::sqrt(2 * std::numbers::pi);
+  const double below = normal_cdf(a);
+  const double density = normal_density(a);
   const double first = lowest * below + mean * (1 - below) + sd * density;
   const double second = lowest * lowest * below + (mean * mean + sd * sd) * (1 - below) +
                         (mean + lowest) * sd * density;

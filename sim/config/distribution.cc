@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 
 namespace dodgesim {
 
 namespace {
-
-double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
 
 std::size_t choose(double p, std::size_t count) {
   return std::min(static_cast<std::size_t>(p * static_cast<double>(count)), count - 1);

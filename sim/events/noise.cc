@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 #include "sim/events/logarithm.h"
 #include "sim/events/stream_name.h"
 

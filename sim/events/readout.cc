@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "sim/base/branchless.h"
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 
 namespace dodgesim {
 

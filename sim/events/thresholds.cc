@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 
 namespace dodgesim {
 

@@ -7,8 +7,8 @@
 
 #include "sim/base/error.h"
 #include "sim/base/input_file.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/campaign/manifest.h"
-#include "sim/campaign/result_files.h"
 #include "sim/files/directory.h"
 #include "sim/files/json.h"
 #include "sim/files/output_file.h"

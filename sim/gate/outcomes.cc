@@ -12,7 +12,7 @@
 #include "sim/base/formatted.h"
 #include "sim/base/input_file.h"
 #include "sim/base/numbers.h"
-#include "sim/campaign/result_files.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/files/json.h"
 #include "sim/outcome/fate.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 #include "sim/statistics/binomial.h"
 
 namespace dodgesim {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 #include "sim/statistics/binomial.h"
 
 namespace dodgesim {

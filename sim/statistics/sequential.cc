@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 #include "sim/statistics/binomial.h"
 
 namespace dodgesim {

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <thread>
 
-#include "sim/campaign/progress.h"
+#include "sim/base/progress.h"
 #include "sim/files/text_table.h"
 #include "sim/flight/fly_throw.h"
 #include "sim/observers/event_truth.h"

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "sim/base/error.h"
-#include "sim/campaign/progress.h"
-#include "sim/campaign/result_files.h"
+#include "sim/base/progress.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/check/report.h"
 #include "sim/check/sampling_study.h"
 #include "sim/check/self_tests.h"

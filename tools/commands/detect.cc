@@ -11,7 +11,7 @@
 #include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
-#include "sim/campaign/result_files.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/config/camera_calibration.h"
 #include "sim/config/pilot.h"
 #include "sim/config/stereo_pair.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/campaign/progress.h"
+#include "sim/base/progress.h"
 #include "sim/playback/camera_order.h"
 #include "sim/playback/playback.h"
 #include "sim/playback/rate_check.h"

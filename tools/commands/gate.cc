@@ -1,6 +1,6 @@
 // dodgesim gate: flies a baseline's throws and fails when they went worse.
 #include "sim/gate/gate.h"
-#include "sim/campaign/result_files.h"
+#include "sim/campaign/campaign_files.h"
 
 #include <unistd.h>
 

@@ -7,7 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/base/shell.h"
-#include "sim/campaign/result_files.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/files/text_table.h"
 #include "sim/paper/paper_tables.h"
 #include "sim/preflight/try_models.h"

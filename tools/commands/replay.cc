@@ -9,10 +9,10 @@
 
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
+#include "sim/base/progress.h"
 #include "sim/campaign/campaign_directory.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/campaign/journal.h"
-#include "sim/campaign/progress.h"
-#include "sim/campaign/result_files.h"
 #include "sim/config/expand.h"
 #include "sim/config/pilot.h"
 #include "sim/config/scenario_changes.h"

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "sim/base/error.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/campaign/load_campaign.h"
-#include "sim/campaign/result_files.h"
 #include "sim/files/output_file.h"
 #include "sim/tables/report.h"
 #include "tools/commands/command.h"

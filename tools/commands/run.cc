@@ -8,7 +8,7 @@
 #include <set>
 
 #include "sim/base/error.h"
-#include "sim/campaign/progress.h"
+#include "sim/base/progress.h"
 #include "sim/config/expand.h"
 #include "sim/config/pilot.h"
 #include "sim/files/text_table.h"

@@ -6,8 +6,8 @@
 
 #include "sim/base/contains.h"
 #include "sim/base/error.h"
+#include "sim/campaign/campaign_files.h"
 #include "sim/campaign/load_campaign.h"
-#include "sim/campaign/result_files.h"
 #include "sim/files/output_file.h"
 #include "sim/tables/statistics_table.h"
 #include "tools/commands/command.h"

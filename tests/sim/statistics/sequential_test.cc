@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 #include "sim/base/random.h"
 #include "sim/statistics/binomial.h"
 

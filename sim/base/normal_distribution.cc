@@ -1,7 +1,8 @@
-#include "sim/base/normal_quantile.h"
+#include "sim/base/normal_distribution.h"
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace dodgesim {
 
@@ -41,6 +42,10 @@ constexpr double kF[] = {2.04426310338993978564e-15, 1.42151175831644588870e-7,
                          5.99832206555887937690e-1,  1.0};
 
 }  // namespace
+
+double normal_density(double z) { return std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi); }
+
+double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 double normal_quantile(double p) {
   const double q = p - 0.5;
