@@ -2,10 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 #include "tests/cli/command_test.h"
@@ -25,25 +22,6 @@ class ScenarioCommandTest : public dodgesim::testing::CommandTest {
     write("s.yaml",
           "seed: 3\nrepeats: 2\npilot: none\nfly_oracle: false\nafter_s: 0.1\n"
           "throw: {speed_mps: !uniform [5, 8], launch_s: 0.1}\n");
-  }
-
-  // The cells of one column of a CSV file without quoted cells.
-  std::vector<std::string> column(const std::string& file, const std::string& name) const {
-    std::istringstream lines(contents(file));
-    std::vector<std::string> cells;
-    std::ptrdiff_t at = -1;
-    for (std::string line; std::getline(lines, line);) {
-      std::vector<std::string> row;
-      std::istringstream in(line);
-      for (std::string cell; std::getline(in, cell, ',');) row.push_back(cell);
-      if (at < 0) {
-        at = std::find(row.begin(), row.end(), name) - row.begin();
-        EXPECT_LT(at, static_cast<std::ptrdiff_t>(row.size())) << name;
-      } else {
-        cells.push_back(row.at(static_cast<std::size_t>(at)));
-      }
-    }
-    return cells;
   }
 };
 
