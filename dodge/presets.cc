@@ -17,12 +17,13 @@ Config dodgesim() {
   // and the mistake seldom comes again within 60 ms.
   config.cluster.max_aspect = 8;
   config.position.stereo.min_share_of_best = 0.9;
-  // Far away, but only what was detected six times, each time within three standard deviations of
-  // where free fall from the detections before puts it. In some 20 ms that tells what jumps, not
-  // what flies straight or upwards.
+  // Far away, but only what was detected eight times, each time within three standard deviations of
+  // where free fall from the detections before puts it. That takes some 30 ms, of which windows of
+  // 20 ms share the events of less than half: it tells what jumps, not what flies straight or
+  // upwards.
   config.position.max_range_m = 5;
   config.association.gate_sigmas = 3;
-  config.association.min_detections = 6;
+  config.association.min_detections = 8;
   config.association.tentative_timeout_us = 60000;
   config.kalman.gravity = true;
   config.kalman.acceleration_noise_mps2_sqrthz = 1;
