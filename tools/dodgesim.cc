@@ -141,6 +141,9 @@ int main(int argc, char** argv) {
   } catch (const ScenarioError& error) {
     std::cerr << error.what() << "\n";
     return kUsageError;
+  } catch (const MissingThrows& error) {
+    std::cerr << error.what() << "\n";
+    return kIncomplete;
   } catch (const IoError& error) {
     std::cerr << error.what() << "\n";
     return kIoError;

@@ -18,6 +18,12 @@ class IoError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Results lack throws. Exit code 3.
+class MissingThrows : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // The simulation of one throw failed (diverged state, MuJoCo error or warning). Costs that throw.
 class SimulationError : public std::runtime_error {
  public:

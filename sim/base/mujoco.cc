@@ -13,8 +13,15 @@ namespace dodgesim {
 
 namespace {
 
+// "could not allocate memory", "Could not allocate mjData buffer".
+bool lacks_memory(const std::string& message) {
+  return message.find("ould not allocate") != std::string::npos;
+}
+
 void throw_error(const char* message) {
-  throw SimulationError(std::string("MuJoCo reports an error: ") + message + ".");
+  const std::string what = std::string("MuJoCo reports an error: ") + message + ".";
+  if (lacks_memory(message)) throw MemoryError(what);
+  throw SimulationError(what);
 }
 
 void ignore_warning(const char*) {}
@@ -53,20 +60,22 @@ MjModelPtr compile_model(const std::string& xml, const std::string& directory,
   mju_user_warning = ignore_warning;
   // A virtual file inside `directory`, so that relative includes and assets resolve there.
   const std::string name = "dodgesim_composed_model.xml";
-  auto vfs = std::make_unique<mjVFS>();
-  mj_defaultVFS(vfs.get());
+  const auto vfs_memory = std::make_unique<mjVFS>();
+  mj_defaultVFS(vfs_memory.get());
+  const std::unique_ptr<mjVFS, decltype(&mj_deleteVFS)> vfs(vfs_memory.get(), mj_deleteVFS);
   const int failed = mj_makeEmptyFileVFS(vfs.get(), name.c_str(), static_cast<int>(xml.size()));
-  if (failed != 0) throw ScenarioError(label + ": the composed model does not fit in memory.");
+  if (failed != 0) throw MemoryError(label + ": the composed model does not fit in memory.");
   std::memcpy(vfs->filedata[mj_findFileVFS(vfs.get(), name.c_str())], xml.data(), xml.size());
   char message[1000] = "";
   MjModelPtr model;
   try {
     model.reset(mj_loadXML((directory + "/" + name).c_str(), vfs.get(), message, sizeof message));
   } catch (const SimulationError& error) {
-    mj_deleteVFS(vfs.get());
     throw ScenarioError(label + ": " + error.what());
   }
-  mj_deleteVFS(vfs.get());
+  if (!model && lacks_memory(message)) {
+    throw MemoryError(label + ": " + one_line(message) + ".");
+  }
   if (!model) {
     throw ScenarioError(label + ": the model does not compile: " + one_line(message) + ".");
   }

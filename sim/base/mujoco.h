@@ -18,10 +18,10 @@ using MjModelPtr = std::unique_ptr<mjModel, MjModelDeleter>;
 using MjDataPtr = std::unique_ptr<mjData, MjDataDeleter>;
 
 // Compiles MJCF text; includes and assets are found in the folder `directory`.
-// Throws ScenarioError with MuJoCo's message, naming `label`.
-// From then on mju_error throws SimulationError (by default it waits for a key and exits), after
-// which the mjData must be discarded, and mju_warning is silent: check_simulation() reads its
-// counters.
+// Throws ScenarioError with MuJoCo's message, naming `label`; MemoryError for lack of memory.
+// From then on mju_error throws SimulationError or MemoryError (by default it waits for a key and
+// exits), after which the mjData must be discarded, and mju_warning is silent: check_simulation()
+// reads its counters.
 MjModelPtr compile_model(const std::string& xml, const std::string& directory,
                          const std::string& label);
 

@@ -2,19 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "sim/campaign/campaign.h"
 
 namespace dodgesim {
-
-// A merge lacks throws; what() lists them.
-class MissingThrows : public std::runtime_error {
- public:
-  explicit MissingThrows(const std::string& what) : std::runtime_error(what) {}
-};
 
 // Puts the results of several directories (shards of one campaign, in any order, some perhaps
 // twice) together in options.out, as if one process had flown them. A throw that was lost with its

@@ -1,5 +1,6 @@
 #include "sim/campaign/shard.h"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 
@@ -34,7 +35,10 @@ std::optional<int> find(const Environment& environment, const std::string& text,
 
 int index_from(const Environment& environment, const std::string& text) {
   if (const auto task = find(environment, text, "SLURM_ARRAY_TASK_ID")) {
-    return *task - find(environment, text, "SLURM_ARRAY_TASK_MIN").value_or(0);
+    const int from_first = *task - find(environment, text, "SLURM_ARRAY_TASK_MIN").value_or(0);
+    const int step = std::max(1, find(environment, text, "SLURM_ARRAY_TASK_STEP").value_or(1));
+    if (from_first % step == 0) return from_first / step;
+    refuse(text, "SLURM_ARRAY_TASK_ID is no task of an array of the step " + std::to_string(step));
   }
   for (const char* name : {"JOB_COMPLETION_INDEX", "AWS_BATCH_JOB_ARRAY_INDEX"}) {
     if (const auto index = find(environment, text, name)) return *index;

@@ -25,12 +25,15 @@ void add_core_problem(const std::string& what, ReadContext& context) {
 }
 
 // The flight core checks its own configuration. Which cameras it gets is known only with the
-// vehicle's model; a rectified pair stands for them.
+// vehicle's model; a rectified pair of one pixel each stands for them.
 void check_dodger(const Scenario& scenario, ReadContext& context) {
   dodge::Config config = scenario.dodger;
   config.cameras.resize(2);
   config.cameras[0].X_BC.translation().z() = 0.15;
-  for (dodge::CameraModel& camera : config.cameras) camera.X_BC.linear() = looking_forward();
+  for (dodge::CameraModel& camera : config.cameras) {
+    camera.X_BC.linear() = looking_forward();
+    camera.width = camera.height = 1;
+  }
   try {
     dodge::validate(config);
   } catch (const std::invalid_argument& error) {

@@ -76,7 +76,7 @@ const IdleRule kRules[] = {
     {"dodger.ego_motion", {}, sees, kBlind},
     {"dodger.position", {"dodger.position.depth"}, sees, kBlind},
     {"delays.lower_camera_us", {}, sees, kBlind},
-    {"sensors.events", {"sensors.events.latency_us"}, sees, kBlind},
+    {"sensors.events", {"sensors.events.latency_us", "sensors.events.preset"}, sees, kBlind},
     {"sensors.render", {}, sees, kBlind},
     {"sensors.sampling", {}, sees, kBlind},
     {"sensors.keys", {}, sees, kBlind},

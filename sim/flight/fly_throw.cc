@@ -106,7 +106,10 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
   FlightPlan plan;
   try {
     plan = plan_throw(scenario, thrown.stream);
-  } catch (const std::runtime_error& error) {  // also a ScenarioError: one draw may be impossible
+  } catch (const SimulationError& error) {
+    result.flown = failure(error);
+    return result;
+  } catch (const ScenarioError& error) {  // one draw may be impossible
     result.flown = failure(error);
     return result;
   }

@@ -187,8 +187,9 @@ CampaignTables read_tables(const fs::path& directory) {
   const fs::path throws = directory / kThrowsFile;
   refuse_file(directory);
   if (!fs::exists(throws) && fs::exists(directory / kJournalFile)) {
-    throw IoError(directory.string() + " is not finished, so it has no throws.csv: the same run " +
-                  "with --resume flies what is missing.");
+    throw MissingThrows(directory.string() +
+                        " is not finished, so it has no throws.csv: the same run " +
+                        "with --resume flies what is missing.");
   }
   if (!fs::exists(throws)) {
     throw IoError(throws.string() + " is missing; " + kWhatNamesACampaign + ".");

@@ -54,11 +54,13 @@ std::string rates_csv(const std::vector<RateGrid>& grids) {
     for (std::size_t i = 0; i < grid.rows.size(); ++i) {
       for (std::size_t k = 0; k < grid.columns.size(); ++k) {
         const Rate& rate = grid.rates[i][k];
+        const auto text = [&](double value) {
+          return rate.has_interval() ? fixed_text(value, 4) : std::string();
+        };
         const Interval interval = rate.interval();
         csv.rows.push_back({grid.name, grid.rows[i], grid.columns[k], std::to_string(rate.count),
-                            std::to_string(rate.of),
-                            rate.of > 0 ? fixed_text(*rate.value(), 4) : "",
-                            fixed_text(interval.lo, 4), fixed_text(interval.hi, 4)});
+                            std::to_string(rate.of), text(rate.value().value_or(0)),
+                            text(interval.lo), text(interval.hi)});
       }
     }
   }

@@ -15,16 +15,18 @@ void* load_osmesa() {
   // For all: MuJoCo looks for its own functions in what the process has loaded.
   void* library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_GLOBAL);
   if (library) return library;
-  const std::string reason = dlerror();
-  const std::optional<std::int64_t> limit_mb = memory_limit_mb();
-  throw SimulationError(
-      "OSMesa cannot be loaded (" + reason + "): is Mesa's llvmpipe (libosmesa6) installed" +
-      (limit_mb ? ", and is the limit of memory, " + std::to_string(*limit_mb) + " MB, enough"
-                : "") +
-      "?");
+  refuse_osmesa(std::string("OSMesa cannot be loaded (") + dlerror() + ")");
 }
 
 }  // namespace
+
+void refuse_osmesa(const std::string& what) {
+  const std::string question = what + ": is Mesa's llvmpipe (libosmesa6) installed";
+  const std::optional<std::int64_t> limit_mb = memory_limit_mb();
+  if (!limit_mb) throw ScenarioError(question + "?");
+  throw MemoryError(question + ", and is the limit of memory, " + std::to_string(*limit_mb) +
+                    " MB, enough?");
+}
 
 void* find_in_osmesa(const char* function) {
   static void* const library = load_osmesa();

@@ -10,11 +10,17 @@
 #include <GL/osmesa.h>
 
 #include <atomic>
+#include <string>
 
 namespace dodgesim {
 
-// Throws SimulationError if OSMesa cannot be loaded or lacks the function.
+// Throws SimulationError if OSMesa lacks the function, and as refuse_osmesa() if it cannot be
+// loaded.
 void* find_in_osmesa(const char* function);
+
+// Says what OSMesa cannot do, which is no throw's fault. Throws MemoryError where a limit of memory
+// may be the reason, ScenarioError otherwise.
+[[noreturn]] void refuse_osmesa(const std::string& what);
 
 template <class Signature>
 class OsmesaFunction;

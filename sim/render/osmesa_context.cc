@@ -40,10 +40,7 @@ OsmesaContext::OsmesaContext(GlProfile profile, int width, int height)
   setenv("LP_NUM_THREADS", "0", /*overwrite=*/0);
   framebuffer_.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   context_ = create(profile);
-  if (!context_) {
-    throw SimulationError(
-        "OSMesa cannot make an OpenGL context: is Mesa's llvmpipe (libosmesa6) installed?");
-  }
+  if (!context_) refuse_osmesa("OSMesa cannot make an OpenGL context");
   try {
     make_current();
   } catch (...) {

@@ -17,8 +17,8 @@ enum class GlProfile {
 // LP_NUM_THREADS is set to 0 unless the user has set it. The images do not depend on it.
 class OsmesaContext {
  public:
-  // Throws SimulationError when OSMesa cannot make the context. The default framebuffer measures
-  // width x height px, with depth and stencil buffers.
+  // Throws as refuse_osmesa() (gl.h) when OSMesa cannot make the context. The default framebuffer
+  // measures width x height px, with depth and stencil buffers.
   OsmesaContext(GlProfile profile, int width, int height);
   ~OsmesaContext();
   OsmesaContext(const OsmesaContext&) = delete;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "sim/base/contains.h"
 #include "sim/base/shell.h"
 #include "sim/files/base64.h"
 #include "sim/files/json.h"
@@ -82,7 +83,10 @@ using Values = std::vector<std::string>;
 
 struct ReportAxes {
   explicit ReportAxes(const std::vector<ThrowResult>& results)
-      : grid(grid_axes(results)), speed("speed_mps", results), object("object", results) {
+      : grid(grid_axes(results)), speed("speed_mps", results) {
+    for (const ThrowResult& result : results) {
+      if (result.thrown() && !contains(objects, result.object)) objects.push_back(result.object);
+    }
     for (const Axis& axis : grid) {
       if (!axis.middles().empty() && heat.size() < 2) heat.push_back(axis);
     }
@@ -109,11 +113,17 @@ struct ReportAxes {
     return static_cast<std::uint32_t>(place);
   }
 
+  // Where in `objects` its first one stands; nothing where nobody threw.
+  std::optional<std::size_t> object_of(const ThrowResult& result) const {
+    return result.thrown() ? index_of(objects, result.object) : std::nullopt;
+  }
+
   std::vector<Axis> grid;
   std::vector<Axis> heat;  // rows and columns of the heat map: the first two numeric keys of the
                            // grid, or size and distance
-  Axis speed, object;
-  std::vector<Values> cells;  // of the grid, the values of its last key changing fastest
+  Axis speed;
+  std::vector<std::string> objects;  // that were thrown first, whatever a cell of the grid says
+  std::vector<Values> cells;         // of the grid, the values of its last key changing fastest
 };
 
 // Numbers of all throws as base64, by name.
@@ -154,7 +164,7 @@ Json columns_of(const std::vector<ThrowResult>& results, const ReportAxes& axes)
   columns.add("heat_column", [&](const R& r) { return heat_place(axes.heat[1].of(r)); });
   columns.add("cell", [&](const R& r) { return axes.cell_of(r); });
   columns.add("objects", [](const R& r) { return static_cast<std::uint8_t>(r.objects); });
-  columns.add("object", [&](const R& r) { return place(axes.object.of(r)); });
+  columns.add("object", [&](const R& r) { return place(axes.object_of(r)); });
   columns.add("size", [](const R& r) { return number(r.size_m); });
   columns.add("distance", [](const R& r) { return number(r.distance_m); });
   columns.add("speed", [](const R& r) { return number(r.speed_mps); });
@@ -273,7 +283,7 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
           {"heat", std::move(heat)},
           {"cells", {{"keys", std::move(grid_keys)}, {"values", axes.cells}}},
           {"speed", {{"values", axes.speed.values()}, {"middles", axes.speed.middles()}}},
-          {"objects", axes.object.values()},
+          {"objects", axes.objects},
           {"fates", std::move(fates)},
           {"causes", std::move(causes)},
           {"flags", std::move(flags)},

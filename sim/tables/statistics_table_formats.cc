@@ -119,8 +119,8 @@ class StatisticsLine : public CsvLine {
   void count(const std::string& name, std::int64_t value) { add(name, std::to_string(value)); }
   void rate(const std::string& name, const Rate& rate) {
     add(name, cell_of(rate.value()));
-    add(name + "_lo", rate.stopped ? "" : cell_of(rate.interval().lo));
-    add(name + "_hi", rate.stopped ? "" : cell_of(rate.interval().hi));
+    add(name + "_lo", rate.has_interval() ? cell_of(rate.interval().lo) : "");
+    add(name + "_hi", rate.has_interval() ? cell_of(rate.interval().hi) : "");
   }
   void sample(const std::string& name, const Measured& sample) {
     count(name + "_n", static_cast<std::int64_t>(sample.count()));
@@ -178,10 +178,13 @@ StatisticsLine line_of(const StatisticsTable& table, const StatisticsTable::Row&
   csv.count("collisions", of.tally.collisions.count);
   csv.rate("collision_rate", of.tally.collisions);
   csv.sample("clearance_m", of.clearance_m);
-  csv.count("in_view", perception.detected.of);
-  csv.count("detected", perception.detected.count);
+  const auto count_of_flown = [&](const std::string& name, std::int64_t count) {
+    csv.text(name, flown ? std::to_string(count) : "");
+  };
+  count_of_flown("in_view", perception.detected.of);
+  count_of_flown("detected", perception.detected.count);
   csv.rate("detection_rate", perception.detected);
-  csv.count("false_alarms", perception.false_alarms.count);
+  count_of_flown("false_alarms", perception.false_alarms.count);
   csv.rate("false_alarm_rate", perception.false_alarms);
   for (const NamedSample& named : kSamples) csv.sample(named.name, perception.*named.sample);
   return csv;
@@ -195,8 +198,8 @@ Json json_of(const Rate& rate) {
   return {{"count", rate.count},
           {"of", rate.of},
           {"rate", json_number(rate.value())},
-          {"lo", rate.stopped ? Json(nullptr) : Json(rate.interval().lo)},
-          {"hi", rate.stopped ? Json(nullptr) : Json(rate.interval().hi)},
+          {"lo", rate.has_interval() ? Json(rate.interval().lo) : Json(nullptr)},
+          {"hi", rate.has_interval() ? Json(rate.interval().hi) : Json(nullptr)},
           {"interval", rate.interval_name()}};
 }
 

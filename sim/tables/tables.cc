@@ -218,10 +218,9 @@ std::string asides(const Part& part) {
     }
   }
   if (unjudged > 0 && part.pilot != kNoPilot) {
-    text +=
-        "Whether " + count_text(unjudged, "throw") +
-        " would have hit is not known, as the flight in which nobody dodges failed: counted as if "
-        "so, and as not dodged.\n\n";
+    text += "Whether " + count_text(unjudged, "throw") +
+            " would have hit is not known, as the flight in which nobody dodges failed or was not "
+            "flown: counted as if so, and as not dodged.\n\n";
   }
   if (would_miss > 0) {
     text += "Of " + count_text(would_miss, "throw") + " that would have missed, " + part.pilot +

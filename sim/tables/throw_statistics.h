@@ -38,6 +38,7 @@ struct Rate {
   }
   std::optional<double> value() const;  // empty when nothing was counted
   Interval interval() const { return sequential ? sequential->interval : wilson(count, of); }
+  bool has_interval() const { return of > 0 && !stopped; }
   std::string interval_name() const;  // "Wilson 95 %", "sequential 95 %" or "none"
 };
 

@@ -104,7 +104,7 @@ TEST_F(FaultsTest, AStoppedReplayLeavesNothingBehind) {
   ::waitpid(child, &status, 0);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 3);
-  EXPECT_THAT(contents(path("output.txt")), HasSubstr("The replay was stopped."));
+  EXPECT_THAT(contents(path("output.txt")), HasSubstr("Stopped; nothing is written."));
   for (const auto& entry : fs::directory_iterator(root_)) {
     EXPECT_THAT(entry.path().filename().string(), ::testing::Not(::testing::StartsWith("a.mp4")));
     EXPECT_THAT(entry.path().filename().string(), ::testing::Not(::testing::StartsWith("a.mcap")));
@@ -169,6 +169,23 @@ TEST_F(FaultsTest, OutputThatNobodyCanStoreIsNoSuccess) {
   EXPECT_EQ(outcome.exit_code, 4);
   EXPECT_THAT(outcome.output,
               HasSubstr("/dev/full could not be created: a file of that name exists."));
+}
+
+TEST_F(FaultsTest, ThrowsThatLackedMemoryAreFlownAgain) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "Sanitizers reserve more address space than any limit allows.";
+#endif
+  for (const std::string few : {"--set pilot=none --memory-limit 80",             // for MuJoCo
+                                "--set pilot=falanga2020 --memory-limit 256"}) {  // for Mesa
+    const std::string pilot = few.substr(0, few.find(" --memory"));
+    const std::string brief = " --force --set repeats=1 --set duration_s=0.01 ";
+    ASSERT_EQ(dodgesim(run_arguments("whole", pilot + brief)).exit_code, 0);
+    EXPECT_EQ(dodgesim(run_arguments("short", few + brief)).exit_code, 3);
+    EXPECT_THAT(column("short/throws.csv", "flown_status"), ::testing::ElementsAre("lost")) << few;
+    const std::string resumed = pilot + " --resume --set repeats=1 --set duration_s=0.01";
+    EXPECT_EQ(dodgesim(run_arguments("short", resumed)).exit_code, 0) << few;
+    expect_same("whole", "short");
+  }
 }
 
 TEST_F(FaultsTest, ADivergedSimulationCountsAsNoSuccessAndReplays) {

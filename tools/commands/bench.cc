@@ -44,7 +44,7 @@ void run(const BenchArguments& arguments, const std::string& command_line) {
   if (json) watch_stop_signals();
   const auto measurements = measure(cases, arguments.options, [](const Measurement& measurement) {
     std::cout << line(measurement) << std::endl;
-    if (asked_to_stop()) throw std::runtime_error("Stopped; nothing is written.");
+    end_if_asked_to_stop();
   });
   if (!json) return;
   const std::string gl_renderer = OsmesaContext(GlProfile::kCore33, 1, 1).renderer();

@@ -108,7 +108,7 @@ CampaignSummary fly_campaign(const Scenario& scenario, const CampaignOptions& op
 int report_errors(const CampaignSummary& summary) {
   if (summary.errors == 0) return kOk;
   std::cerr << count_text(summary.errors, "throw")
-            << " had a flight that failed; see \"Errors\" in the table.";
+            << " had a flight that failed; see \"Errors\" in table.md.";
   const auto first = std::ranges::find_if(
       summary.results, [](const ThrowResult& result) { return result.flown.failed(); });
   if (first != summary.results.end()) {

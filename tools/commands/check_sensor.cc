@@ -70,7 +70,7 @@ int check_sensor(const CheckSensorArguments& arguments, const std::string& comma
   std::vector<Check> checks;
   bool failed = false;
   for (const auto& make_check : make_checks) {
-    if (asked_to_stop()) throw std::runtime_error("Stopped; nothing is written.");
+    end_if_asked_to_stop();
     checks.push_back(make_check());
     failed = failed || checks.back().failed();
     for (const CheckLine& line : checks.back().lines) std::cout << line_text(line) << std::endl;

@@ -12,7 +12,6 @@
 #include "sim/base/input_file.h"
 #include "sim/base/joined.h"
 #include "sim/campaign/campaign_files.h"
-#include "sim/campaign/merge.h"
 #include "sim/config/expand.h"
 #include "sim/config/scenario_changes.h"
 #include "sim/files/text_table.h"
@@ -250,13 +249,8 @@ void add_compare_command(CLI::App& program, int& exit_code) {
       "  dodgesim sweep s.yaml --out late --over delays.compute_us=3500,30000,60000\n"
       "  dodgesim compare late");
   command->callback([arguments, &exit_code] {
-    try {
-      exit_code =
-          arguments->second.empty() ? compare_sweep(*arguments) : compare_campaigns(*arguments);
-    } catch (const MissingThrows& error) {
-      std::cerr << error.what() << "\n";
-      exit_code = kIncomplete;
-    }
+    exit_code =
+        arguments->second.empty() ? compare_sweep(*arguments) : compare_campaigns(*arguments);
   });
 }
 

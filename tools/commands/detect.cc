@@ -327,7 +327,7 @@ void detect(const DetectArguments& arguments) {
   PlaybackProgress progress(arguments.events);
   while (playback.next()) {
     progress.show(playback);
-    if (asked_to_stop()) throw std::runtime_error("Stopped; nothing is written.");
+    end_if_asked_to_stop();
     sums.add(files.add(playback.now_us(), playback.pilot(), playback.command()), playback);
     for (CheckedRates& checked : rates) checked.add(playback.new_events(0));
     if (dodger != nullptr) order.add(dodger->clusters(0), dodger->clusters(1));

@@ -91,7 +91,7 @@ class Emulation {
 
   // `between`: a picture between two frames of the video.
   void show(TimeUs t_us, const std::vector<float>& luminance, bool between) {
-    if (asked_to_stop()) throw std::runtime_error("The emulation was stopped; nothing is written.");
+    end_if_asked_to_stop();
     events_.clear();
     if (causes_) {
       camera_.update(t_us, {luminance.data(), shown_.data()}, events_);

@@ -54,9 +54,7 @@ struct ReplayArguments {
 // Ends the flight when the user asks for it.
 class Stopper : public FlightObserver {
  public:
-  void on_tick(const World& /*world*/) override {
-    if (asked_to_stop()) throw std::runtime_error("The replay was stopped.");
-  }
+  void on_tick(const World& /*world*/) override { end_if_asked_to_stop(); }
 };
 
 // Says on a terminal how far the flight is.

@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <ctime>
+#include <stdexcept>
 
 namespace dodgesim {
 
@@ -51,5 +52,9 @@ void watch_stop_signals_no_more() {
 }
 
 bool asked_to_stop() { return stop_signal != 0; }
+
+void end_if_asked_to_stop() {
+  if (asked_to_stop()) throw std::runtime_error("Stopped; nothing is written.");
+}
 
 }  // namespace dodgesim

@@ -12,5 +12,7 @@ void watch_stop_signals();
 void watch_stop_signals_no_more();
 
 bool asked_to_stop();
+// Throws std::runtime_error then: for commands that write all or nothing.
+void end_if_asked_to_stop();
 
 }  // namespace dodgesim

@@ -38,6 +38,14 @@ TEST(Shard, IsTakenFromTheEnvironmentOfAnArrayJob) {
   EXPECT_EQ(parsed("auto", slurm).index, 3);
   EXPECT_EQ(parsed("auto", slurm).count, 6);
   EXPECT_EQ(parsed("auto/6", slurm).index, 3);
+  // --array=2-8:3
+  Variables stepped = {{"SLURM_ARRAY_TASK_MIN", "2"},
+                       {"SLURM_ARRAY_TASK_COUNT", "3"},
+                       {"SLURM_ARRAY_TASK_STEP", "3"}};
+  for (const int shard : {0, 1, 2}) {
+    stepped["SLURM_ARRAY_TASK_ID"] = std::to_string(2 + 3 * shard);
+    EXPECT_EQ(parsed("auto", stepped).index, shard);
+  }
 }
 
 TEST(Shard, RefusesWhatIsNone) {
@@ -52,6 +60,11 @@ TEST(Shard, RefusesWhatIsNone) {
   const Variables again = {
       {"SLURM_ARRAY_TASK_ID", "5"}, {"SLURM_ARRAY_TASK_MIN", "5"}, {"SLURM_ARRAY_TASK_COUNT", "1"}};
   EXPECT_THAT(refusal("auto/8", again), ::testing::HasSubstr("the array has 1 tasks"));
+  const Variables uneven = {{"SLURM_ARRAY_TASK_ID", "4"},
+                            {"SLURM_ARRAY_TASK_MIN", "1"},
+                            {"SLURM_ARRAY_TASK_COUNT", "3"},
+                            {"SLURM_ARRAY_TASK_STEP", "2"}};
+  EXPECT_THAT(refusal("auto", uneven), ::testing::HasSubstr("of an array of the step 2"));
   EXPECT_THAT(refusal("auto/8", {{"JOB_COMPLETION_INDEX", "x"}}),
               ::testing::HasSubstr("which is no number"));
   EXPECT_THAT(refusal("auto/8", {{"JOB_COMPLETION_INDEX", "8"}}),

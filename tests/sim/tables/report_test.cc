@@ -173,6 +173,17 @@ TEST(ReportPage, ShowsTheCellsOfAnyGridAndTheHeatMapOfItsFirstTwoNumbers) {
   EXPECT_EQ(none["heat"][2][0][1], 16);
 }
 
+TEST(ReportPage, NamesTheObjectsThatWereThrownAndNotHowTheyWereDrawn) {
+  LoadedCampaign grid = campaign(3);
+  for (ThrowResult& result : grid.results) {
+    result.cell_values = {{"object", "!choice [ball, box]"}};
+    result.object = result.index == 1 ? "box" : "ball";
+  }
+  const auto data = data_of(report_html(grid, "out/x"));
+  EXPECT_EQ(data["objects"], parse_json(R"(["ball", "box"])"));
+  EXPECT_EQ(data["columns"]["object"]["values"], base64(std::string("\0\1\0", 3)));
+}
+
 TEST(ReportPage, SaysOfAThrowThatNobodyCanJudgeWhy) {
   LoadedCampaign one = campaign(1);
   one.results[0].flown = flown(false);

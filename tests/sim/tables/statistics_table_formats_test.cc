@@ -77,12 +77,30 @@ TEST(TableFormats, CsvHasEqualColumnsAndEmptyCellsForTheUnknown) {
   EXPECT_THAT(rows[3], ::testing::EndsWith(",0,,,,,"));  // a sample of nothing
 }
 
+TEST(TableFormats, WhatIsNotKnownOfThePilotNoneAndOfNoTrialIsEmpty) {
+  const std::vector<std::string> rows = lines(to_csv(table()));
+  const std::vector<std::string> head = cells(rows[0]), flown = cells(rows[3]),
+                                 none = cells(rows[4]);
+  const auto at = [&](const std::vector<std::string>& row, const std::string& column) {
+    return row.at(static_cast<std::size_t>(std::ranges::find(head, column) - head.begin()));
+  };
+  EXPECT_EQ(at(flown, "in_view"), "0");
+  for (const char* end : {"detection_rate", "detection_rate_lo", "detection_rate_hi"}) {
+    EXPECT_EQ(at(flown, end), "") << end;
+  }
+  ASSERT_EQ(at(none, "pilot"), "none");
+  for (const char* count : {"in_view", "detected", "false_alarms", "false_alarm_rate_lo"}) {
+    EXPECT_EQ(at(none, count), "") << count;
+  }
+}
+
 TEST(TableFormats, JsonIsValidAndHasNullForTheUnknown) {
   const auto json = parse_json(to_json(table()));
   ASSERT_EQ(json.size(), 3u);
   EXPECT_EQ(json[1]["pilots"][0]["dodged"]["rate"], 0);
   EXPECT_EQ(json[1]["pilots"][0]["dodged"]["of"], 1);
   EXPECT_TRUE(json[1]["detected"]["rate"].is_null());
+  EXPECT_TRUE(json[1]["detected"]["lo"].is_null());
   EXPECT_TRUE(json[1]["time_to_contact_s"]["q50"].is_null());
   EXPECT_TRUE(json[1]["pilots"][0]["clearance_m"]["q50"]["hi"].is_null());  // unbounded
   EXPECT_EQ(json[2]["causes"]["seen late"], 1);
