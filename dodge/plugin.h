@@ -31,8 +31,9 @@ namespace dodge {
 //   other fields it writes obstacle_id, size_m, depth_m and depth_sigma_m to detections.csv and
 //   draws some. obstacles() may be empty: only `dodgesim detect` reads it.
 // - A flight fails if a command or a detection speaks of an instant after now_us, or a detection of
-//   one before 0; if a number of theirs (but p_W and distance_per_depth) is not finite or beyond a
-//   million; or if a detection's size_m or depth_sigma_m is negative.
+//   0 or before, or of more than a second ago; if a number of theirs (but p_W and
+//   distance_per_depth) is not finite or beyond a million; or if a detection's size_m or
+//   depth_sigma_m is negative.
 // - Every process flies many throws: what a plug-in changes of it (std::locale::global(), signals,
 //   open files) meets those after it, too.
 using MakePilot = std::unique_ptr<Pilot>(const Config& config, const std::string& parameters);

@@ -83,29 +83,15 @@ MjModelPtr compile_model(const std::string& xml, const std::string& directory,
   return model;
 }
 
-void check_simulation(const mjData& data, double expected_time_s) {
-  const struct {
-    int kind;
-    const char* name;
-  } checks[] = {{mjWARN_INERTIA, "inertia matrix"},
-                {mjWARN_BADQPOS, "position"},
-                {mjWARN_BADQVEL, "velocity"},
-                {mjWARN_BADQACC, "acceleration"},
-                {mjWARN_BADCTRL, "control"}};
+void check_warnings(const mjData& data) {
   if (data.warning[mjWARN_CONTACTFULL].number + data.warning[mjWARN_CNSTRFULL].number > 0) {
     throw SimulationError("The models touch at too many points at once for the simulation, at " +
                           std::to_string(data.time) +
                           " s: give those that collide fewer or simpler geoms.");
   }
-  for (const auto& check : checks) {
-    if (data.warning[check.kind].number > 0) {
-      throw SimulationError(std::string("The simulation diverged: MuJoCo warns of the ") +
-                            check.name + " at " + std::to_string(data.time) + " s.");
-    }
-  }
-  if (!(std::abs(data.time - expected_time_s) < 1e-6)) {
-    throw SimulationError("The simulation diverged: its time is " + std::to_string(data.time) +
-                          " s instead of " + std::to_string(expected_time_s) + " s.");
+  if (data.warning[mjWARN_INERTIA].number > 0) {
+    throw SimulationError("The simulation diverged: MuJoCo warns of the inertia matrix at " +
+                          std::to_string(data.time) + " s.");
   }
 }
 

@@ -31,6 +31,9 @@ struct DelaySpec {
   // From the start of a cycle to its command.
   int pilot_us() const { return compute_us + perception_us; }
 
+  // From a command to the rotor commands that it causes.
+  int link_us() const { return command_us + flight_controller_us; }
+
   // From one cycle to the next, in whole ticks. No cycle starts before the last one has ended.
   TimeUs period_us() const {
     const TimeUs least_us = std::max(cycle_us, compute_us);

@@ -10,6 +10,7 @@
 #include "sim/base/memory_limit.h"
 #include "sim/base/process_state.h"
 #include "sim/base/utf8.h"
+#include "sim/world/snapshot.h"
 
 namespace dodgesim {
 
@@ -39,7 +40,10 @@ auto guarded(Call call) -> decltype(call()) {
 // What is written of it to detections.csv.
 void check_detection(const dodge::Detection& detection, dodge::TimeUs now_us) {
   if (detection.t_us > now_us) refuse("gave a detection a time stamp in the future", now_us);
-  if (detection.t_us < 0) refuse("gave a detection an instant before the flight", now_us);
+  if (detection.t_us <= 0) refuse("gave a detection an instant before the flight", now_us);
+  if (detection.t_us < now_us - SnapshotHistory::kKeptUs) {
+    refuse("gave a detection an instant more than a second ago", now_us);
+  }
   if (!(detection.centre_W.array().abs() <= kFarthestM).all()) {  // false for NaN
     refuse("detected something that is nowhere, or more than a million m away", now_us);
   }

@@ -1,6 +1,6 @@
 // What the pilots that know the truth may see. An object that they have seen pass (it flies away
-// from where the vehicle is, and the vehicle does not catch up with it) is no obstacle to them any
-// more.
+// from where the vehicle is, and falling freely it will come no nearer to a vehicle that flies on)
+// is no obstacle to them any more.
 #pragma once
 
 namespace dodgesim {

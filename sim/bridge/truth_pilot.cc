@@ -1,16 +1,30 @@
 #include "sim/bridge/truth_pilot.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "sim/base/gravity.h"
 
 namespace dodgesim {
 
 namespace {
 
+// Whether an object that falls freely will, after any time t, be no nearer than it is now. With the
+// offset o and the velocity v, both relative, |o + v t - g t^2 / 2|^2 - |o|^2 is t times a cubic,
+// the least value of which must not be negative.
+bool comes_no_nearer(const Eigen::Vector3d& o, const Eigen::Vector3d& v) {
+  constexpr double kG = kGravityMps2;
+  const double a = 2 * o.dot(v), b = v.squaredNorm() - kG * o.z(), c = -kG * v.z(), d = kG * kG / 4;
+  const double root = c * c - 3 * b * d;
+  const double t = root > 0 ? std::max(0.0, (std::sqrt(root) - c) / (3 * d)) : 0;
+  return a >= 0 && a + b * t + c * t * t + d * t * t * t >= 0;
+}
+
 // A field that goes on pushing at what has passed drives the vehicle into a wall. What flies ahead
-// of a vehicle that is faster has not passed.
+// of a vehicle that is faster, or rises before it falls, has not passed.
 bool has_passed(const BodyState& object, const BodyState& vehicle) {
   const Eigen::Vector3d offset_W = object.p_W - vehicle.p_W;
-  return offset_W.dot(object.v_W) > 0 && offset_W.dot(object.v_W - vehicle.v_W) > 0;
+  return offset_W.dot(object.v_W) > 0 && comes_no_nearer(offset_W, object.v_W - vehicle.v_W);
 }
 
 }  // namespace

@@ -117,7 +117,11 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
     return other.known_us && (!object.known_us || *other.known_us < *object.known_us);
   });
   // Of a later object nobody knows how it would have met a vehicle that stayed.
-  if (would_hit && none->verdict.nearest_object == hitter) evidence.undisturbed = encounter(*none);
+  const bool same = would_hit && none->verdict.nearest_object == hitter;
+  if (same) evidence.undisturbed = encounter(*none);
+  evidence.another_would_hit = would_hit && !same;
+  evidence.rebound = evidence.hit && flown.verdict.nearest.after_room &&
+                     !(same && none->verdict.nearest.after_room);
   add_answer(log, object, flown.command_delay_us, evidence);
   return evidence;
 }

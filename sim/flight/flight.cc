@@ -54,7 +54,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
       rig_(make_rig()),
       mission_(scenario.mission),
       controller_states_(scenario.delays.state_estimate_us),
-      rate_commands_(scenario.delays.command_us + scenario.delays.flight_controller_us),
+      rate_commands_(scenario.delays.link_us()),
       detection_logger_(world_, scenario.delays.pilot_us()) {
   const MissionSpec& mission = scenario.mission;
   const VehicleParameters& vehicle = world_.vehicle();
@@ -63,7 +63,7 @@ Flight::Flight(const Scenario& scenario, const FlightPlan& plan, FlightObserver*
   const double hover_n = 0.25 * vehicle.mass_kg * kGravityMps2;
   motors_.reset(0, {hover_n, hover_n, hover_n, hover_n});
   flight_controller_.reset({hover_n, hover_n, hover_n, hover_n});
-  record_.command_delay_us = scenario.delays.command_us + scenario.delays.flight_controller_us;
+  record_.command_delay_us = scenario.delays.link_us();
   rate_command_.thrust_mps2 = kGravityMps2;
   computer_.set_goal(mission_.goal());
   referee_.reset();

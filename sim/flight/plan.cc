@@ -62,8 +62,7 @@ FlightPlan plan_throw(const Scenario& scenario, int throw_index, FlightObserver*
   for (const Throw& drawn : resolve_throws(scenario, throw_index)) {
     plan.launches.push_back({drawn, {}});
   }
-  World world(world_spec(scenario, plan.launches));
-  world.reset(scenario.mission.start_m, 0, Eigen::Vector3d::Zero());
+  const World world(world_spec(scenario, plan.launches));
   for (int i = 0; i < world.object_count(); ++i) {
     FlightPlan::Launch& launch = plan.launches[static_cast<std::size_t>(i)];
     const BodyState vehicle =

@@ -42,12 +42,22 @@ CollisionCause cause_of_answer(const Agility& agility, const CollisionEvidence& 
 }  // namespace
 
 std::string to_text(CollisionCause cause) {
-  constexpr const char* kTexts[] = {
-      "not seen",         "seen far only",        "not detected",
-      "second object",    "not evaded",           "evaded late",
-      "seen late",        "wrong position",       "wrong direction",
-      "direction turned", "commanded too little", "not enough thrust",
-      "landing",          "fled into the room",   "flew into the room"};
+  constexpr const char* kTexts[] = {"not seen",
+                                    "seen far only",
+                                    "not detected",
+                                    "second object",
+                                    "not evaded",
+                                    "evaded late",
+                                    "seen late",
+                                    "wrong position",
+                                    "wrong direction",
+                                    "direction turned",
+                                    "commanded too little",
+                                    "not enough thrust",
+                                    "rebound",
+                                    "landing",
+                                    "fled into the room",
+                                    "flew into the room"};
   static_assert(std::size(kTexts) == kCollisionCauses.size());
   return kTexts[static_cast<std::size_t>(cause)];
 }
@@ -68,11 +78,14 @@ CollisionCause collision_cause(const Agility& agility, const CollisionEvidence& 
   if (!evidence.hit) {
     return evidence.evaded ? CollisionCause::kFledIntoTheRoom : CollisionCause::kFlewIntoTheRoom;
   }
+  if (evidence.rebound) return CollisionCause::kRebound;
+  const bool known = !evidence.perceives || evidence.earliest_command_us;
+  if (!known && !evidence.in_view) return CollisionCause::kNotSeen;
   if (evidence.another_known_before) return CollisionCause::kSecondObject;
-  if (evidence.perceives && !evidence.in_view) return CollisionCause::kNotSeen;
-  if (evidence.perceives && !evidence.earliest_command_us) {
+  if (!known) {
     return evidence.in_view_near ? CollisionCause::kNotDetected : CollisionCause::kSeenFarOnly;
   }
+  if (evidence.another_would_hit) return CollisionCause::kSecondObject;
   if (!evidence.undisturbed) return CollisionCause::kWrongDirection;
   const TimeUs contact_us = evidence.undisturbed->contact_us;
   const auto in_time = [&](const std::optional<TimeUs>& command_us) {

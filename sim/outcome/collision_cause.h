@@ -2,12 +2,14 @@
 // allow, whatever its pilot and controller made of it (agility.h). A pilot that is told of objects
 // detects one when it is first told of it:
 //
-//   not seen              the object was never in view of a camera
+//   not seen              the object's centre was never in view of a camera, and no detection was
+//                         of it
 //   seen far only         in view, but never while it was as near as the pilot believes detections
 //                         (dodger.position.max_range_m; of a plug-in nobody knows), and no
 //                         detection was of it
 //   not detected          in view and near, but no detection was of it
-//   second object         the pilot knew of another object before this one
+//   second object         the pilot knew of another object before this one, or another would have
+//                         hit a vehicle that stayed, so that nobody knows how this one met it
 //   not evaded            a command sent at the first detection would have left some manoeuvre, but
 //                         none came before the object did: the pilot did not believe what it had
 //                         detected, or did not act on it
@@ -31,6 +33,8 @@
 //   not enough thrust     such a vehicle would have got out of the way: this one or its controller
 //                         did not follow as fast as the bound of agility.h, which no vehicle with
 //                         its rotors quite reaches
+//   rebound               the object hit after it had touched the room, and would not have hit so
+//                         late a vehicle that stayed
 //   landing               the pilot had begun an emergency landing before, on which it dodges
 //                         nobody
 //   fled into the room    no object touched the vehicle, but it touched the room, having evaded
@@ -60,6 +64,7 @@ enum class CollisionCause {
   kDirectionTurned,
   kCommandedTooLittle,
   kNotEnoughThrust,
+  kRebound,
   kLanding,
   kFledIntoTheRoom,
   kFlewIntoTheRoom,
@@ -77,6 +82,7 @@ inline constexpr std::array kCollisionCauses = {CollisionCause::kNotSeen,
                                                 CollisionCause::kDirectionTurned,
                                                 CollisionCause::kCommandedTooLittle,
                                                 CollisionCause::kNotEnoughThrust,
+                                                CollisionCause::kRebound,
                                                 CollisionCause::kLanding,
                                                 CollisionCause::kFledIntoTheRoom,
                                                 CollisionCause::kFlewIntoTheRoom};
@@ -99,6 +105,7 @@ struct CollisionEvidence {
   bool hit = false;           // otherwise it came to harm, if it did, by crashing into the room
   bool evaded = false;        // anything, at any time
   bool landing = false;       // the pilot had begun an emergency landing
+  bool rebound = false;       // it had touched the room; not so by the contact of `undisturbed`
   bool perceives = true;      // the pilot sees with its cameras; others are told of objects
   bool in_view = false;       // the object was, before the hit
   bool in_view_near = false;  // likewise, within the range that the pilot believes
@@ -106,7 +113,8 @@ struct CollisionEvidence {
   // have arrived; empty: there was none.
   std::optional<TimeUs> earliest_command_us;
   bool another_known_before = false;
-  std::optional<Encounter> undisturbed;  // empty: nothing would have happened
+  bool another_would_hit = false;        // so that nobody knows what `undisturbed` would have been
+  std::optional<Encounter> undisturbed;  // empty: nothing would have happened, or another
   std::optional<TimeUs> command_us;      // first evasive command from earliest_command_us on
   CommandedWay commanded;  // by it and those after it, until the contact of `undisturbed`
   // The first evasive command of these that led back: across the flight of `undisturbed`, more than

@@ -47,7 +47,7 @@ std::string description(const WorldSpec& world) {
   text.precision(17);
   text << world.models_dir << '/' << world.room << '/' << world.vehicle << '/'
        << overrides.mass_scale << '/' << overrides.max_thrust_n << '/' << overrides.inertia_scale
-       << '/' << overrides.stereo_baseline_m;
+       << '/' << overrides.stereo_baseline_m << '/' << overrides.lower_camera_turn_deg.transpose();
   for (const ObjectSpec& object : world.objects) text << '/' << object.kind;
   return text.str();
 }

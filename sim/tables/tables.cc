@@ -193,12 +193,13 @@ std::string landings_of(const Part& part) {
 // What a rate over the throws that would have hit does not show.
 std::string asides(const Part& part) {
   int would_miss = 0, miss_evaded = 0, walked_into = 0, crashed = 0, crashed_undisturbed = 0;
-  int after_room = 0, unjudged = 0;
+  int after_room = 0, unjudged = 0, elsewhere = 0;
   Rate quiet;
   for (const ThrowResult* result : part.results) {
     unjudged += result->thrown() && !result->none.ok() && !result->nobody_could_fly() ? 1 : 0;
     after_room += result->none_after_room ? 1 : 0;
     if (!result->flown.ok()) continue;
+    elsewhere += result->dodged() && !result->evaded ? 1 : 0;
     if (!result->thrown()) {
       quiet.add(result->evaded);
       crashed += result->flown.crashed ? 1 : 0;
@@ -221,6 +222,10 @@ std::string asides(const Part& part) {
     text += "Whether " + count_text(unjudged, "throw") +
             " would have hit is not known, as the flight in which nobody dodges failed or was not "
             "flown: counted as if so, and as not dodged.\n\n";
+  }
+  if (elsewhere > 0) {
+    text += "Of the throws that count as dodged " + std::to_string(elsewhere) + " missed " +
+            part.pilot + " without an evasion: it was not where they were aimed.\n\n";
   }
   if (would_miss > 0) {
     text += "Of " + count_text(would_miss, "throw") + " that would have missed, " + part.pilot +

@@ -35,7 +35,7 @@ struct Throw {
 
 // State of the object at launch. aim_p_W: where the vehicle's centre will be at arrival_us();
 // heading_rad: the vehicle's yaw. The flight passes the aim point to 0.1 mm (where the
-// vehicle's place is known by the tick only, as in plan.cc, to half a tick of its way).
+// vehicle's place is known by the tick only, as in plan.cc, to a tick of its way).
 // Throws ScenarioError for numbers that are no throw (not finite, not positive) and for one that
 // the drag makes impossible.
 BodyState solve_throw(const Throw& toss, const ObjectPhysics& object,

@@ -124,7 +124,7 @@ void World::step(const std::array<double, 4>& rotor_thrust_n) {
   snapshot_.t_us += kTickUs;
   data_->time = seconds(snapshot_.t_us);
   update_positions();
-  check_simulation(*data_, seconds(snapshot_.t_us));
+  check_warnings(*data_);
   snapshot_.vehicle_a_W = ConstMap3(data_->qacc + vehicle_free_.qvel);
   for (std::size_t i = 0; i < objects_free_.size(); ++i) {
     object_a_W_[i] = ConstMap3(data_->qacc + objects_free_[i].qvel);

@@ -85,6 +85,12 @@ TEST_F(OwnModelsCommandTest, AVehicleWithOneCameraFliesWhoeverNeedsNoMore) {
   const Outcome mono = run(" --set pilot=falanga2020 --set dodger.position.depth=mono");
   EXPECT_EQ(mono.exit_code, 0) << mono.output;
   EXPECT_EQ(column("out/throws.csv", "flown_status"), std::vector<std::string>{"ok"});
+  const Outcome turned =
+      dodgesim("validate " + path("s.yaml") + " --models " + path("models") +
+               " --set vehicle=one_eyed --set "
+               "'sweep.vehicle_overrides.lower_camera_turn_deg=[[0, 0, 0], [0.1, 0, 0]]'");
+  EXPECT_EQ(turned.exit_code, 2) << "as run would end";
+  EXPECT_THAT(turned.output, HasSubstr("'bottom'"));
 }
 
 TEST_F(OwnModelsCommandTest, RoomsThatNoCameraCanSeeAndRotorsThatAreTooWeakAreUsageErrors) {

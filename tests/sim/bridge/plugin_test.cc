@@ -167,14 +167,16 @@ TEST(GuardedPilot, DetectsOnlyWhatCanBe) {
       {"nowhere", "detected something that is nowhere"},
       {"tomorrow", "gave a detection a time stamp in the future"},
       {"long ago", "gave a detection an instant before the flight"},
+      {"without a stamp", "gave a detection an instant before the flight"},
+      {"of the past", "gave a detection an instant more than a second ago"},
       {"less than nothing", "gave a detection a size_m that is not between 0 and a million m"},
       {"at no depth", "gave a detection a depth_m that is no number"},
       {"without certainty", "gave a detection a depth_sigma_m that is not between 0"}};
   for (const auto& [fault, complaint] : faults) {
     const auto pilot = told_to(std::string("detect ") + fault);
     EXPECT_THAT(
-        [&] { pilot->update(310000); },
-        ThrowsMessage<SimulationError>(AllOf(HasSubstr(complaint), HasSubstr("at 0.31 s."))));
+        [&] { pilot->update(1310000); },
+        ThrowsMessage<SimulationError>(AllOf(HasSubstr(complaint), HasSubstr("at 1.31 s."))));
   }
 }
 

@@ -268,6 +268,22 @@ TEST(TruthPilot, AnObjectThatFliesAwayIsForgotten) {
   EXPECT_TRUE(p->obstacles().empty());
 }
 
+// A lob of 1 m/s, whose height changes faster than its distance: its distance grows for now.
+TEST(TruthPilot, AnObjectThatRisesBeforeItFallsOnTheVehicleIsNotForgotten) {
+  Snapshot truth = scene(0, {kVehicle_p_W + Eigen::Vector3d(2, 0, 0.5)});
+  const auto known = [&](double v_z, double v_x) {
+    truth.objects[0].v_W = Eigen::Vector3d(v_x, 0, v_z);
+    const auto p = pilot(setup());
+    p->observe(truth, {});
+    p->update(kDelayUs);
+    return p->obstacles().size();
+  };
+  EXPECT_EQ(known(9.6, -1), 1u);    // comes down on it after 2 s
+  EXPECT_EQ(known(9.6, 1), 0u);     // comes down 4 m from it
+  EXPECT_EQ(known(9.6, -0.1), 1u);  // 1.8 m from it, nearer than now
+  EXPECT_EQ(known(2, 1), 0u);
+}
+
 TEST(TruthPilot, AnObjectThatIsOutrunIsNotForgotten) {
   const auto p = pilot(setup());
   Snapshot truth = scene(0, {from_camera(2, 0.3, 0)});

@@ -54,6 +54,9 @@ TEST(CollisionCause, TellsWhatWasNotPerceived) {
   blind.earliest_command_us.reset();
   blind.command_us.reset();
   EXPECT_EQ(cause(blind), CollisionCause::kNotSeen);
+  blind.another_known_before = true;
+  EXPECT_EQ(cause(blind), CollisionCause::kNotSeen);
+  blind.another_known_before = false;
   blind.in_view = true;
   EXPECT_EQ(cause(blind), CollisionCause::kSeenFarOnly);
   blind.in_view_near = true;
@@ -215,6 +218,28 @@ TEST(CollisionCause, TheSecondObjectAndTheRoomAreCausesOfTheirOwn) {
   EXPECT_EQ(cause(second), CollisionCause::kFlewIntoTheRoom);
   second.evaded = true;
   EXPECT_EQ(cause(second), CollisionCause::kFledIntoTheRoom);
+}
+
+// Of a large object at the edge of the image parts are detected.
+TEST(CollisionCause, WhatWasDetectedWasSeenWhereverItsCentreWas) {
+  CollisionEvidence edge = evidence(last_us(kUp) - 2, kUp);
+  edge.in_view = false;
+  EXPECT_EQ(cause(edge), CollisionCause::kNotEnoughThrust);
+}
+
+TEST(CollisionCause, BehindAnotherObjectNobodyKnowsHowItWouldHaveMetAVehicleThatStayed) {
+  CollisionEvidence second = evidence(500000, kUp);
+  second.undisturbed.reset();
+  second.another_would_hit = true;
+  EXPECT_EQ(cause(second), CollisionCause::kSecondObject);
+}
+
+TEST(CollisionCause, WhatComesBackFromTheRoomReboundsWhateverWasDoneBefore) {
+  CollisionEvidence rebound = evidence(500000, kUp);
+  rebound.rebound = true;
+  EXPECT_EQ(cause(rebound), CollisionCause::kRebound);
+  rebound.landing = true;
+  EXPECT_EQ(cause(rebound), CollisionCause::kLanding);
 }
 
 TEST(CollisionCause, WhoLandsDodgesNobody) {

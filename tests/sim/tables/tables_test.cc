@@ -17,6 +17,7 @@ ThrowResult throw_with(int index, const FlightResult& pilot, const FlightResult&
   result.flown = pilot;
   result.none = none;
   result.oracle = oracle;
+  result.evaded = none.hit && !pilot.hit;
   return result;
 }
 
@@ -222,6 +223,19 @@ TEST(Tables, SayOfHowManyThrowsNobodyKnowsWhetherTheyWouldHaveHit) {
   EXPECT_THAT(markdown, HasSubstr("Whether 1 throw would have hit is not known, as the flight in "
                                   "which nobody dodges failed or was not flown: counted as "
                                   "if so, and as not dodged."));
+}
+
+TEST(Tables, SayHowManyThrowsMissedAVehicleThatOnlyWasElsewhere) {
+  std::vector<ThrowResult> results;
+  for (int i = 0; i < 3; ++i) {
+    results.push_back(throw_with(i, flown(i == 2), flown(true), flown(false)));
+  }
+  EXPECT_THAT(tables(results).markdown, ::testing::Not(HasSubstr("without an evasion")));
+  results[0].evaded = false;
+  const std::string markdown = tables(results).markdown;
+  EXPECT_THAT(markdown, HasSubstr("Dodged: 2 / 3 ("));
+  EXPECT_THAT(markdown, HasSubstr("Of the throws that count as dodged 1 missed falanga2020 without "
+                                  "an evasion: it was not where they were aimed."));
 }
 
 TEST(Tables, LandingsAreNamedWhenThereAreAny) {

@@ -48,6 +48,8 @@ class Leftward : public dodge::Pilot {
     if (fault == "nowhere") detection.centre_W.y() = nan;
     if (fault == "tomorrow") ++detection.t_us;
     if (fault == "long ago") detection.t_us = std::numeric_limits<dodge::TimeUs>::min();
+    if (fault == "without a stamp") detection.t_us = dodge::Detection().t_us;
+    if (fault == "of the past") detection.t_us = now_us - 1000001;
     if (fault == "less than nothing") detection.size_m = -1;
     if (fault == "at no depth") detection.depth_m = nan;
     if (fault == "without certainty") detection.depth_sigma_m = nan;
