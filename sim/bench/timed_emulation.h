@@ -25,6 +25,9 @@ class TimedEmulation {
   // to that of the next.
   void update_between(TimeUs t_us, const std::vector<float>& luminance, std::vector<Event>& out);
 
+  // Counts time to the next picture in which what is seen before it was made.
+  void add_preparation(double time_s) { emulation_s_ += time_s; }
+
   std::int64_t frames() const { return frames_; }
   std::int64_t events() const { return events_; }
   double emulation_s() const { return emulation_s_; }

@@ -22,7 +22,6 @@ constexpr double kTimeConstants = 10;   // of the slowest pixel, at least
 constexpr double kMostNoise = 40;       // events of each kind while a pixel settles: memory
 constexpr int kAnswerPictures = 10;
 
-constexpr double kNeverSlow = 1e9;  // [Hz]
 constexpr double kLongestSettlingS = 300;
 
 // How far the signal may be beyond a threshold: the low-passes are kept in single precision.
@@ -41,9 +40,7 @@ bool dead(const PixelState& pixel) { return !std::isfinite(pixel.threshold_on); 
 
 // Of the slowest pixel.
 double settling_s(const EventCameraSpec& spec) {
-  double slowest_hz = spec.follower_hz > 0 ? spec.follower_hz : kNeverSlow;
-  if (spec.photoreceptor_hz > 0) slowest_hz = std::min(slowest_hz, spec.photoreceptor_dark_hz);
-  return kTimeConstants / (2 * std::numbers::pi * slowest_hz);
+  return kTimeConstants / (2 * std::numbers::pi * slowest_hz(spec));
 }
 
 TimeUs settling_us(const EventCameraSpec& spec) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -98,6 +99,13 @@ EventCameraSpec without_noise(EventCameraSpec spec) {
   spec.readout_max_hz = 0;
   spec.stamp_resolution_us = 1;
   return spec;
+}
+
+double slowest_hz(const EventCameraSpec& spec) {
+  double hz = std::numeric_limits<double>::infinity();
+  if (spec.follower_hz > 0) hz = spec.follower_hz;
+  if (spec.photoreceptor_hz > 0) hz = std::min(hz, spec.photoreceptor_dark_hz);
+  return hz;
 }
 
 }  // namespace dodgesim

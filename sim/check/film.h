@@ -51,4 +51,7 @@ FilmedEvents record_on(EventCamera& camera, const Scene& scene, std::span<const 
 // clock. What is left is a function of the light.
 EventCameraSpec without_noise(EventCameraSpec spec);
 
+// The least cut-off of the camera's low-passes, in the dark [Hz]; infinite without one.
+double slowest_hz(const EventCameraSpec& spec);
+
 }  // namespace dodgesim

@@ -184,6 +184,10 @@ std::string sampling_table(const std::vector<SamplingResult>& results) {
     auto& cells = table.rows.emplace_back();
     cells.push_back(result.variant);
     for (const SamplingAccuracy* a : {&result.object, &result.scene}) {
+      if (a->judged_throws == 0) {  // too few events to say anything
+        cells.insert(cells.end(), 4, "-");
+        continue;
+      }
       cells.insert(cells.end(), {formatted("%+.2f %%", 100 * (a->count_ratio() - 1)),
                                  formatted("%.1f %%", 100 * a->worst_count),
                                  fixed_text(a->median_us, 0), fixed_text(a->worst_median_us, 0)});

@@ -42,6 +42,18 @@ bool is_scenario(const YamlNode& root) {
   });
 }
 
+EventCameraSpec camera_of_scenario(const std::string& path) {
+  const Scenario scenario = load_scenario(path, "");
+  for (const VariedKeys* keys : {&scenario.grid, &scenario.sweep}) {
+    for (const VariedKey& varied : *keys) {
+      if (!varied.key.starts_with("sensors.events.")) continue;
+      throw ScenarioError(path + " has several event cameras (" + varied.key +
+                          "): name one of them in a file of its own.");
+    }
+  }
+  return scenario.sensors.events;
+}
+
 EventCameraSpec load(const std::string& path) {
   ReadContext context(path);
   EventCameraSpec spec;
@@ -49,7 +61,7 @@ EventCameraSpec load(const std::string& path) {
   spec.visit(documenter);
   for (const ParameterDoc& doc : documenter.take()) context.all_keys.push_back(doc.path);
   const YamlNode root = parse_yaml(read_scenario_text(path), context.problems);
-  if (is_scenario(root)) return load_scenario(path, "").sensors.events;
+  if (is_scenario(root)) return camera_of_scenario(path);
   Reader reader(root, "", context);
   spec.visit(reader);
   reader.finish();

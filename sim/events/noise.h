@@ -49,7 +49,7 @@ class ShotNoiseShare {
 class Noise {
  public:
   // `thresholds` are the pixels', row by row; `name` tells the cameras of a vehicle apart. Which
-  // pixels are hot depends on seed and name only.
+  // pixels are hot depends on the device (EventCameraSpec::device), the spec and the name.
   Noise(const EventCameraSpec& spec, int width, std::span<const Thresholds> thresholds,
         std::uint64_t seed, std::uint64_t throw_index, std::string_view name);
 

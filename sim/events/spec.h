@@ -102,7 +102,8 @@ void EventCameraSpec::visit(Visitor& v) {
     "too early.");
   v("follower_hz", follower_hz, 0, 1e6,
     "Cut-off of the source follower behind it, which does not depend on the light: both make "
-    "the response second-order, which is followed to 0.5 % of the thresholds. 0: no follower.");
+    "the response second-order, which is followed to 0.5 % of the thresholds. Below about 1 Hz as "
+    "photoreceptor_dark_hz. 0: no follower.");
   v("refractory_us", refractory_us, 0, 1000000,
     "Time a pixel is held in reset after an event (most simulators: 100 us, v2e: 500 us). It "
     "starts anew at its end, with the light of that instant for reference, as a pixel that is "

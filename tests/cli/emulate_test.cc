@@ -165,11 +165,21 @@ TEST_F(EmulateTest, AsksWhetherUnitsAreMeantThatAreUnusual) {
   for (float& value : film.luminance) value = 255 * std::min(value, 1.0f);
   write(film);
   EXPECT_THAT(ideal().output, HasSubstr(" lux on white: is its scale 0 to 255 instead of 0 to 1?"));
-  film = film_;
-  for (std::size_t n = 0; n < film.times.size(); ++n) film.times[n] = static_cast<std::int64_t>(n);
-  write(film);
-  EXPECT_THAT(ideal().output,
-              HasSubstr("The frames are 1 us apart: are all times in microseconds?"));
+  const std::pair<std::int64_t, std::string> intervals[] = {
+      {1, "1"}, {40, "40"}, {3333, ""}, {33333333, "3.33e+07"}};  // s, ms, us, ns
+  for (const auto& [interval, shown] : intervals) {
+    film = film_;
+    for (std::size_t n = 0; n < film.times.size(); ++n) {
+      film.times[n] = interval * static_cast<std::int64_t>(n);
+    }
+    write(film);
+    const std::string question = "us apart: are all times in microseconds?";
+    if (shown.empty()) {
+      EXPECT_THAT(ideal().output, Not(HasSubstr(question)));
+    } else {
+      EXPECT_THAT(ideal().output, HasSubstr("The frames are " + shown + " " + question));
+    }
+  }
 }
 
 TEST_F(EmulateTest, EventsDoNotDependOnTheOriginOfTime) {

@@ -7,6 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/bench/bench.h"
+#include "sim/files/directory.h"
 #include "sim/files/output_file.h"
 #include "sim/render/osmesa_context.h"
 #include "tools/commands/command.h"
@@ -39,6 +40,7 @@ void run(const BenchArguments& arguments, const std::string& command_line) {
   if (!arguments.options.plots_dir.empty() && std::ranges::none_of(cases, &BenchCase::plots)) {
     throw ScenarioError("--plots draws the times of the pilot: name a case of it, or none.");
   }
+  if (!arguments.options.plots_dir.empty()) make_directory(arguments.options.plots_dir);
   std::optional<OutputFile> json;  // opened first, so that a failure shows at once
   if (!arguments.json.empty()) json.emplace(arguments.json);
   if (json) watch_stop_signals();

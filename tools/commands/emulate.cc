@@ -9,6 +9,7 @@
 #include "sim/base/formatted.h"
 #include "sim/base/memory_limit.h"
 #include "sim/base/progress.h"
+#include "sim/base/wall_clock.h"
 #include "sim/bench/timed_emulation.h"
 #include "sim/config/event_camera_file.h"
 #include "sim/events/light_between.h"
@@ -89,6 +90,9 @@ class Emulation {
     camera_.reset(t_us, {luminance.data(), shown_.data()});
   }
 
+  // What it took to make the pictures that are shown.
+  void add_preparation(double time_s) { timed_.add_preparation(time_s); }
+
   // `between`: a picture between two frames of the video.
   void show(TimeUs t_us, const std::vector<float>& luminance, bool between) {
     end_if_asked_to_stop();
@@ -129,11 +133,12 @@ void warn_of_luminance(const std::vector<float>& first, double illuminance_lux) 
 }
 
 void warn_of_times(const FrameReader& video) {
-  constexpr TimeUs kLeastUsualUs = 20;
+  constexpr double kLeastUsualUs = 100, kMostUsualUs = 2e6;  // of ms, of ns
   const std::int64_t intervals = video.frame_count() - 1;
-  if (intervals < 1 || video.duration_us() >= kLeastUsualUs * intervals) return;
-  std::fprintf(stderr, "The frames are %.3g us apart: are all times in microseconds?\n",
-               static_cast<double>(video.duration_us()) / static_cast<double>(intervals));
+  if (intervals < 1) return;
+  const double apart_us = static_cast<double>(video.duration_us()) / static_cast<double>(intervals);
+  if (apart_us >= kLeastUsualUs && apart_us <= kMostUsualUs) return;
+  std::fprintf(stderr, "The frames are %.3g us apart: are all times in microseconds?\n", apart_us);
 }
 
 void emulate(FrameReader& video, const EventCameraSpec& spec, Emulation& emulation) {
@@ -150,10 +155,15 @@ void emulate(FrameReader& video, const EventCameraSpec& spec, Emulation& emulati
     std::swap(before, luminance);
     before_us = t_us;
     if (!video.next(t_us, luminance)) break;
+    auto start = WallClock::now();
     const std::int64_t steps = light.steps(t_us - before_us, before, luminance);
-    light.show_between(
-        steps, before_us, before, t_us, luminance,
-        [&](TimeUs at_us, const auto& between) { emulation.show(at_us, between, true); });
+    light.show_between(steps, before_us, before, t_us, luminance,
+                       [&](TimeUs at_us, const auto& between) {
+                         emulation.add_preparation(seconds_since(start));
+                         emulation.show(at_us, between, true);
+                         start = WallClock::now();
+                       });
+    emulation.add_preparation(seconds_since(start));
     emulation.show(t_us, luminance, false);
     progress.show(++frames);
   }

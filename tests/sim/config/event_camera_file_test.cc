@@ -37,6 +37,17 @@ TEST_F(EventCameraFileTest, MayBeAScenarioWhoseCameraIsMeant) {
   EXPECT_EQ(written("throw: {speed_mps: 5}\n").preset, "sees1");
 }
 
+TEST_F(EventCameraFileTest, OfAScenarioWithSeveralCamerasIsNone) {
+  for (const std::string keys : {"grid", "sweep"}) {
+    EXPECT_EQ(testing::complaint<ScenarioError>(
+                  [&] { written(keys + ": {sensors.events.preset: [ideal, noisy]}\n"); }),
+              (own_.path() / "mine.yaml").string() +
+                  " has several event cameras (sensors.events.preset): name one of them in a file "
+                  "of its own.");
+  }
+  EXPECT_EQ(written("sweep: {delays.compute_us: [0, 3500]}\n").preset, "sees1");
+}
+
 TEST_F(EventCameraFileTest, OfAScenarioIsReadAsOne) {
   EXPECT_EQ(
       testing::complaint<ScenarioError>([&] { written("sensors: {events: {latency_us: -7}}\n"); }),
