@@ -52,7 +52,7 @@ TEST(RateGrid, IsWrittenForPeopleAndPrograms) {
   EXPECT_EQ(grid.table().rows[0][2], "-");
   EXPECT_EQ(rates_csv({grid}),
             "table,row,column,dodged,of,rate,lo,hi\nspeed,x,a,25,34,0.7353,0.5688,0.8540\n"
-            "speed,x,b,0,0,,0.0000,1.0000\n");
+            "speed,x,b,0,0,,,\n");
 }
 
 TEST(LastHalf, IsTheLastRateOfAtLeastOneHalf) {
