@@ -18,9 +18,9 @@ Config dodgesim() {
   config.cluster.max_aspect = 8;
   config.position.stereo.min_share_of_best = 0.9;
   // Far away, but only what was detected eight times, each time within three standard deviations of
-  // where free fall from the detections before puts it. That takes some 30 ms, of which windows of
-  // 20 ms share the events of less than half: it tells what jumps, not what flies straight or
-  // upwards.
+  // where free fall from the detections before puts it. That takes some 30 ms, longer than a
+  // window, so that the first and the last share no events. In so short a time free fall tells what
+  // jumps, not what flies straight or upwards.
   config.position.max_range_m = 5;
   config.association.gate_sigmas = 3;
   config.association.min_detections = 8;

@@ -25,7 +25,7 @@ class TimedEmulation {
   // to that of the next.
   void update_between(TimeUs t_us, const std::vector<float>& luminance, std::vector<Event>& out);
 
-  // Counts time to the next picture in which what is seen before it was made.
+  // Adds the time that it took to make what is seen between two pictures: it is the next one's.
   void add_preparation(double time_s) { emulation_s_ += time_s; }
 
   std::int64_t frames() const { return frames_; }

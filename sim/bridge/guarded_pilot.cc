@@ -40,7 +40,7 @@ auto guarded(Call call) -> decltype(call()) {
 // What is written of it to detections.csv.
 void check_detection(const dodge::Detection& detection, dodge::TimeUs now_us) {
   if (detection.t_us > now_us) refuse("gave a detection a time stamp in the future", now_us);
-  if (detection.t_us <= 0) refuse("gave a detection an instant before the flight", now_us);
+  if (detection.t_us <= 0) refuse("gave a detection no instant, or one before the flight", now_us);
   if (detection.t_us < now_us - SnapshotHistory::kKeptUs) {
     refuse("gave a detection an instant more than a second ago", now_us);
   }

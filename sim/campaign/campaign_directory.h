@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 
 #include "sim/base/descriptor.h"
 #include "sim/campaign/campaign.h"

@@ -108,7 +108,7 @@ void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
   if (limits.memory_mb > 0) limit_memory(limits.memory_mb);
 }
 
-// The life of a worker: tasks in, results out, until the campaign closes the socket.
+// The life of a worker: tasks in, results out, until the campaign ends it.
 // What is thrown here must not reach the campaign's own code, whose process this is not.
 [[noreturn]] void serve(int fd, const WorkerTasks& tasks) noexcept {
   const pid_t worker = ::getpid();
@@ -212,7 +212,7 @@ class Pool {
     return send_all(worker.fd, bytes_of(task));
   }
 
-  // The status with which it ended.
+  // Kills it unless it has ended; the status with which it did.
   int end(Worker& worker) {
     if (worker.first_mb > 0) {
       first_mb_ += worker.first_mb;

@@ -19,7 +19,8 @@ constexpr TimeUs kRestUs = 500000;  // after the last frame, for slow pixels
 constexpr double kDarkest = -4.5;   // ln of the light, which is at most 1
 constexpr std::int64_t kFineSteps = 500;
 constexpr double kLeastOfFrames = 500;
-constexpr double kSlowestFollowedHz = 1;  // that single precision follows in these steps (spec.h)
+// Least cut-off times step that single precision follows (spec.h).
+constexpr double kLeastTurns = 2e-6;
 
 // Any light between the darkest and 1, for each pixel of each frame.
 std::vector<float> random_frame(int number, std::uint64_t seed) {
@@ -60,9 +61,10 @@ std::vector<FarFrames> measure_far_frames(const EventCameraSpec& camera, std::ui
   const EventCameraSpec spec = without_noise(camera);
   std::vector<FarFrames> intervals;
   for (const TimeUs interval_us : kIntervalsUs) {
+    const double fine_step_s = seconds(interval_us) / kFineSteps;
     const auto reference = film(spec, interval_us, kFineSteps, seed);
     intervals.push_back({interval_us, compare(film(spec, interval_us, 0, seed), reference),
-                         slowest_hz(spec) < kSlowestFollowedHz});
+                         slowest_hz(spec) * fine_step_s < kLeastTurns});
   }
   return intervals;
 }
@@ -77,7 +79,7 @@ Check judge(const std::vector<FarFrames>& intervals) {
     const std::string name = "frames." + std::to_string(frames.interval_us) + "us";
     const EventDifference& d = frames.difference;
     if (frames.too_slow) {
-      check.off(name, "a low-pass of less than 1 Hz comes to rest too early in steps of 2 us");
+      check.off(name, "in steps as fine as the reference's so slow a low-pass rests too early");
       continue;
     }
     if (d.reference_events < kLeastOfFrames) {

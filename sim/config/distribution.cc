@@ -1,7 +1,6 @@
 #include "sim/config/distribution.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "sim/base/normal_distribution.h"

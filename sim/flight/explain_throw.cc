@@ -120,7 +120,7 @@ CollisionEvidence evidence_of(const FlightPlan& plan, const FlightRecord* none,
   const bool same = would_hit && none->verdict.nearest_object == hitter;
   if (same) evidence.undisturbed = encounter(*none);
   evidence.another_would_hit = would_hit && !same;
-  evidence.rebound = evidence.hit && flown.verdict.nearest.after_room &&
+  evidence.rebound = evidence.hit && none != nullptr && flown.verdict.nearest.after_room &&
                      !(same && none->verdict.nearest.after_room);
   add_answer(log, object, flown.command_delay_us, evidence);
   return evidence;

@@ -109,7 +109,7 @@ ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* obser
   } catch (const SimulationError& error) {
     result.flown = failure(error);
     return result;
-  } catch (const ScenarioError& error) {  // one draw may be impossible
+  } catch (const ScenarioError& error) {  // one draw may be impossible; not so MemoryError, IoError
     result.flown = failure(error);
     return result;
   }

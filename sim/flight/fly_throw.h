@@ -11,7 +11,7 @@ namespace dodgesim {
 // and, when the scenario asks for it, `oracle`. A simulation that fails, even before the throw, and
 // a throw that is impossible are recorded with their reason as an error of the pilot that flew. A
 // pure function of its arguments, up to wall-clock times. The observer, if any, watches the
-// scenario's own pilot.
+// scenario's own pilot. Throws MemoryError, IoError, and ScenarioError where nothing can be drawn.
 ThrowResult fly_throw(const Scenario& campaign, int index, FlightObserver* observer = nullptr);
 
 }  // namespace dodgesim

@@ -21,7 +21,7 @@ struct CampaignTables {
 };
 
 // throws.csv and, if they are there, objects.csv, and seed, throws and sweep values of
-// manifest.json. Throws IoError, MissingThrows if the campaign is not finished.
+// manifest.json. Throws IoError; MissingThrows if the campaign is not finished.
 CampaignTables read_tables(const std::filesystem::path& directory);
 
 // One object of a throw, as drawn before anything flies.

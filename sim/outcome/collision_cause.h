@@ -9,7 +9,8 @@
 //                         detection was of it
 //   not detected          in view and near, but no detection was of it
 //   second object         the pilot knew of another object before this one, or another would have
-//                         hit a vehicle that stayed, so that nobody knows how this one met it
+//                         hit a vehicle that stayed, so that nobody knows how this one would
+//                         have met it
 //   not evaded            a command sent at the first detection would have left some manoeuvre, but
 //                         none came before the object did: the pilot did not believe what it had
 //                         detected, or did not act on it

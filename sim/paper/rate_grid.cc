@@ -59,8 +59,9 @@ std::string rates_csv(const std::vector<RateGrid>& grids) {
         };
         const Interval interval = rate.interval();
         csv.rows.push_back({grid.name, grid.rows[i], grid.columns[k], std::to_string(rate.count),
-                            std::to_string(rate.of), text(rate.value().value_or(0)),
-                            text(interval.lo), text(interval.hi)});
+                            std::to_string(rate.of),
+                            rate.of > 0 ? fixed_text(*rate.value(), 4) : "", text(interval.lo),
+                            text(interval.hi)});
       }
     }
   }

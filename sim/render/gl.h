@@ -14,8 +14,8 @@
 
 namespace dodgesim {
 
-// Throws SimulationError if OSMesa lacks the function, and as refuse_osmesa() if it cannot be
-// loaded.
+// Throws SimulationError if OSMesa lacks the function, ScenarioError if it is not there, and as
+// refuse_osmesa() if it cannot be loaded.
 void* find_in_osmesa(const char* function);
 
 // Says what OSMesa cannot do, which is no throw's fault. Throws MemoryError where a limit of memory

@@ -225,7 +225,7 @@ std::string asides(const Part& part) {
   }
   if (elsewhere > 0) {
     text += "Of the throws that count as dodged " + std::to_string(elsewhere) + " missed " +
-            part.pilot + " without an evasion: it was not where they were aimed.\n\n";
+            part.pilot + " without an evasion: it was not where the throw was aimed.\n\n";
   }
   if (would_miss > 0) {
     text += "Of " + count_text(would_miss, "throw") + " that would have missed, " + part.pilot +

@@ -20,7 +20,7 @@ constexpr double kParkingM = 1000.0;
 
 World::World(const WorldSpec& spec) : spec_(spec), model_(compose_model(spec)) {
   data_.reset(mj_makeData(model_.get()));
-  if (!data_) throw SimulationError("MuJoCo cannot allocate its data.");
+  if (!data_) throw MemoryError("MuJoCo cannot allocate its data.");
   contype_.assign(model_->geom_contype, model_->geom_contype + model_->ngeom);
   conaffinity_.assign(model_->geom_conaffinity, model_->geom_conaffinity + model_->ngeom);
   for (int geom = 0; geom < model_->ngeom; ++geom) {

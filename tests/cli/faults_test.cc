@@ -175,8 +175,8 @@ TEST_F(FaultsTest, ThrowsThatLackedMemoryAreFlownAgain) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "Sanitizers reserve more address space than any limit allows.";
 #endif
-  for (const std::string few : {"--set pilot=none --memory-limit 80",             // for MuJoCo
-                                "--set pilot=falanga2020 --memory-limit 256"}) {  // for Mesa
+  for (const std::string few :
+       {"--set pilot=none --memory-limit 80", "--set pilot=falanga2020 --memory-limit 256"}) {
     const std::string pilot = few.substr(0, few.find(" --memory"));
     const std::string brief = " --force --set repeats=1 --set duration_s=0.01 ";
     ASSERT_EQ(dodgesim(run_arguments("whole", pilot + brief)).exit_code, 0);

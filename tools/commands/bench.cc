@@ -3,7 +3,6 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 
 #include "sim/base/error.h"
 #include "sim/bench/bench.h"

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <memory>
 #include <numeric>
-#include <stdexcept>
 
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "sim/base/error.h"
 
 namespace dodgesim {
@@ -47,6 +45,7 @@ TEST(CheckWarnings, RefusesWhatMuJoCoOnlyWarnsOf) {
 TEST(MujocoHandlers, TurnMuJoCoErrorsIntoExceptions) {
   compile_model(kBall, ".", "ball");
   EXPECT_THROW(mju_error("on purpose"), SimulationError);
+  EXPECT_THROW(mju_error("Could not allocate mjData buffer"), MemoryError);
 }
 
 }  // namespace

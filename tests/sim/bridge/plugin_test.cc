@@ -166,8 +166,8 @@ TEST(GuardedPilot, DetectsOnlyWhatCanBe) {
   const std::pair<const char*, const char*> faults[] = {
       {"nowhere", "detected something that is nowhere"},
       {"tomorrow", "gave a detection a time stamp in the future"},
-      {"long ago", "gave a detection an instant before the flight"},
-      {"without a stamp", "gave a detection an instant before the flight"},
+      {"long ago", "gave a detection no instant, or one before the flight"},
+      {"without a stamp", "gave a detection no instant, or one before the flight"},
       {"of the past", "gave a detection an instant more than a second ago"},
       {"less than nothing", "gave a detection a size_m that is not between 0 and a million m"},
       {"at no depth", "gave a detection a depth_m that is no number"},

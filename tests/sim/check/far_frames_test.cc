@@ -28,8 +28,9 @@ TEST(FarFramesCheck, SaysSoWhereThereIsNothingToSee) {
   // The reference's low-passes come to rest too early, not those of the camera.
   EventCameraSpec slow = event_camera_preset("ideal");
   slow.follower_hz = 0.0363;
-  EXPECT_EQ(lines(judge(measure_far_frames(slow, 1)), Outcome::kOff),
-            (Names{"frames.1000us", "frames.33333us"}));
+  const Check slowly = judge(measure_far_frames(slow, 1));
+  EXPECT_EQ(lines(slowly, Outcome::kOff), Names{"frames.1000us"});
+  EXPECT_TRUE(failures(slowly).empty());
 }
 
 }  // namespace

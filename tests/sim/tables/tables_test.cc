@@ -235,7 +235,7 @@ TEST(Tables, SayHowManyThrowsMissedAVehicleThatOnlyWasElsewhere) {
   const std::string markdown = tables(results).markdown;
   EXPECT_THAT(markdown, HasSubstr("Dodged: 2 / 3 ("));
   EXPECT_THAT(markdown, HasSubstr("Of the throws that count as dodged 1 missed falanga2020 without "
-                                  "an evasion: it was not where they were aimed."));
+                                  "an evasion: it was not where the throw was aimed."));
 }
 
 TEST(Tables, LandingsAreNamedWhenThereAreAny) {
