@@ -171,21 +171,16 @@ TEST_F(FaultsTest, OutputThatNobodyCanStoreIsNoSuccess) {
               HasSubstr("/dev/full could not be created: a file of that name exists."));
 }
 
-TEST_F(FaultsTest, ThrowsThatLackedMemoryAreFlownAgain) {
+TEST_F(FaultsTest, AThrowThatLackedMemoryIsFlownAgain) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "Sanitizers reserve more address space than any limit allows.";
 #endif
-  for (const std::string few :
-       {"--set pilot=none --memory-limit 80", "--set pilot=falanga2020 --memory-limit 256"}) {
-    const std::string pilot = few.substr(0, few.find(" --memory"));
-    const std::string brief = " --force --set repeats=1 --set duration_s=0.01 ";
-    ASSERT_EQ(dodgesim(run_arguments("whole", pilot + brief)).exit_code, 0);
-    EXPECT_EQ(dodgesim(run_arguments("short", few + brief)).exit_code, 3);
-    EXPECT_THAT(column("short/throws.csv", "flown_status"), ::testing::ElementsAre("lost")) << few;
-    const std::string resumed = pilot + " --resume --set repeats=1 --set duration_s=0.01";
-    EXPECT_EQ(dodgesim(run_arguments("short", resumed)).exit_code, 0) << few;
-    expect_same("whole", "short");
-  }
+  const std::string one = "--set pilot=falanga2020 --set repeats=1 ";
+  ASSERT_EQ(dodgesim(run_arguments("whole", one)).exit_code, 0);
+  EXPECT_EQ(dodgesim(run_arguments("short", one + "--memory-limit 256")).exit_code, 3);  // for Mesa
+  EXPECT_THAT(column("short/throws.csv", "flown_status"), ::testing::ElementsAre("lost"));
+  EXPECT_EQ(dodgesim(run_arguments("short", one + "--resume")).exit_code, 0);
+  expect_same("whole", "short");
 }
 
 TEST_F(FaultsTest, ADivergedSimulationCountsAsNoSuccessAndReplays) {
