@@ -11,8 +11,9 @@
 namespace dodgesim {
 
 // Wall-clock time per picture of EventCamera::update() and, right after it, of cv::log of the same
-// picture (eps + I as float), each picture by itself and nothing else. Both find the picture in the
-// cache, as after rendering; eps + I is made before the clock starts. One thread.
+// picture (eps + I as float), each picture by itself and nothing else but add_preparation()'s. Both
+// find the picture in the cache, as after rendering; eps + I is made before the clock starts. One
+// thread.
 class TimedEmulation {
  public:
   // The camera must outlive this object and have had its reset().

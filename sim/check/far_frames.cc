@@ -61,10 +61,12 @@ std::vector<FarFrames> measure_far_frames(const EventCameraSpec& camera, std::ui
   const EventCameraSpec spec = without_noise(camera);
   std::vector<FarFrames> intervals;
   for (const TimeUs interval_us : kIntervalsUs) {
-    const double fine_step_s = seconds(interval_us) / kFineSteps;
+    if (slowest_hz(spec) * seconds(interval_us) / kFineSteps < kLeastTurns) {
+      intervals.push_back({interval_us, {}, true});
+      continue;
+    }
     const auto reference = film(spec, interval_us, kFineSteps, seed);
-    intervals.push_back({interval_us, compare(film(spec, interval_us, 0, seed), reference),
-                         slowest_hz(spec) * fine_step_s < kLeastTurns});
+    intervals.push_back({interval_us, compare(film(spec, interval_us, 0, seed), reference)});
   }
   return intervals;
 }

@@ -132,7 +132,8 @@ void warn_of_luminance(const std::vector<float>& first, double illuminance_lux) 
 }
 
 void warn_of_times(const FrameReader& video) {
-  constexpr double kLeastUsualUs = 100, kMostUsualUs = 2e6;  // of ms, of ns
+  constexpr double kLeastUsualUs = 100;  // less: of s or ms
+  constexpr double kMostUsualUs = 2e6;   // more: of ns
   const std::int64_t intervals = video.frame_count() - 1;
   if (intervals < 1) return;
   const double apart_us = static_cast<double>(video.duration_us()) / static_cast<double>(intervals);
