@@ -1,5 +1,6 @@
 #include "sim/observers/mcap_recorder.h"
 
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -33,9 +34,12 @@ std::string camera_topic(std::size_t i, const std::string& what) {
   return std::string("/camera/") + kCameraNames.at(i) + "/" + what;
 }
 
-// Turns x towards `direction`.
+// Turns x towards `direction`. (Eigen's FromTwoVectors takes seconds to compile.)
 Eigen::Quaterniond along(const Eigen::Vector3d& direction) {
-  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), direction);
+  const double yaw = std::atan2(direction.y(), direction.x());
+  const double pitch = -std::atan2(direction.z(), std::hypot(direction.x(), direction.y()));
+  return Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY());
 }
 
 namespace schema {

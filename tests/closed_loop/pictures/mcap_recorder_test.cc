@@ -167,6 +167,26 @@ TEST_F(McapRecorderTest, TellsWhatHappened) {
   EXPECT_TRUE(evading);
 }
 
+// An arrow points along its own x.
+TEST_F(McapRecorderTest, PointsAnArrowWhereTheVehicleIsToFly) {
+  const McapReader reader(record(scenario_));
+  const auto commands = reader.of("/command"), scenes = reader.of("/scene/command");
+  ASSERT_EQ(commands.size(), scenes.size());
+  int arrows = 0;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const Eigen::Vector3d v_W = vector_of(parse_json(commands[i].json)["velocity_mps"]);
+    const Json arrow = parse_json(scenes[i].json)["entities"][0]["arrows"];
+    if (v_W.norm() < 1e-6) continue;
+    ASSERT_EQ(arrow.size(), 1u);
+    const Json q = arrow[0]["pose"]["orientation"];
+    const Eigen::Quaterniond orientation(q["w"].get<double>(), q["x"].get<double>(),
+                                         q["y"].get<double>(), q["z"].get<double>());
+    EXPECT_LT((orientation * Eigen::Vector3d::UnitX() - v_W.normalized()).norm(), 1e-9);
+    ++arrows;
+  }
+  EXPECT_GT(arrows, 50);
+}
+
 TEST_F(McapRecorderTest, IsTheSameForTheSameThrow) {
   EXPECT_TRUE(record(scenario_) == record(scenario_));
 }
