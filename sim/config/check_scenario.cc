@@ -64,8 +64,8 @@ void check_mission_key(const Scenario& scenario, const std::string& type, const 
 void check_throws(const Scenario& scenario, ReadContext& context) {
   if (scenario.throw_spec && !scenario.throws.empty()) {
     context.add_problem("throw",
-                        "throw is given, and throws too; one of them is enough: 'throws: ~' takes "
-                        "away those of a scenario that this one extends.");
+                        "throw is given, and throws too; one of them is enough: 'throw: ~' or "
+                        "'throws: ~' takes away that of a scenario that this one extends.");
   }
   int objects = 0;
   for (const ThrowSpec& spec : scenario.throw_specs()) objects += spec.count;

@@ -7,6 +7,7 @@
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
 #include "sim/config/closest_name.h"
+#include "sim/config/expand.h"
 #include "sim/config/parameter_docs.h"
 #include "sim/config/reader.h"
 #include "sim/config/scenario.h"
@@ -44,14 +45,11 @@ bool is_scenario(const YamlNode& root) {
 
 EventCameraSpec camera_of_scenario(const std::string& path) {
   const Scenario scenario = load_scenario(path, "");
-  for (const VariedKeys* keys : {&scenario.grid, &scenario.sweep}) {
-    for (const VariedKey& varied : *keys) {
-      if (!varied.key.starts_with("sensors.events.")) continue;
-      throw ScenarioError(path + " has several event cameras (" + varied.key +
-                          "): name one of them in a file of its own.");
-    }
+  if (const VariedKey* const varied = find_varied(scenario, {"sensors.events"})) {
+    throw ScenarioError(path + " has several event cameras (" + varied->key +
+                        "): name one of them in a file of its own.");
   }
-  return scenario.sensors.events;
+  return case_of(scenario, 0).scenario.sensors.events;
 }
 
 EventCameraSpec load(const std::string& path) {

@@ -1,5 +1,6 @@
 #include "sim/config/expand.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "sim/base/contains.h"
@@ -88,6 +89,19 @@ ThrowCase case_of(const Scenario& scenario, int t) {
   result.scenario.grid.clear();
   result.scenario.sweep.clear();
   return result;
+}
+
+const VariedKey* find_varied(const Scenario& scenario, const std::vector<std::string>& groups) {
+  const auto matters = [&](const VariedKey& axis) {
+    return axis.values.size() > 1 && std::ranges::any_of(groups, [&](const std::string& group) {
+             return axis.key == group || axis.key.starts_with(group + ".");
+           });
+  };
+  for (const VariedKeys* const axes : {&scenario.grid, &scenario.sweep}) {
+    const auto found = std::ranges::find_if(*axes, matters);
+    if (found != axes->end()) return &*found;
+  }
+  return nullptr;
 }
 
 std::string label(const std::vector<AxisValue>& values) {

@@ -35,6 +35,10 @@ int throw_count(const Scenario& scenario);
 // one any t >= 0: the draws of more repeats. Throws std::out_of_range.
 ThrowCase case_of(const Scenario& scenario, int t);
 
+// A key of the grid or the sweep that takes several values and is one of `groups` or below one of
+// them, such as "dodger"; null if there is none.
+const VariedKey* find_varied(const Scenario& scenario, const std::vector<std::string>& groups);
+
 // "delays.compute_us 3500, pilot oracle"; empty without values.
 std::string label(const std::vector<AxisValue>& values);
 std::string label(const ThrowCase& thrown);  // of its cell and sweep

@@ -32,7 +32,7 @@ void lay_over(YamlNode& base, const YamlNode& over) {
       base.items.push_back(over.items[i]);
     } else if (is_plain_map(base.items[k]) && is_plain_map(over.items[i])) {
       lay_over(base.items[k], over.items[i]);
-    } else if (over.items[i].kind == YamlNode::Kind::kNull) {
+    } else if (over.items[i].taken_away) {
       base.erase(k);
     } else {
       base.keys[k] = over.keys[i];

@@ -100,9 +100,7 @@ void apply(const Setting& setting, YamlNode& root, Problems& problems) {
   if (setting.key == "extends") {
     problems.fail({0, 0, source}, "extends can stand in a file only.");
   }
-  YamlNode value = parse_yaml_value(setting.value, problems, source);
-  value.taken_away = setting.value == "~";  // not merely forgotten
-  set_value(root, setting.key, value);
+  set_value(root, setting.key, parse_yaml_value(setting.value, problems, source));
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Setting {
 // A base is named relative to the file that names it. It must be a regular file that ends in .yaml
 // or .yml and lies in the folder of `file`, below it, or at most two folders further up, wherever
 // links lead; there are at most 8 of them. Maps merge; any other value takes the place of the
-// base's, and an empty one (~) takes the base's away. A base's name and description do not count.
+// base's, and ~ takes the base's away. A base's name and description do not count.
 // Throws ScenarioError and IoError; lesser problems are added to `problems`.
 YamlNode scenario_tree(const std::string& text, const std::string& file,
                        const std::vector<Setting>& settings, Problems& problems);

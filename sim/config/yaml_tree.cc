@@ -25,6 +25,8 @@ namespace {
 constexpr std::size_t kMostBytes = 256 * 1024;  // a long scenario has 10 kB
 constexpr std::size_t kDeepest = 16;
 
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
 // What yaml-cpp makes of !! in front of a tag.
 constexpr std::string_view kYamlTags = "tag:yaml.org,2002:";
 
@@ -40,6 +42,16 @@ struct Place {
   }
 };
 
+// Whether the value that begins there is a null that was written, not one that is missing.
+bool says_null(std::string_view text) {
+  for (const std::string_view word : {"~", "null", "Null", "NULL"}) {
+    if (!text.starts_with(word)) continue;
+    const std::string_view rest = text.substr(word.size());
+    return rest.empty() || !is_name_character(rest.front());
+  }
+  return false;
+}
+
 // Raised inside yaml-cpp's parser to leave it; never seen by the caller.
 struct Stop {
   Position at;
@@ -48,7 +60,9 @@ struct Stop {
 
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(Problems& problems, const Place& place) : problems_(problems), place_(place) {}
+  // `text` is what is parsed, and outlives this.
+  TreeBuilder(std::string_view text, Problems& problems, const Place& place)
+      : text_(text), problems_(problems), place_(place) {}
 
   YamlNode take_root() { return std::move(root_); }
 
@@ -56,7 +70,10 @@ class TreeBuilder : public YAML::EventHandler {
   void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    add(make(YamlNode::Kind::kNull, mark, "", anchor));
+    YamlNode node = make(YamlNode::Kind::kNull, mark, "", anchor);
+    const std::size_t begin = mark.is_null() ? text_.size() : static_cast<std::size_t>(mark.pos);
+    node.taken_away = says_null(text_.substr(std::min(begin, text_.size())));
+    add(std::move(node));
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     problems_.add(position(mark), "Aliases (*name) are not supported; write the value out.");
@@ -180,6 +197,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   Position position(const YAML::Mark& mark) const { return place_.at(mark); }
 
+  std::string_view text_;
   Problems& problems_;
   Place place_;
   YamlNode root_;
@@ -233,7 +251,7 @@ void check_quotes(std::string_view text, Problems& problems, const Place& place)
   std::istringstream stream{std::string(text.substr(0, size))};
   YAML::Parser parser(stream);
   Problems of_the_tree("");
-  TreeBuilder builder(of_the_tree, place);
+  TreeBuilder builder(text, of_the_tree, place);
   try {
     parser.HandleNextDocument(builder);
   } catch (const Stop&) {
@@ -251,19 +269,20 @@ YamlNode parse_document(std::string_view text, Problems& problems, const Place& 
                                      " bytes; at most " + std::to_string(kMostBytes) +
                                      " are read.");
   }
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   check_encoding(text, problems, place);
   try {
     check_quotes(text, problems, place);
     std::istringstream stream{std::string(text)};
     YAML::Parser parser(stream);
-    TreeBuilder builder(problems, place);
+    TreeBuilder builder(text, problems, place);
     if (!parser.HandleNextDocument(builder)) {
       YamlNode nothing;
       nothing.at = place.whole();
       return nothing;
     }
     YamlNode root = builder.take_root();
-    TreeBuilder second(problems, place);
+    TreeBuilder second(text, problems, place);
     if (parser.HandleNextDocument(second)) {
       problems.fail(second.take_root().at, "This is more than one YAML document (---).");
     }

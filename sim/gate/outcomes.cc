@@ -164,13 +164,18 @@ bool same_seed(const ThrowOutcome& a, const ThrowOutcome& b) {
   return !a.seed || !b.seed || *a.seed == *b.seed;
 }
 
-// A number of the campaign. What the manifest does not say is not known.
-std::optional<std::uint64_t> find_number(const Json& manifest, const char* key) {
+// What the manifest says of the campaign; null: nothing.
+Json find_in(const Json& manifest, const char* key) {
   const auto group = manifest.find("campaign");
-  if (group == manifest.end() || !group->is_object()) return std::nullopt;
-  const auto number = group->find(key);
-  if (number == group->end() || !number->is_number_unsigned()) return std::nullopt;
-  return number->get<std::uint64_t>();
+  if (group == manifest.end() || !group->is_object()) return Json();
+  const auto value = group->find(key);
+  return value == group->end() ? Json() : *value;
+}
+
+std::optional<std::uint64_t> find_number(const Json& manifest, const char* key) {
+  const Json number = find_in(manifest, key);
+  if (!number.is_number_unsigned()) return std::nullopt;
+  return number.get<std::uint64_t>();
 }
 
 Json manifest_or_nothing(const fs::path& path) {
@@ -203,6 +208,8 @@ CampaignTables read_tables(const fs::path& directory) {
   tables.seed = find_number(manifest, "seed");
   tables.planned = find_number(manifest, "throws");
   tables.sweep_values = find_number(manifest, "sweep_values");
+  const Json models = find_in(manifest, "models");
+  if (models.is_string()) tables.models = models;
   return tables;
 }
 

@@ -18,9 +18,10 @@ struct CampaignTables {
   std::optional<std::uint64_t> seed = std::nullopt;     // the campaign's, if it is known
   std::optional<std::uint64_t> planned = std::nullopt;  // throws of its scenario, if it is known
   std::optional<std::uint64_t> sweep_values = std::nullopt;  // likewise, values of its sweep
+  std::string models = {};  // digest of room, vehicle and objects; empty: not known
 };
 
-// throws.csv and, if they are there, objects.csv, and seed, throws and sweep values of
+// throws.csv and, if they are there, objects.csv, and seed, throws, sweep values and models of
 // manifest.json. Throws IoError; MissingThrows if the campaign is not finished.
 CampaignTables read_tables(const std::filesystem::path& directory);
 

@@ -373,6 +373,21 @@ TEST_F(DetectTest, SaysWhetherTheRatesFitTheEvents) {
   EXPECT_EQ(sharpness(of_kalibr), sharpness(fits)) << of_kalibr;
 }
 
+TEST_F(DetectTest, TakesTheOnlyValueOfASweepAndRefusesSeveral) {
+  write("e.csv", "t_us,x,y,p\n100,5,5,1\n90000,6,6,0\n");
+  write("camera.yaml", "{width: 64, height: 48}");
+  write("s.yaml", "sweep: {delays.compute_us: [20000], room: [room, field]}\n");
+  const std::string film =
+      path("e.csv") + " --calibration " + path("camera.yaml") + " --scenario " + path("s.yaml");
+  EXPECT_THAT(detect(film).output, HasSubstr("a cycle comes every 20 ms"));
+  const Outcome several = detect(film + " --set sweep.delays.compute_us=[0,20000]");
+  EXPECT_EQ(several.exit_code, 2);
+  EXPECT_THAT(several.output,
+              HasSubstr(path("s.yaml") +
+                        " has 2 values of delays.compute_us: choose one, such as --set 'grid=~' "
+                        "--set 'sweep=~' --set 'delays.compute_us=0'."));
+}
+
 // Real event cameras; skips where the recordings are absent.
 TEST_F(DetectTest, TakesNoStaticSceneAndNoNoiseForAnObstacle) {
   const auto file = [](const std::string& name) { return dodge::recording::path(name); };

@@ -8,10 +8,12 @@
 #include <fstream>
 
 #include "tests/cli/command_test.h"
+#include "tests/models.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using dodgesim::testing::copy_models;
 using dodgesim::testing::dodgesim;
 using dodgesim::testing::Outcome;
 using ::testing::AllOf;
@@ -332,6 +334,22 @@ TEST_F(GateCommandTest, CompareDoesNotPairFlightsOfDifferentSeeds) {
   EXPECT_THAT(dodgesim("compare " + path("one") + " " + path("other")).output,
               AllOf(::testing::StartsWith("The scenarios differ:\n  seed: 1, then 2\n"),
                     HasSubstr("of different throws")));
+}
+
+TEST_F(GateCommandTest, CompareSaysThatTheModelsDiffer) {
+  const fs::path models = copy_models(root_);
+  write("one.yaml", "pilot: none\nfly_oracle: false\nafter_s: 0.1\nthrow: {launch_s: 0.1}\n");
+  const std::string run = "run " + path("one.yaml") + " --models " + models.string() + " --out ";
+  ASSERT_EQ(dodgesim(run + path("light")).exit_code, 0);
+  std::string ball = contents(models / "objects/ball.xml");
+  ball.insert(ball.find("mass=\"") + 6, "1");
+  write("models/objects/ball.xml", ball);
+  ASSERT_EQ(dodgesim(run + path("heavy")).exit_code, 0);
+  EXPECT_THAT(dodgesim("compare " + path("light") + " " + path("heavy")).output,
+              AllOf(::testing::StartsWith("The models differ (room, vehicle or objects).\n"),
+                    HasSubstr("of throws with the same random numbers (a model differs): 0 lost")));
+  EXPECT_THAT(dodgesim("compare " + path("light") + " " + path("light")).output,
+              AllOf(Not(HasSubstr("models")), HasSubstr("of the same throws")));
 }
 
 TEST_F(GateCommandTest, CompareSaysWhatCouldNotBeFlown) {

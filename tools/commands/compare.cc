@@ -70,8 +70,8 @@ void print_difference(const std::filesystem::path& first, const std::filesystem:
 }
 
 // Outcomes by the number of their sweep value: of different values they are never pooled.
-std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& directory) {
-  const CampaignTables tables = read_tables(directory);
+std::map<int, std::vector<ThrowOutcome>> parts_of(const std::filesystem::path& directory,
+                                                  const CampaignTables& tables) {
   if (tables.throws.rows() == 0) {
     throw MissingThrows(directory.string() + " has no throw, so there is nothing to compare.");
   }
@@ -134,8 +134,9 @@ std::string heading(int sweep, const std::vector<ThrowOutcome>& outcomes) {
 // Two parts side by side. Whether there is anything to test.
 bool print_comparison(const std::vector<ThrowOutcome>& first,
                       const std::vector<ThrowOutcome>& second, const std::string& first_name,
-                      const std::string& second_name) {
-  const Comparison comparison = compare(first, second);
+                      const std::string& second_name, bool other_models = false) {
+  Comparison comparison = compare(first, second);
+  if (other_models) comparison.differing.push_back("a model");
   if (!comparison.paired) expect_same_cells(first, second, first_name, second_name);
   std::cout << comparison_text(comparison, first_name, second_name);
   print_changes("Lost", comparison.lost);
@@ -154,8 +155,10 @@ void print_number_of_tests(std::size_t tests) {
 }
 
 int compare_campaigns(const CompareArguments& arguments) {
-  const auto first = parts_of(arguments.first);
-  const auto second = parts_of(arguments.second);
+  const CampaignTables first_tables = read_tables(arguments.first);
+  const CampaignTables second_tables = read_tables(arguments.second);
+  const auto first = parts_of(arguments.first, first_tables);
+  const auto second = parts_of(arguments.second, second_tables);
   if (is_quiet(first) != is_quiet(second)) {
     throw ScenarioError("In " + (is_quiet(first) ? arguments.first : arguments.second).string() +
                         " nobody throws, in " +
@@ -173,11 +176,14 @@ int compare_campaigns(const CompareArguments& arguments) {
                          arguments.second.string());
   }
   print_difference(arguments.first, arguments.second);
+  const bool other_models = !first_tables.models.empty() && !second_tables.models.empty() &&
+                            first_tables.models != second_tables.models;
+  if (other_models) std::cout << "The models differ (room, vehicle or objects).\n";
   std::size_t tests = 0;
   for (const auto& [sweep, outcomes] : first) {
     if (first.size() > 1) std::cout << (sweep > 0 ? "\n" : "") << heading(sweep, outcomes) << ":\n";
     if (print_comparison(outcomes, second.at(sweep), arguments.first.string(),
-                         arguments.second.string())) {
+                         arguments.second.string(), other_models)) {
       ++tests;
     }
   }
@@ -187,7 +193,7 @@ int compare_campaigns(const CompareArguments& arguments) {
 
 // Each value of a campaign's sweep against one of them: they fly the same throws.
 int compare_sweep(const CompareArguments& arguments) {
-  const auto parts = parts_of(arguments.first);
+  const auto parts = parts_of(arguments.first, read_tables(arguments.first));
   if (parts.size() < 2) {
     throw ScenarioError(arguments.first.string() + " has " + sweep_text(parts) +
                         ": name a second campaign to compare it with.");

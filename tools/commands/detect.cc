@@ -13,6 +13,7 @@
 #include "sim/base/joined.h"
 #include "sim/campaign/campaign_files.h"
 #include "sim/config/camera_calibration.h"
+#include "sim/config/expand.h"
 #include "sim/config/pilot.h"
 #include "sim/config/stereo_pair.h"
 #include "sim/files/mp4_file.h"
@@ -85,25 +86,38 @@ struct DetectArguments {
   double slow = 10;   // of the video
 };
 
+// What of a scenario matters to a recording.
+const std::vector<std::string> kPilotKeys = {"pilot", "plugin_parameters", "dodger", "delays"};
+
 // A file may hold other keys: it is that of a flight. On the command line they are a mistake.
 void name_idle_keys(const std::vector<Setting>& settings) {
-  const std::vector<std::string> groups = {"pilot", "plugin_parameters", "dodger", "delays"};
   for (const Setting& setting : settings) {
     const std::string group = setting.key.substr(0, setting.key.find('.'));
-    if (contains(groups, group)) continue;
+    if (contains(kPilotKeys, group)) continue;
     std::fprintf(stderr, "%s has no effect on a recording, but %s have.\n", setting.shown.c_str(),
-                 joined(groups, {}, " and ").c_str());
+                 joined(kPilotKeys, {}, " and ").c_str());
   }
 }
 
-// The keys of a scenario that matter here: pilot, dodger, delays.
+// What the grid and the sweep say of a recording, if it is one value of each key.
+Scenario with_single_values(const Scenario& scenario, const std::string& file) {
+  if (const VariedKey* const varied = find_varied(scenario, kPilotKeys)) {
+    throw ScenarioError(
+        file + " has " + count_text(static_cast<std::int64_t>(varied->values.size()), "value") +
+        " of " + varied->key + ": choose one, such as --set 'grid=~' --set " + "'sweep=~' --set '" +
+        varied->key + "=" + to_text(varied->values[0]) + "'.");
+  }
+  return case_of(scenario, 0).scenario;
+}
+
 Scenario load(const DetectArguments& arguments) {
   const std::vector<Setting> settings = parse_settings("--set", arguments.set);
-  Scenario scenario = with_plugin(
+  const std::string file = arguments.scenario.empty() ? "the defaults" : arguments.scenario;
+  const Scenario read =
       arguments.scenario.empty()
-          ? parse_scenario("pilot: " + std::string(kPaperPilot), "the defaults", "", settings)
-          : load_scenario(arguments.scenario, "", settings),
-      arguments.plugin);
+          ? parse_scenario("pilot: " + std::string(kPaperPilot), file, "", settings)
+          : load_scenario(file, "", settings);
+  const Scenario scenario = with_plugin(with_single_values(read, file), arguments.plugin);
   name_idle_keys(settings);
   if (!perceives(scenario.pilot)) {
     throw ScenarioError("The pilot " + scenario.pilot +

@@ -224,8 +224,9 @@ const BadScenario kBadScenarios[] = {
      "100"},
     // Several objects.
     {"ThrowAndThrows", "throw: {}\nthrows: [{}]\n",
-     "bad.yaml:1:8: throw is given, and throws too; one of them is enough: 'throws: ~' takes away "
-     "those of a scenario that this one extends."},
+     "bad.yaml:1:8: throw is given, and throws too; one of them is enough: 'throw: ~' or 'throws: "
+     "~' "
+     "takes away that of a scenario that this one extends."},
     {"ThrowsIsNoList", "throws: {size_m: 0.1}\n",
      "bad.yaml:1:9: throws is a map, but must be a list of maps, 1 to 16 of them."},
     {"EmptyThrows", "throws: []\n", "bad.yaml:1:9: throws is an empty list, but must be a list of"},
@@ -274,7 +275,7 @@ const BadScenario kBadScenarios[] = {
     {"GridTwiceTheSameNumber", "throw: {}\ngrid: {size_m: [0.2, 2e-1]}\n",
      "bad.yaml:2:22: grid.size_m[1] is 2e-1, but this value is in the list already."},
     {"GridByBothNames", "throw: {}\ngrid: {size_m: [0.1], throw.size_m: [0.2]}\n",
-     "bad.yaml:2:23: grid.throw.size_m is given twice."},
+     "bad.yaml:2:23: grid.throw.size_m is given twice; it is already in bad.yaml:2:8."},
     {"GridAndSweep", "throw: {}\ngrid: {size_m: [0.1]}\nsweep: {size_m: [0.2]}\n",
      "bad.yaml:2:8: throw.size_m is in grid and in sweep."},
     {"GridOfPilots", "grid: {pilot: [none, oracle]}\n",

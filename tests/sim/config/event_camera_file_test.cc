@@ -46,6 +46,7 @@ TEST_F(EventCameraFileTest, OfAScenarioWithSeveralCamerasIsNone) {
                   "of its own.");
   }
   EXPECT_EQ(written("sweep: {delays.compute_us: [0, 3500]}\n").preset, "sees1");
+  EXPECT_EQ(written("sweep: {sensors.events.preset: [noisy]}\n").preset, "noisy");
 }
 
 TEST_F(EventCameraFileTest, OfAScenarioIsReadAsOne) {

@@ -66,13 +66,30 @@ TEST_F(ScenarioTree, KeysOfTheFileCountMoreThanThoseOfItsBase) {
   EXPECT_EQ(to_yaml(parse_scenario(to_yaml(scenario), "mine.yaml", "")), to_yaml(scenario));
 }
 
-TEST_F(ScenarioTree, AnEmptyValueTakesTheBasesAway) {
-  write("base.yaml", "throw: {size_m: 0.3, spin_radps: 3}\nafter_s: 3\n");
-  write("quiet.yaml", "extends: base.yaml\nthrow: ~\n");
+TEST_F(ScenarioTree, ATildeTakesTheBasesValueAway) {
+  write("base.yaml",
+        "throw: {size_m: 0.3, spin_radps: 3}\nafter_s: 3\ngrid: {speed_mps: [3, 5]}\n");
+  write("quiet.yaml", "extends: base.yaml\nthrow: ~\ngrid: ~\n");
   EXPECT_FALSE(load("quiet.yaml").anyone_throws());
-  write("two.yaml", "extends: base.yaml\nthrow:\nthrows: [{}, {}]\n");
+  write("two.yaml", "extends: base.yaml\nthrow: null  # none\nthrows: [{}, {}]\n");
   EXPECT_EQ(load("two.yaml").throws.size(), 2u);
+  write("one.yaml", "\xef\xbb\xbf# B\xc3\xa4lle\nextends: base.yaml\ngrid: {speed_mps: ~}\n");
+  EXPECT_EQ(cell_count(load("one.yaml")), 1);
   EXPECT_EQ(load("base.yaml", {set("throw.size_m", "~")}).throw_spec->size_m, ThrowSpec{}.size_m);
+}
+
+TEST_F(ScenarioTree, AForgottenValueDoesNot) {
+  write("base.yaml", "throw: {size_m: 0.3}\ngrid: {speed_mps: [3, 5]}\n");
+  write("size.yaml", "extends: base.yaml\nthrow:\n  size_m:\n  spin_radps: 3\n");
+  EXPECT_THAT(error_of("size.yaml"), HasSubstr("size.yaml:3:3: throw.size_m is empty, but must"));
+  write("grid.yaml", "extends: base.yaml\ngrid:\n");
+  EXPECT_THAT(error_of("grid.yaml"), HasSubstr("grid.yaml:2:1: grid is empty, but must be a map"));
+  for (const char* nothing : {"!uniform", "!foo", "# 6", "---", "...", "!uniform # [8, 10]", ""}) {
+    EXPECT_THAT(error_of("base.yaml", {set("throw.size_m", nothing)}),
+                HasSubstr("throw.size_m is empty, but must be"))
+        << nothing;
+  }
+  EXPECT_THAT(error_of("base.yaml", {set("throw", "!choice")}), HasSubstr("throw is empty, but"));
   EXPECT_EQ(error_of("base.yaml", {set("delays.compute_us", "")}),
             "--set delays.compute_us=: delays.compute_us is empty, but must be a whole number "
             "between 0 and 1000000.");
@@ -201,6 +218,8 @@ TEST_F(ScenarioTree, AKeyMayBeTakenAwayThatIsNotThere) {
               ::testing::HasSubstr("throw.sise_m is not a known"));
   EXPECT_THAT(error_of("base.yaml", {set("stpo", "~")}),
               ::testing::HasSubstr("stpo is not a known"));
+  write("none.yaml", "seed: 3\nstop: ~\nthrow: ~\ngrid: {size_m: ~}\n");
+  EXPECT_FALSE(load("none.yaml").anyone_throws());
   write("empty.yaml", "seed: 3\nstop:\n");
   EXPECT_THAT(error_of("empty.yaml", {}), ::testing::HasSubstr("stop is empty"));
 }
