@@ -202,8 +202,7 @@ TEST_F(DodgesimTest, TellsTheTruthAboutEventsOfEachValueOfASweep) {
   const Outcome sweep = dodgesim("sweep " + scenario + " --out " + out +
                                  " --throws 1 --truth --over pilot=none,falanga2020");
   ASSERT_EQ(sweep.exit_code, 0) << sweep.output;
-  EXPECT_THAT(sweep.output,
-              HasSubstr("pilot none:\nEvents before the vehicle evades: precision undefined of 0"));
+  EXPECT_THAT(sweep.output, HasSubstr("pilot none:\nThe pilot none sees no events.\n"));
   EXPECT_THAT(sweep.output,
               HasSubstr("pilot falanga2020:\nEvents before the vehicle evades: precision 0."));
 }
@@ -238,6 +237,8 @@ TEST_F(DodgesimTest, WritesTheTruthAboutEvents) {
   EXPECT_GT(causes[1], 100);    // the ball
   EXPECT_GT(causes[254], 100);  // shot noise
   EXPECT_EQ(dodgesim("replay " + out + " --throw 0 --events e.csv").exit_code, 2);
+  EXPECT_THAT(dodgesim("replay " + out + " --throw 0 --stages " + out).output,
+              HasSubstr("--stages " + out + " holds a campaign"));
 }
 
 // It brings LLVM, which takes a tenth of a second to load.

@@ -291,6 +291,7 @@ int replay(const ReplayArguments& arguments) {
   try_models({campaign});
   if (!campaign.plugin.file.empty() || scenario.pilot == kPluginPilot) try_plugin(campaign);
   expect_showable(scenario, arguments);
+  if (!arguments.stages.empty()) expect_no_campaign(arguments.stages, "--stages");
   if (!arguments.record.empty()) {
     expect_no_campaign(arguments.record, "--record");
     expect_recording_or_nothing(arguments.record, "--record");

@@ -55,7 +55,9 @@ void print_truth(const Scenario& scenario, const std::vector<EventTruthSums>& tr
   for (std::size_t sweep = 0; sweep < truth.size(); ++sweep) {
     const ThrowCase first = case_of(scenario, static_cast<int>(sweep) * throws_of_a_value);
     if (!first.sweep_values.empty()) std::cout << label(first.sweep_values) << ":\n";
-    if (first.scenario.pilot == kPluginPilot) {
+    if (!perceives(first.scenario.pilot)) {
+      std::cout << "The pilot " << first.scenario.pilot << " sees no events.\n";
+    } else if (first.scenario.pilot == kPluginPilot) {
       std::cout
           << "Which events a plug-in takes for an obstacle's is not known: truth.csv has none.\n";
     } else {
