@@ -16,8 +16,20 @@ TEST(FarFramesCheck, FailsForOtherEventsThanThoseOfTheLightBetween) {
   broken[0].difference.count_ratio = 0.98;
   EXPECT_EQ(failures(judge(broken)), Names{"frames.1000us.count"});
   broken = good;
-  broken[1].difference.median_us = 60;
+  broken[0].difference.median_us = 51;
+  EXPECT_EQ(failures(judge(broken)), Names{"frames.1000us.stamps"});
+  broken = good;
+  broken[1].difference.median_us = 95;
   EXPECT_EQ(failures(judge(broken)), Names{"frames.33333us.stamps"});
+}
+
+// Nearly all of its time passes in steps of which each has one cut-off.
+TEST(FarFramesCheck, KnowsHowEarlyAStepsCutOffMakesASlowLowPass) {
+  EventCameraSpec slow = event_camera_preset("sees1");
+  slow.photoreceptor_hz = slow.photoreceptor_dark_hz = 1;
+  const std::vector<FarFrames> frames = measure_far_frames(slow, 1);
+  EXPECT_GT(frames[1].difference.median_us, kSamplingStampLimitUs);
+  EXPECT_TRUE(failures(judge(frames)).empty());
 }
 
 TEST(FarFramesCheck, SaysSoWhereThereIsNothingToSee) {
