@@ -17,7 +17,9 @@ using ::testing::HasSubstr;
 
 class CampaignCommandTest : public CommandTest {
  protected:
-  CampaignCommandTest() { write("s.yaml", "seed: 3\nrepeats: 6\npilot: oracle\nafter_s: 0.1\n"); }
+  CampaignCommandTest() {
+    write("s.yaml", "seed: 3\nrepeats: 6\npilot: oracle\nafter_s: 0.1\nthrow: {launch_s: 0.1}\n");
+  }
 
   Outcome run(const std::string& out, const std::string& options = "") const {
     return dodgesim("run " + (root_ / "s.yaml").string() + " -j 2 --out " + path(out) + " " +

@@ -74,13 +74,16 @@ class DetectTest : public CommandTest {
   }
 };
 
+// Small pictures, which are drawn in less time.
 constexpr const char* kThrow =
-    "seed: 5\ndodger: {time_image: {threshold_b: 0.09}}\nthrow: {distance_m: 2.5, speed_mps: 5, "
-    "launch_s: 0.1, launch_height_m: 2}\n"
-    "after_s: 0.1\n";
+    "seed: 5\nthrow: {distance_m: 2.5, speed_mps: 5, launch_s: 0.1, launch_height_m: 2}\n"
+    "after_s: 0.1\nsensors: {camera: {width: 240, height: 180}}\n";
+constexpr const char* kDodges = "dodger: {time_image: {threshold_b: 0.09}}\n";
+constexpr const char* kStays =
+    "dodger: {time_image: {threshold_b: 0.09}, repulsive: {k_r0: 0.01}}\n";
 
 TEST_F(DetectTest, FindsInARecordedFlightWhatThePilotFoundInIt) {
-  record(kThrow);
+  record(std::string(kThrow) + kDodges);
   const std::string stereo = path("rec/top.h5") + " " + path("rec/bottom.h5") + " --calibration " +
                              path("rec/top.yaml") + " " + path("rec/bottom.yaml") + " --imu " +
                              path("rec/imu.csv");
@@ -139,7 +142,7 @@ TEST_F(DetectTest, FindsInARecordedFlightWhatThePilotFoundInIt) {
 // The lower camera is turned by 3 degrees, of which its calibration knows. Without, there is hardly
 // anything at a depth that could be.
 TEST_F(DetectTest, RectifiesTheCamerasOfARig) {
-  record(std::string(kThrow) + "vehicle_overrides: {lower_camera_turn_deg: [3, 0, 0]}\n");
+  record(std::string(kThrow) + kStays + "vehicle_overrides: {lower_camera_turn_deg: [3, 0, 0]}\n");
   const std::string lower = contents("rec/bottom.yaml");
   const std::size_t begin = lower.find("R_BC: "), end = lower.find('\n', begin);
   // It looks 3 degrees higher.

@@ -35,6 +35,9 @@ std::size_t records_at(const std::string& results) {
   return kMark + kHeader + size;
 }
 
+// Drawn in an eighth of the time.
+constexpr const char* kSmallPictures = "sensors: {camera: {width: 160, height: 120}}\n";
+
 class DodgesimTest : public CommandTest {
  protected:
   std::string file(const std::string& text) const {
@@ -197,10 +200,11 @@ TEST_F(DodgesimTest, ReplaysNoScenarioThatWasChangedAfterTheFlight) {
 
 TEST_F(DodgesimTest, TellsTheTruthAboutEventsOfEachValueOfASweep) {
   const std::string scenario = file(
+      std::string(kSmallPictures) +
       "fly_oracle: false\nafter_s: 0.1\nthrow: {distance_m: 1.5, speed_mps: 6, launch_s: 0.1}\n");
   const std::string out = (root_ / "out").string();
   const Outcome sweep = dodgesim("sweep " + scenario + " --out " + out +
-                                 " --throws 1 --truth --over pilot=none,falanga2020");
+                                 " --throws 1 -j 1 --truth --over pilot=none,falanga2020");
   ASSERT_EQ(sweep.exit_code, 0) << sweep.output;
   EXPECT_THAT(sweep.output, HasSubstr("pilot none:\nThe pilot none sees no events.\n"));
   EXPECT_THAT(sweep.output,
@@ -208,9 +212,10 @@ TEST_F(DodgesimTest, TellsTheTruthAboutEventsOfEachValueOfASweep) {
 }
 
 TEST_F(DodgesimTest, WritesTheTruthAboutEvents) {
-  const std::string scenario = file(
-      "fly_oracle: false\nafter_s: 0.1\n"
-      "throw: {distance_m: 1.5, speed_mps: 6, size_m: 0.2, launch_s: 0.1}\n");
+  const std::string scenario =
+      file(std::string(kSmallPictures) +
+           "fly_oracle: false\nafter_s: 0.1\n"
+           "throw: {distance_m: 1.5, speed_mps: 6, size_m: 0.2, launch_s: 0.1}\n");
   const std::string out = (root_ / "out").string();
   const Outcome run = dodgesim("run " + scenario + " --out " + out + " --throws 1 --truth");
   ASSERT_EQ(run.exit_code, 0) << run.output;

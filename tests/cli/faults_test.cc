@@ -91,7 +91,7 @@ TEST_F(FaultsTest, TwoSignalsAtOnceCountAsOne) {
 }
 
 TEST_F(FaultsTest, AStoppedReplayLeavesNothingBehind) {
-  std::ofstream(path("long.yaml")) << "pilot: none\nduration_s: 60\n";
+  std::ofstream(path("long.yaml")) << "pilot: none\nduration_s: 20\n";
   ASSERT_EQ(dodgesim("run " + path("long.yaml") + " --out " + path("long")).exit_code, 0);
   const pid_t child = start("replay " + path("long") + " --throw 0 --slow 1 --video " +
                                 path("a.mp4") + " --mcap " + path("a.mcap"),

@@ -25,12 +25,13 @@ class GateCommandTest : public dodgesim::testing::CommandTest {
   GateCommandTest() {
     write("s.yaml",
           "seed: 3\nrepeats: 3\npilot: none\nfly_oracle: false\nafter_s: 0.1\n"
-          "throws: [{launch_s: 0.1}, {count: 2, interval_s: 0.5, speed_mps: !uniform [5, 8]}]\n");
+          "throws: [{launch_s: 0.1}, {launch_s: 0.2, count: 2, interval_s: 0.2, "
+          "speed_mps: !uniform [5, 8]}]\n");
   }
 
-  Outcome gate(const std::string& options = "") const {
+  Outcome gate(const std::string& options = "", int workers = 1) const {
     return dodgesim("gate " + path("s.yaml") + " --baseline " + path("b") + " --out " +
-                    path("out") + " --force " + options);
+                    path("out") + " --force -j " + std::to_string(workers) + " " + options);
   }
   // The text of `file` with `from` replaced.
   void edit(const std::string& file, const std::string& from, const std::string& to) const {
@@ -46,7 +47,7 @@ TEST_F(GateCommandTest, PassesWhatItHasMade) {
   const Outcome made = gate("--update --must-equal all");
   EXPECT_EQ(made.exit_code, 0) << made.output;
   EXPECT_THAT(made.output, HasSubstr("(margin 0.05, confidence 0.95, must equal: all)"));
-  const Outcome again = gate("-j 2");
+  const Outcome again = gate("", 2);
   EXPECT_EQ(again.exit_code, 0) << again.output;
   EXPECT_THAT(again.output,
               AllOf(HasSubstr("passed: same throws\n"), HasSubstr("passed: same bytes\n")));
@@ -214,7 +215,7 @@ TEST_F(GateCommandTest, DoesNotWaitForPipes) {
 }
 
 TEST_F(GateCommandTest, CompareSaysWhichThrowsItLeavesOut) {
-  const std::string run = "run " + path("s.yaml") + " --out ";
+  const std::string run = "run " + path("s.yaml") + " -j 1 --out ";
   ASSERT_EQ(dodgesim(run + path("three")).exit_code, 0);
   ASSERT_EQ(dodgesim(run + path("two") + " --throws 2").exit_code, 0);
   const Outcome outcome = dodgesim("compare " + path("three") + " " + path("two"));
@@ -229,7 +230,8 @@ TEST_F(GateCommandTest, CompareSaysWhichThrowsItLeavesOut) {
 }
 
 TEST_F(GateCommandTest, ComparePairsTheThrowsOfASweepWhateverTheRepeats) {
-  const std::string sweep = "sweep " + path("s.yaml") + " --over delays.compute_us=0,3500 --out ";
+  const std::string sweep =
+      "sweep " + path("s.yaml") + " -j 1 --over delays.compute_us=0,3500 --out ";
   ASSERT_EQ(dodgesim(sweep + path("three")).exit_code, 0);
   ASSERT_EQ(dodgesim(sweep + path("four") + " --throws 4").exit_code, 0);
   const std::string text = dodgesim("compare " + path("three") + " " + path("four")).output;
@@ -303,7 +305,7 @@ TEST_F(GateCommandTest, ComparePairsThrowsOfOneSeedAndSaysWhatDiffers) {
 }
 
 TEST_F(GateCommandTest, CompareRefusesDifferentThrowsOfDifferentCells) {
-  const std::string run = "run " + path("s.yaml") + " --set grid.size_m=[0.1,0.2] --out ";
+  const std::string run = "run " + path("s.yaml") + " -j 1 --set grid.size_m=[0.1,0.2] --out ";
   ASSERT_EQ(dodgesim(run + path("whole")).exit_code, 0);
   ASSERT_EQ(dodgesim(run + path("part") + " --shard 0/2").exit_code, 0);
   ASSERT_EQ(dodgesim(run + path("other") + " --shard 0/2 --seed 4").exit_code, 0);
@@ -315,7 +317,9 @@ TEST_F(GateCommandTest, CompareRefusesDifferentThrowsOfDifferentCells) {
 }
 
 TEST_F(GateCommandTest, CompareSaysWhichCampaignEndedByItsResults) {
-  const std::string run = "run " + path("s.yaml") + " --set repeats=40 --out ";
+  write("one.yaml",
+        "repeats: 30\npilot: none\nfly_oracle: false\nafter_s: 0.1\nthrow: {launch_s: 0.1}\n");
+  const std::string run = "run " + path("one.yaml") + " -j 1 --out ";
   ASSERT_EQ(dodgesim(run + path("all")).exit_code, 0);
   ASSERT_EQ(dodgesim(run + path("stopped") + " --set stop.half_width=0.3").exit_code, 0);
   const Outcome outcome = dodgesim("compare " + path("all") + " " + path("stopped"));

@@ -82,7 +82,9 @@ TEST_F(OwnModelsCommandTest, AVehicleWithOneCameraFliesWhoeverNeedsNoMore) {
   const Outcome stereo = run(" --set pilot=falanga2020");
   EXPECT_EQ(stereo.exit_code, 2);
   EXPECT_THAT(stereo.output, HasSubstr("vehicles/one_eyed.xml: Depth by stereo needs 2 camera(s)"));
-  const Outcome mono = run(" --set pilot=falanga2020 --set dodger.position.depth=mono");
+  const Outcome mono =
+      run(" --set pilot=falanga2020 --set dodger.position.depth=mono "
+          "--set sensors.camera.width=160 --set sensors.camera.height=120");
   EXPECT_EQ(mono.exit_code, 0) << mono.output;
   EXPECT_EQ(column("out/throws.csv", "flown_status"), std::vector<std::string>{"ok"});
   const Outcome turned =

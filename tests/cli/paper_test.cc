@@ -14,6 +14,10 @@ using dodgesim::testing::Outcome;
 using dodgesim::testing::shell;
 using ::testing::HasSubstr;
 
+// One speed, two sizes, and the end soon after.
+constexpr const char* kQuick =
+    " --set 'grid.speed_mps=[6]' --set 'grid.size_m=[0.1,0.2]' --set after_s=0.1";
+
 class PaperCommandTest : public dodgesim::testing::CommandTest {};
 
 TEST_F(PaperCommandTest, NamesTheExperimentsThereAre) {
@@ -25,7 +29,10 @@ TEST_F(PaperCommandTest, NamesTheExperimentsThereAre) {
 
 TEST_F(PaperCommandTest, MakesTheSameTablesAgain) {
   const auto fly = [&](const std::string& out, const std::string& options) {
-    return dodgesim("paper table2 --throws 1 --seed 3 --out " + path(out) + " " + options);
+    return dodgesim(
+        "paper table2 --throws 1 --seed 3 --set sensors.camera.width=160 "
+        "--set sensors.camera.height=120 --out " +
+        path(out) + " " + options);
   };
   const Outcome made = fly("a", "-j 2");
   EXPECT_EQ(made.exit_code, 0) << made.output;
@@ -35,7 +42,9 @@ TEST_F(PaperCommandTest, MakesTheSameTablesAgain) {
   for (const char* file : {"table2.md", "table2.csv", "README.md"}) {
     EXPECT_EQ(contents(std::string("a/") + file), contents(std::string("b/") + file)) << file;
   }
-  EXPECT_THAT(contents("a/table2.md"), HasSubstr("`dodgesim paper table2 --throws 1 --seed 3`"));
+  EXPECT_THAT(contents("a/table2.md"),
+              HasSubstr("`dodgesim paper table2 --set sensors.camera.width=160 "
+                        "--set sensors.camera.height=120 --throws 1 --seed 3`"));
   EXPECT_EQ(fly("b", "").exit_code, 2) << "without --force or --resume";
 }
 
@@ -53,10 +62,9 @@ TEST_F(PaperCommandTest, ASeedMovesThatOfEveryScenarioOutOfReachOfTheOthers) {
     EXPECT_EQ(dodgesim("paper physics --throws 1 --out " + path(out) + options).exit_code, 0);
     return contents(out + "/physics.md");
   };
-  const std::string quick = " --set 'grid.speed_mps=[6]'";
-  EXPECT_THAT(commands("own", quick), HasSubstr("- 3 throws, seed 4007: "));
-  EXPECT_THAT(commands("other", quick + " --seed 3"),
-              ::testing::AllOf(HasSubstr("- 3 throws, seed 3004007: "),
+  EXPECT_THAT(commands("own", kQuick), HasSubstr("- 2 throws, seed 4007: "));
+  EXPECT_THAT(commands("other", std::string(kQuick) + " --seed 3"),
+              ::testing::AllOf(HasSubstr("- 2 throws, seed 3004007: "),
                                HasSubstr("--set seed=3004007`"), HasSubstr("--seed 3`")));
   const Outcome bad = dodgesim("paper physics --seed x --out " + path("bad"));
   EXPECT_EQ(bad.exit_code, 2);
@@ -66,8 +74,7 @@ TEST_F(PaperCommandTest, ASeedMovesThatOfEveryScenarioOutOfReachOfTheOthers) {
 // Eleven campaigns in the same workers.
 TEST_F(PaperCommandTest, GivesTheSameFilesForAnyNumberOfWorkersAndAfterAStop) {
   const auto fly = [&](const std::string& out, const std::string& options) {
-    return "paper physics --throws 1 --seed 3 --set 'grid.speed_mps=[6]' --out " + path(out) + " " +
-           options;
+    return "paper physics --throws 1 --seed 3 --out " + path(out) + kQuick + " " + options;
   };
   ASSERT_EQ(dodgesim(fly("one", "-j 1")).exit_code, 0);
   ASSERT_EQ(dodgesim(fly("three", "-j 3")).exit_code, 0);

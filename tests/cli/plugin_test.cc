@@ -12,7 +12,9 @@ using ::testing::Not;
 
 class PluginTest : public CommandTest {
  protected:
-  PluginTest() { write("s.yaml", "pilot: plugin\nduration_s: 0.1\nrepeats: 2\n"); }
+  const std::string kPictures = "sensors: {camera: {width: 64, height: 48}}\n";
+
+  PluginTest() { write("s.yaml", kPictures + "pilot: plugin\nduration_s: 0.1\nrepeats: 2\n"); }
 
   // The same in all but its bytes.
   std::string another() const {
@@ -24,7 +26,7 @@ class PluginTest : public CommandTest {
     return DODGESIM_BINARY_DIR "/tests/plugins/lib" + name + ".so";
   }
   Outcome run(const std::string& options) const {
-    return dodgesim("run " + path("s.yaml") + " --out " + path("out") + " " + options);
+    return dodgesim("run " + path("s.yaml") + " -j 1 --out " + path("out") + " " + options);
   }
 };
 
@@ -50,7 +52,7 @@ TEST_F(PluginTest, AnotherLibraryIsAnotherCampaign) {
 
 TEST_F(PluginTest, ThatFailsCostsTheFlightAndCanBeReplayed) {
   const std::string plugin = " --plugin " + library("obedient");
-  write("s.yaml", "pilot: plugin\nrepeats: 1\nthrow: {launch_s: 0.1, distance_m: 2}\n");
+  write("s.yaml", kPictures + "pilot: plugin\nrepeats: 1\nthrow: {launch_s: 0.1, distance_m: 2}\n");
   const Outcome outcome = run("--set plugin_parameters=throw" + plugin);
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_THAT(outcome.output, HasSubstr("1 throw had a flight that failed"));
@@ -81,7 +83,7 @@ TEST_F(PluginTest, DoesNotPrintAmongTheTables) {
   const std::string plugin = " --plugin " + library("obedient");
   const std::string print = "--set plugin_parameters=print" + plugin;
   const Outcome quiet = shell("( " DODGESIM_BINARY_DIR "/dodgesim run " + path("s.yaml") +
-                              " --out " + path("out") + " " + print + " 2>/dev/null )");
+                              " -j 1 --out " + path("out") + " " + print + " 2>/dev/null )");
   EXPECT_EQ(quiet.exit_code, 0) << quiet.output;
   EXPECT_THAT(quiet.output, ::testing::StartsWith("# s\n"));
   EXPECT_THAT(quiet.output, Not(HasSubstr("Here I am.")));
@@ -90,7 +92,7 @@ TEST_F(PluginTest, DoesNotPrintAmongTheTables) {
 }
 
 TEST_F(PluginTest, IsNeededForItsOwnThrowsOnly) {
-  write("s.yaml", "duration_s: 0.1\nsweep: {pilot: [none, plugin]}\n");
+  write("s.yaml", kPictures + "duration_s: 0.1\nsweep: {pilot: [none, plugin]}\n");
   const std::string plugin = " --plugin " + library("obedient");
   ASSERT_EQ(run(plugin).exit_code, 0);
   const std::string replay = "replay " + path("out") + " --throw ";
@@ -105,7 +107,7 @@ TEST_F(PluginTest, IsRefusedBeforeTheFirstThrow) {
   const struct {
     std::string options, sentence;
   } refused[] = {
-      {"", "s.yaml:1:8: pilot is plugin, but no library is given: add --plugin FILE.so."},
+      {"", "s.yaml:2:8: pilot is plugin, but no library is given: add --plugin FILE.so."},
       {"--set pilot=none --plugin " + library("obedient"), "--set pilot=plugin makes it fly"},
       {"--set 'plugin_parameters=die at once' --plugin " + library("obedient"),
        "crashes while it is loaded, makes a pilot or deletes it"},

@@ -33,10 +33,11 @@ after_s: 0.2
 
 class ReportCommandTest : public CommandTest {
  protected:
-  ReportCommandTest() {
-    write("s.yaml", kScenario);
+  ReportCommandTest() { write("s.yaml", kScenario); }
+
+  void fly() const {
     const Outcome outcome = dodgesim("run " + path("s.yaml") + " -j 1 --out " + path("out"));
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   }
 
   // The page as it stands after its program has run, with what the browser said about it.
@@ -50,6 +51,7 @@ class ReportCommandTest : public CommandTest {
 };
 
 TEST_F(ReportCommandTest, APageOpensWithoutErrorsAndShowsChartsAndAThrow) {
+  fly();
   const Outcome outcome = browse(path("out/report.html") + "#throw=2");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const std::string& dom = outcome.output;
@@ -70,6 +72,7 @@ TEST_F(ReportCommandTest, APageOpensWithoutErrorsAndShowsChartsAndAThrow) {
 }
 
 TEST_F(ReportCommandTest, ReportAndTableReadADirectory) {
+  fly();
   fs::remove(root_ / "out/report.html");
   const Outcome outcome = dodgesim("report " + path("out"));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
@@ -86,6 +89,7 @@ TEST_F(ReportCommandTest, ReportAndTableReadADirectory) {
 }
 
 TEST_F(ReportCommandTest, ADamagedRecordIsMissedAloud) {
+  fly();
   fs::copy(root_ / "out", root_ / "damaged");
   std::string bytes = contents(root_ / "damaged/results.bin");
   bytes.back() = static_cast<char>(bytes.back() ^ 1);
@@ -98,6 +102,7 @@ TEST_F(ReportCommandTest, ADamagedRecordIsMissedAloud) {
 }
 
 TEST_F(ReportCommandTest, NothingIsWrittenOverACampaign) {
+  fly();
   const std::string results = contents(root_ / "out/results.bin");
   for (const std::string file : {"results.bin", "throws.csv", "table.csv", "manifest.json"}) {
     const std::string out = path("out/" + file);
@@ -124,6 +129,7 @@ TEST_F(ReportCommandTest, NothingIsWrittenOverACampaign) {
 }
 
 TEST_F(ReportCommandTest, CompareSaysWhatACampaignLacks) {
+  fly();
   const std::string run = "run " + path("s.yaml") + " -j 1 --shard ";
   ASSERT_EQ(dodgesim(run + "0/2 --out " + path("part")).exit_code, 0);
   const Outcome outcome = dodgesim("compare " + path("part") + " " + path("out"));
@@ -142,6 +148,7 @@ TEST_F(ReportCommandTest, CompareSaysWhatACampaignLacks) {
 }
 
 TEST_F(ReportCommandTest, APilotWithoutCamerasHasNoEventsToReplay) {
+  fly();
   const Outcome outcome =
       dodgesim("replay " + path("out") + " --throw 1 --events " + path("events.h5"));
   EXPECT_EQ(outcome.exit_code, 2);
@@ -151,6 +158,7 @@ TEST_F(ReportCommandTest, APilotWithoutCamerasHasNoEventsToReplay) {
 }
 
 TEST_F(ReportCommandTest, AReplayWithOtherModelsIsRefused) {
+  fly();
   const fs::path models = copy_models(root_);
   const std::string replay = "replay " + path("out") + " --throw 1 --models " + models.string();
   EXPECT_EQ(dodgesim(replay).exit_code, 0) << "they are the same";

@@ -25,7 +25,7 @@ class SearchTest : public dodgesim::testing::CommandTest {
 };
 
 TEST_F(SearchTest, PrintsWhatCompareSaysOfEachValue) {
-  const Outcome outcome = search("oracle " + path("out") + " --throws 1");
+  const Outcome outcome = search("oracle " + path("out") + " --throws 1 -j 1 --set after_s=0.2");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   const std::string key = "`dodger.velocity_limit.max_speed_mps` \\| ";
   EXPECT_THAT(outcome.output, ContainsRegex(key + "5 \\| [0-9]+ / 6 \\| \\| \\| present \\|"));

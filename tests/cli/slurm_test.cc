@@ -29,7 +29,8 @@ class SlurmTest : public dodgesim::testing::CommandTest {
       fs::permissions(root_ / name, fs::perms::owner_all);
     }
     write("queue", "");
-    write("s.yaml", "seed: 3\npilot: none\nfly_oracle: false\nafter_s: 0.1\n");
+    write("s.yaml",
+          "seed: 3\npilot: none\nfly_oracle: false\nafter_s: 0.1\nthrow: {launch_s: 0.1}\n");
   }
 
   std::string quoted(const std::string& name) const { return "'" + path(name) + "' "; }

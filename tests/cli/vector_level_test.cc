@@ -62,7 +62,8 @@ class VectorLevelRun : public dodgesim::testing::CommandTest {};
 TEST_F(VectorLevelRun, FliesTheSameThrow) {
   write("s.yaml",
         "seed: 5\nfly_oracle: false\nroom: room\nmission: {start_m: [-2, 0, 2]}\n"
-        "throw: {size_m: 0.2, distance_m: 2, speed_mps: 6, launch_s: 0.1}\nafter_s: 0.1\n");
+        "throw: {size_m: 0.2, distance_m: 2, speed_mps: 6, launch_s: 0.1}\nafter_s: 0.1\n"
+        "sensors: {camera: {width: 160, height: 120}}\n");
   const auto fly = [this](const std::string& out) {
     const auto outcome =
         dodgesim::testing::dodgesim("run " + path("s.yaml") + " --throws 1 --out " + path(out));
