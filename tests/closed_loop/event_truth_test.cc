@@ -167,7 +167,8 @@ TEST(EventTruth, DoesNotChangeTheFlightAmongSeveralObjects) {
   const Scenario two = scenario(
       "seed: 12\npilot: falanga2020\nmission: {start_m: [-2, 0, 2]}\nfly_oracle: false\n"
       "after_s: 0.1\nthrows: [{size_m: 0.2, launch_s: 0.2, bearing_deg: 15},\n"
-      "  {size_m: 0.2, launch_s: 0.2, bearing_deg: -15}]\n");
+      "  {size_m: 0.2, launch_s: 0.2, bearing_deg: -15}]\n"
+      "sensors: {camera: {width: 160, height: 120}}\n");
   const FlightPlan plan = plan_throw(two, 0);
   EventTruth truth;
   EXPECT_EQ(fly(two, plan, &truth).events_hash, fly(two, plan).events_hash);
@@ -177,7 +178,7 @@ TEST(EventTruth, AgreesWithThePilotsWindowsAndFindsTheBall) {
   const Scenario s = scenario(
       "mission: {start_m: [-2, 0, 2]}\n"
       "throw: {distance_m: 3, speed_mps: 5, size_m: 0.2, launch_height_m: 1.7, launch_s: 0.2}\n"
-      "dodger: {position: {max_range_m: 3}}\n");
+      "dodger: {position: {max_range_m: 3}, repulsive: {k_r0: 0.01}}\n");  // it stays
   FlightPlan plan = plan_throw(s, 0);
   plan.end_us = plan.launches.at(0).drawn.launch_us + 350000;
   CheckedTruth truth;

@@ -17,7 +17,7 @@ Scenario flown_by_plugin(const std::string& parameters, const std::string& keys)
 TEST(PilotPlugin, ThatIsThePapersFliesAsThePapers) {
   const std::string keys =
       "throw: {distance_m: 3, speed_mps: 7, launch_s: 0.3, size_m: 0.3}\nafter_s: 0.1\n"
-      "sensors: {events: {preset: sees1}}\n";
+      "sensors: {events: {preset: sees1}, camera: {width: 160, height: 120}}\n";
   const Scenario plugged = flown_by_plugin("be the dodger", keys);
   Scenario built_in = plugged;
   built_in.pilot = kPaperPilot;
@@ -29,7 +29,8 @@ TEST(PilotPlugin, ThatIsThePapersFliesAsThePapers) {
 }
 
 TEST(PilotPlugin, GivesTheCommandsThatTheVehicleFollows) {
-  Scenario flown = flown_by_plugin("", "duration_s: 0.6\n");
+  Scenario flown =
+      flown_by_plugin("", "duration_s: 0.6\nsensors: {camera: {width: 64, height: 48}}\n");
   FlightPlan plan = plan_throw(flown, 0);
   plan.pilot = flown.pilot;
   EXPECT_GT(fly(flown, plan).last.vehicle.p_W.y(), 0.3);

@@ -96,7 +96,8 @@ class FirstDetection : public FlightObserver {
 
 TEST(FlightObserver, HearsOfTheFirstDetectionBeforeItsCycle) {
   const Scenario s = scenario(
-      "throw: {distance_m: 1.5, speed_mps: 6, size_m: 0.2, launch_s: 0.1}\nafter_s: 0.1\n");
+      "throw: {distance_m: 1.5, speed_mps: 6, size_m: 0.2, launch_s: 0.1}\nafter_s: 0.1\n"
+      "sensors: {camera: {width: 160, height: 120}}\n");
   FirstDetection first;
   const FlightRecord record = fly(s, plan_throw(s, 0), &first);
   EXPECT_EQ(first.count_, 1);
