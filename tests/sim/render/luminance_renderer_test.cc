@@ -156,16 +156,18 @@ TEST(LuminanceRenderer, LightsAThrownBallByALampWhereverTheyAre) {
 TEST(LuminanceRenderer, LetsDarkLightsChangeNoBitHoweverManyThereAre) {
   Scene plain = full_scene();
   const Image expected = plain.render(tilted_camera());
-  for (const std::string kind : {"directional='true'", "pos='1 0 3'"}) {
-    const std::string light = "<light " + kind + " dir='0 0 -1' ambient='0 0 0' diffuse='0 0 0'/>";
-    for (const int more : {1, 2, 4, 12}) {
-      std::string content = kFullScene;
-      for (int i = 0; i < more; ++i) content.insert(content.find("<geom"), light);
-      Scene scene(content);
-      scene.snapshot() = plain.snapshot();
-      const Image image = scene.render(tilted_camera());
-      EXPECT_TRUE(image.luminance == expected.luminance) << more << " more, " << kind;
+  const auto dark = [](const std::string& kind) {
+    return "<light " + kind + " dir='0 0 -1' ambient='0 0 0' diffuse='0 0 0'/>";
+  };
+  for (const int more : {1, 2, 4, 12}) {  // of both kinds
+    std::string content = kFullScene;
+    for (int i = 0; i < more; ++i) {
+      content.insert(content.find("<geom"), dark("directional='true'") + dark("pos='1 0 3'"));
     }
+    Scene scene(content);
+    scene.snapshot() = plain.snapshot();
+    const Image image = scene.render(tilted_camera());
+    EXPECT_TRUE(image.luminance == expected.luminance) << more << " more";
   }
 }
 
