@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kModels = DODGESIM_SOURCE_DIR "/models";
 
 TEST(SamplingStudy, FindsNoDifferenceBetweenTheReferenceAndItself) {
-  SamplingOptions options{kModels, 1, 1, EventCameraSpec(), 4000};
+  SamplingOptions options{kModels, 1, 5, EventCameraSpec(), 2500};
   SamplingVariant coarse{"coarse"};
   coarse.sampling.max_displacement_px = 4;
   int reported = 0;
@@ -40,7 +40,7 @@ TEST(SamplingStudy, FindsNoDifferenceBetweenTheReferenceAndItself) {
 
 // A few throws of what `dodgesim check-sensor --sampling 50` measures.
 TEST(SamplingStudy, FindsTheDefaultsWithinTheirLimits) {
-  const SamplingOptions options{kModels, 4, 1, EventCameraSpec(), 5000};
+  const SamplingOptions options{kModels, 3, 1, EventCameraSpec(), 5000};
   const auto results = study_sampling(options, {sampling_variants().front()}, [](int) {});
   EXPECT_GT(results[0].object.reference_events, 1000);
   EXPECT_GT(results[0].scene.reference_events, 10000);
@@ -118,7 +118,8 @@ TEST(TimeStatistics, NeedMoreDynamicThanStaticPixelsAboveTheThreshold) {
 TEST(TimeStatistics, OfAThrowHaveBothRegions) {
   const Scenario scenario = parse_scenario(
       "mission: {start_m: [-2, 0, 2]}\n"
-      "throw: {distance_m: 3, speed_mps: 6, size_m: 0.3, launch_height_m: 1.7, launch_s: 0.1}\n",
+      "throw: {distance_m: 3, speed_mps: 6, size_m: 0.3, launch_height_m: 1.7, launch_s: 0.1}\n"
+      "after_s: 0.1\n",
       "test.yaml", kModels);
   const TimeStatistics statistics = measure_time_statistics(scenario, 0);
   EXPECT_EQ(statistics.threshold, scenario.dodger.time_image.threshold_b);
