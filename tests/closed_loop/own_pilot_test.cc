@@ -12,7 +12,7 @@ namespace dodgesim {
 namespace {
 
 constexpr double kBallM = 0.2;
-constexpr int kThrows = 6;
+constexpr int kThrows = 4;
 
 struct Detections {
   int whole = 0;      // detections of about the ball's own size

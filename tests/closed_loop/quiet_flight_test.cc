@@ -7,7 +7,7 @@ namespace dodgesim {
 namespace {
 
 // In so many seconds of a flight to a goal in the room; `dodger`: keys of the pilot.
-bool evades_the_room(const std::string& pilot, int seed, int flight, int duration_s,
+bool evades_the_room(const std::string& pilot, int seed, int flight, double duration_s,
                      const std::string& dodger) {
   const std::string root = DODGESIM_SOURCE_DIR;
   const Scenario s = load_scenario(root + "/scenarios/quiet_goal_flight.yaml", root + "/models",
@@ -20,28 +20,19 @@ bool evades_the_room(const std::string& pilot, int seed, int flight, int duratio
 }
 
 TEST(QuietFlight, DodgesimDoesNotTakeTheRoomForAnObject) {
-  // It would in one of them at least, as in most flights, if it were satisfied with less.
+  // It would, as in most flights, if it were satisfied with less.
   const std::string less =
       "{cluster: {weight_position_1ppx: 0.6}, escape: {min_speed_mps: 1.5},\n"
       " association: {gate_sigmas: 0, min_detections: 5, tentative_timeout_us: 100000},\n"
       " position: {stereo: {min_share_of_best: 0}}}";
-  bool satisfied_with_less = false;
-  for (const int flight : {3, 5}) {
-    EXPECT_FALSE(evades_the_room("dodgesim", 78, flight, 3, "{}"));
-    satisfied_with_less = satisfied_with_less || evades_the_room("dodgesim", 78, flight, 3, less);
-  }
-  EXPECT_TRUE(satisfied_with_less) << "Not any more: look for other flights.";
+  EXPECT_FALSE(evades_the_room("dodgesim", 78, 3, 2.5, "{}"));
+  EXPECT_TRUE(evades_the_room("dodgesim", 78, 3, 2.5, less)) << "Not any more: look for another.";
 }
 
 TEST(QuietFlight, ThePapersPilotDoesNotEvadeSingleFalseDetections) {
-  bool satisfied_with_one = false;
-  for (const int flight : {4, 14}) {
-    EXPECT_FALSE(evades_the_room("falanga2020", 7131, flight, 4, "{}"));
-    satisfied_with_one =
-        satisfied_with_one ||
-        evades_the_room("falanga2020", 7131, flight, 4, "{association: {min_detections: 1}}");
-  }
-  EXPECT_TRUE(satisfied_with_one) << "There is none any more: look for flights that have some.";
+  EXPECT_FALSE(evades_the_room("falanga2020", 7131, 14, 4, "{}"));
+  EXPECT_TRUE(evades_the_room("falanga2020", 7131, 14, 4, "{association: {min_detections: 1}}"))
+      << "There is none any more: look for a flight that has some.";
 }
 
 }  // namespace
