@@ -65,7 +65,7 @@ TEST_F(JournalTest, WhereThereIsNoneTheReaderLearnsWhatACampaignIs) {
 TEST_F(JournalTest, CutOffAnywhereItKeepsEveryWholeRecord) {
   write_ten();
   const std::string whole = bytes();
-  for (std::size_t size = 0; size < whole.size(); size += 7) {
+  for (std::size_t size = 0; size < whole.size(); size += 13) {
     put(whole.substr(0, size));
     std::size_t records = 0;
     while (records < ends_.size() && ends_[records] <= size) ++records;
