@@ -171,7 +171,9 @@ TEST(EventTruth, DoesNotChangeTheFlightAmongSeveralObjects) {
       "sensors: {camera: {width: 160, height: 120}}\n");
   const FlightPlan plan = plan_throw(two, 0);
   EventTruth truth;
-  EXPECT_EQ(fly(two, plan, &truth).events_hash, fly(two, plan).events_hash);
+  const FlightRecord watched = fly(two, plan, &truth);
+  EXPECT_TRUE(watched.first_command_us.has_value());  // also while it evades
+  EXPECT_EQ(watched.events_hash, fly(two, plan).events_hash);
 }
 
 TEST(EventTruth, AgreesWithThePilotsWindowsAndFindsTheBall) {

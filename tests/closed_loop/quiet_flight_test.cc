@@ -26,13 +26,17 @@ TEST(QuietFlight, DodgesimDoesNotTakeTheRoomForAnObject) {
       " association: {gate_sigmas: 0, min_detections: 5, tentative_timeout_us: 100000},\n"
       " position: {stereo: {min_share_of_best: 0}}}";
   EXPECT_FALSE(evades_the_room("dodgesim", 78, 3, 2.5, "{}"));
-  EXPECT_TRUE(evades_the_room("dodgesim", 78, 3, 2.5, less)) << "Not any more: look for another.";
+  EXPECT_TRUE(evades_the_room("dodgesim", 78, 3, 2.5, less) ||  // on another processor the next
+              evades_the_room("dodgesim", 78, 5, 2.5, less))
+      << "Not any more: look for other flights.";
 }
 
 TEST(QuietFlight, ThePapersPilotDoesNotEvadeSingleFalseDetections) {
   EXPECT_FALSE(evades_the_room("falanga2020", 7131, 14, 4, "{}"));
-  EXPECT_TRUE(evades_the_room("falanga2020", 7131, 14, 4, "{association: {min_detections: 1}}"))
-      << "There is none any more: look for a flight that has some.";
+  const std::string one = "{association: {min_detections: 1}}";
+  EXPECT_TRUE(evades_the_room("falanga2020", 7131, 14, 4, one) ||
+              evades_the_room("falanga2020", 7131, 4, 4, one))
+      << "There is none any more: look for flights that have some.";
 }
 
 }  // namespace
