@@ -14,6 +14,7 @@ struct FarFrames {
   TimeUs interval_us = 0;      // between two frames
   EventDifference difference;  // of light_between.h's steps from much finer ones
   bool too_slow = false;       // the pixels, for steps so fine: nothing can be told
+  double early_us = 0;         // by how much the cut-off of a step may make a low-pass early
 };
 
 std::vector<FarFrames> measure_far_frames(const EventCameraSpec& camera, std::uint64_t seed);

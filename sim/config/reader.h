@@ -113,9 +113,11 @@ class Reader {
  private:
   static constexpr std::size_t kMostPoints = 100;
 
-  // Whether all that stands there are keys that are taken away.
+  // Whether all that stands there are keys that settings take away: they make no map. One that
+  // stands in a file, whose positions have lines, is there.
   static bool gives_nothing(const YamlNode& map) {
-    return !map.items.empty() && std::ranges::all_of(map.items, &YamlNode::taken_away);
+    const auto none = [](const YamlNode& item) { return item.taken_away && item.at.line == 0; };
+    return !map.items.empty() && std::ranges::all_of(map.items, none);
   }
 
   template <class T>

@@ -45,6 +45,7 @@ bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const V
                         context_.problems.place(other.at) + ".");
     }
   }
+  if (node.taken_away) return false;
   if (node.kind != YamlNode::Kind::kSequence || !node.tag.empty() || node.items.empty()) {
     return refuse(node, name, "must be a list of values, such as [0.1, 0.2]");
   }
@@ -68,7 +69,6 @@ void Reader::varied(const char* key, VariedKeys& list, const char*) {
   if (map == nullptr) return;
   Reader inside(*map, full(key), context_);
   for (std::size_t i = 0; i < map->keys.size(); ++i) {
-    if (map->items[i].taken_away) continue;
     VariedKey varied;
     if (inside.read_varied(map->items[i], map->keys[i], list, varied)) list.push_back(varied);
   }

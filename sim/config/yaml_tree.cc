@@ -182,6 +182,8 @@ class TreeBuilder : public YAML::EventHandler {
     YamlNode& parent = open_.back().node;
     // The parser notices a missing value only where the next key stands.
     if (node.kind == YamlNode::Kind::kNull && !parent.keys.empty()) node.at = parent.keys.back().at;
+    // A list has no key that could be taken away, and !normal needs its own.
+    if (parent.kind != YamlNode::Kind::kMap || !parent.tag.empty()) node.taken_away = false;
     parent.items.push_back(std::move(node));
     open_.back().expects_value = false;
   }
@@ -269,7 +271,7 @@ YamlNode parse_document(std::string_view text, Problems& problems, const Place& 
                                      " bytes; at most " + std::to_string(kMostBytes) +
                                      " are read.");
   }
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  while (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   check_encoding(text, problems, place);
   try {
     check_quotes(text, problems, place);

@@ -27,7 +27,7 @@ struct YamlNode {
   std::string text;             // of a scalar
   bool quoted = false;          // a scalar in quotes is text, whatever it looks like
   bool alias = false;           // stands for an alias, which is a problem already
-  bool taken_away = false;      // null, and ~ is written there: no value has been forgotten
+  bool taken_away = false;      // null, and ~ or null is written there: its key is to be none
   std::vector<YamlNode> items;  // of a sequence or map
   std::vector<Key> keys;        // of a map: keys[i] names items[i]
 

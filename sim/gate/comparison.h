@@ -20,7 +20,8 @@ struct ChangedThrow {
 struct Comparison {
   bool paired = false;  // all throws that both have share their random numbers
   int throws = 0;       // in both, by their numbers within the sweep value
-  // When paired, what was drawn otherwise (differing_draws()); empty: they are the same throws.
+  // When paired, what was drawn otherwise (differing_draws()), or differs else; empty: they are the
+  // same throws.
   std::vector<std::string> differing;
   Proportion first, second;  // successes of the throws that count; paired: in both campaigns
   PairedCounts counts;       // when paired

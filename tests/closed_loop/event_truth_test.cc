@@ -168,7 +168,7 @@ TEST(EventTruth, DoesNotChangeTheFlightAmongSeveralObjects) {
       "seed: 12\npilot: falanga2020\nmission: {start_m: [-2, 0, 2]}\nfly_oracle: false\n"
       "after_s: 0.1\nthrows: [{size_m: 0.2, launch_s: 0.2, bearing_deg: 15},\n"
       "  {size_m: 0.2, launch_s: 0.2, bearing_deg: -15}]\n"
-      "sensors: {camera: {width: 160, height: 120}}\n");
+      "sensors: {camera: {width: 160, height: 120}}\ndodger: {position: {max_range_m: 3}}\n");
   const FlightPlan plan = plan_throw(two, 0);
   EventTruth truth;
   const FlightRecord watched = fly(two, plan, &truth);

@@ -36,8 +36,8 @@ if(BUILD)
   endfunction()
   run(${CMAKE_COMMAND} ${configure})
   run(${CMAKE_COMMAND} --build ${WORK_DIR}/build --parallel 2 --target my_pilot)
-  # The rest of the core, of which the example needs nothing, is compiled without making code, in
-  # half the time: the project itself makes the same from the same CMakeLists.txt.
+  # The rest of the core, of which the example needs nothing, is checked without making code, in
+  # half the time: its code is made by the project's own build.
   file(READ ${WORK_DIR}/build/compile_commands.json commands)
   string(JSON count LENGTH "${commands}")
   math(EXPR last "${count} - 1")

@@ -49,14 +49,17 @@ bool has_stop(const std::filesystem::path& directory) {
 }
 
 // What was changed from one campaign to the other, if both have their scenarios.
-void print_difference(const std::filesystem::path& first, const std::filesystem::path& second) {
-  constexpr std::size_t kMost = 10;
+std::vector<ScenarioChange> changes_between(const std::filesystem::path& first,
+                                            const std::filesystem::path& second) {
   if (!std::filesystem::exists(first / kScenarioFile) ||
       !std::filesystem::exists(second / kScenarioFile)) {
-    return;
+    return {};
   }
-  const auto changes =
-      scenario_changes(read_file(first / kScenarioFile), read_file(second / kScenarioFile));
+  return scenario_changes(read_file(first / kScenarioFile), read_file(second / kScenarioFile));
+}
+
+void print(const std::vector<ScenarioChange>& changes) {
+  constexpr std::size_t kMost = 10;
   if (changes.empty()) return;
   std::cout << "The scenarios differ:\n";
   for (std::size_t i = 0; i < std::min(kMost, changes.size()); ++i) {
@@ -67,6 +70,11 @@ void print_difference(const std::filesystem::path& first, const std::filesystem:
     std::cout << "  and "
               << count_text(static_cast<std::int64_t>(changes.size() - kMost), "more key") << "\n";
   }
+}
+
+// Then it says which models differ.
+bool names_a_model(const ScenarioChange& change) {
+  return change.key == "room" || change.key == "vehicle" || change.key.ends_with("object");
 }
 
 // Outcomes by the number of their sweep value: of different values they are never pooled.
@@ -175,9 +183,11 @@ int compare_campaigns(const CompareArguments& arguments) {
     expect_same_settings(outcomes, second.at(sweep), arguments.first.string(),
                          arguments.second.string());
   }
-  print_difference(arguments.first, arguments.second);
+  const std::vector<ScenarioChange> changes = changes_between(arguments.first, arguments.second);
+  print(changes);
   const bool other_models = !first_tables.models.empty() && !second_tables.models.empty() &&
-                            first_tables.models != second_tables.models;
+                            first_tables.models != second_tables.models &&
+                            !std::ranges::any_of(changes, names_a_model);
   if (other_models) std::cout << "The models differ (room, vehicle or objects).\n";
   std::size_t tests = 0;
   for (const auto& [sweep, outcomes] : first) {

@@ -92,32 +92,35 @@ const std::vector<std::string> kPilotKeys = {"pilot", "plugin_parameters", "dodg
 // A file may hold other keys: it is that of a flight. On the command line they are a mistake.
 void name_idle_keys(const std::vector<Setting>& settings) {
   for (const Setting& setting : settings) {
-    const std::string group = setting.key.substr(0, setting.key.find('.'));
-    if (contains(kPilotKeys, group)) continue;
+    std::string key = setting.key;
+    for (const std::string list : {"grid", "sweep"}) {
+      if (key.starts_with(list + ".")) key.erase(0, list.size() + 1);
+    }
+    const std::string group = key.substr(0, key.find('.'));
+    if (contains(kPilotKeys, group) || key == "grid" || key == "sweep") continue;
     std::fprintf(stderr, "%s has no effect on a recording, but %s have.\n", setting.shown.c_str(),
                  joined(kPilotKeys, {}, " and ").c_str());
   }
 }
 
-// What the grid and the sweep say of a recording, if it is one value of each key.
-Scenario with_single_values(const Scenario& scenario, const std::string& file) {
+// The scenario of a recording, which is one: grid and sweep may have one value of a pilot's key.
+Scenario with_single_values(const Scenario& scenario) {
   if (const VariedKey* const varied = find_varied(scenario, kPilotKeys)) {
-    throw ScenarioError(
-        file + " has " + count_text(static_cast<std::int64_t>(varied->values.size()), "value") +
-        " of " + varied->key + ": choose one, such as --set 'grid=~' --set " + "'sweep=~' --set '" +
-        varied->key + "=" + to_text(varied->values[0]) + "'.");
+    const bool in_grid = contains(scenario.grid, varied->key, &VariedKey::key);
+    throw ScenarioError("The scenario has several values of " + varied->key +
+                        ": choose one, such as --set '" + (in_grid ? "grid." : "sweep.") +
+                        varied->key + "=[" + to_text(varied->values.back()) + "]'.");
   }
   return case_of(scenario, 0).scenario;
 }
 
 Scenario load(const DetectArguments& arguments) {
   const std::vector<Setting> settings = parse_settings("--set", arguments.set);
-  const std::string file = arguments.scenario.empty() ? "the defaults" : arguments.scenario;
   const Scenario read =
       arguments.scenario.empty()
-          ? parse_scenario("pilot: " + std::string(kPaperPilot), file, "", settings)
-          : load_scenario(file, "", settings);
-  const Scenario scenario = with_plugin(with_single_values(read, file), arguments.plugin);
+          ? parse_scenario("pilot: " + std::string(kPaperPilot), "the defaults", "", settings)
+          : load_scenario(arguments.scenario, "", settings);
+  const Scenario scenario = with_plugin(with_single_values(read), arguments.plugin);
   name_idle_keys(settings);
   if (!perceives(scenario.pilot)) {
     throw ScenarioError("The pilot " + scenario.pilot +

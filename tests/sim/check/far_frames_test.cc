@@ -19,7 +19,7 @@ TEST(FarFramesCheck, FailsForOtherEventsThanThoseOfTheLightBetween) {
   broken[0].difference.median_us = 51;
   EXPECT_EQ(failures(judge(broken)), Names{"frames.1000us.stamps"});
   broken = good;
-  broken[1].difference.median_us = 95;
+  broken[1].difference.median_us = 60;
   EXPECT_EQ(failures(judge(broken)), Names{"frames.33333us.stamps"});
 }
 
@@ -27,9 +27,11 @@ TEST(FarFramesCheck, FailsForOtherEventsThanThoseOfTheLightBetween) {
 TEST(FarFramesCheck, KnowsHowEarlyAStepsCutOffMakesASlowLowPass) {
   EventCameraSpec slow = event_camera_preset("sees1");
   slow.photoreceptor_hz = slow.photoreceptor_dark_hz = 1;
-  const std::vector<FarFrames> frames = measure_far_frames(slow, 1);
+  std::vector<FarFrames> frames = measure_far_frames(slow, 1);
   EXPECT_GT(frames[1].difference.median_us, kSamplingStampLimitUs);
   EXPECT_TRUE(failures(judge(frames)).empty());
+  frames[1].difference.median_us = 95;
+  EXPECT_EQ(failures(judge(frames)), Names{"frames.33333us.stamps"});
 }
 
 TEST(FarFramesCheck, SaysSoWhereThereIsNothingToSee) {

@@ -224,9 +224,8 @@ const BadScenario kBadScenarios[] = {
      "100"},
     // Several objects.
     {"ThrowAndThrows", "throw: {}\nthrows: [{}]\n",
-     "bad.yaml:1:8: throw is given, and throws too; one of them is enough: 'throw: ~' or 'throws: "
-     "~' "
-     "takes away that of a scenario that this one extends."},
+     "bad.yaml:1:8: throw is given, and throws too; one of them is enough: 'throw: ~' or "
+     "'throws: ~' takes away that of a scenario that this one extends."},
     {"ThrowsIsNoList", "throws: {size_m: 0.1}\n",
      "bad.yaml:1:9: throws is a map, but must be a list of maps, 1 to 16 of them."},
     {"EmptyThrows", "throws: []\n", "bad.yaml:1:9: throws is an empty list, but must be a list of"},

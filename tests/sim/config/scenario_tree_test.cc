@@ -90,6 +90,12 @@ TEST_F(ScenarioTree, AForgottenValueDoesNot) {
         << nothing;
   }
   EXPECT_THAT(error_of("base.yaml", {set("throw", "!choice")}), HasSubstr("throw is empty, but"));
+  // Nor is an element of a list a key, nor one of a distribution's that may go.
+  EXPECT_THAT(error_of("base.yaml", {set("grid.speed_mps", "[~, 3]")}), HasSubstr("is empty, but"));
+  EXPECT_THAT(error_of("base.yaml", {set("sweep.pilot", "[~, oracle]")}),
+              HasSubstr("is empty, but"));
+  EXPECT_THAT(error_of("base.yaml", {set("throw.size_m", "!normal {mean: ~, sd: 1}")}),
+              HasSubstr("throw.size_m.mean is empty, but"));
   EXPECT_EQ(error_of("base.yaml", {set("delays.compute_us", "")}),
             "--set delays.compute_us=: delays.compute_us is empty, but must be a whole number "
             "between 0 and 1000000.");
@@ -218,8 +224,15 @@ TEST_F(ScenarioTree, AKeyMayBeTakenAwayThatIsNotThere) {
               ::testing::HasSubstr("throw.sise_m is not a known"));
   EXPECT_THAT(error_of("base.yaml", {set("stpo", "~")}),
               ::testing::HasSubstr("stpo is not a known"));
+  EXPECT_THAT(error_of("base.yaml", {set("grid.spede_mps", "~")}),
+              HasSubstr("grid.spede_mps is not a key that can take several values"));
+  EXPECT_THAT(error_of("base.yaml", {set("throw.size_m", "1"), set("grid.size_m", "[0.1, 0.2]"),
+                                     set("grid.throw.size_m", "~")}),
+              HasSubstr("grid.throw.size_m is given twice"));
   write("none.yaml", "seed: 3\nstop: ~\nthrow: ~\ngrid: {size_m: ~}\n");
   EXPECT_FALSE(load("none.yaml").anyone_throws());
+  write("default.yaml", "throw: {size_m: ~}\n");
+  EXPECT_TRUE(load("default.yaml").anyone_throws());
   write("empty.yaml", "seed: 3\nstop:\n");
   EXPECT_THAT(error_of("empty.yaml", {}), ::testing::HasSubstr("stop is empty"));
 }
