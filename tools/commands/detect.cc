@@ -120,7 +120,7 @@ Scenario load(const DetectArguments& arguments) {
       arguments.scenario.empty()
           ? parse_scenario("pilot: " + std::string(kPaperPilot), "the defaults", "", settings)
           : load_scenario(arguments.scenario, "", settings);
-  const Scenario scenario = with_plugin(with_single_values(read), arguments.plugin);
+  Scenario scenario = with_plugin(with_single_values(read), arguments.plugin);
   name_idle_keys(settings);
   if (!perceives(scenario.pilot)) {
     throw ScenarioError("The pilot " + scenario.pilot +
