@@ -24,9 +24,9 @@ constexpr double kLeastOfFrames = 500;
 // Least cut-off times step that single precision follows (spec.h).
 constexpr double kLeastTurns = 2e-6;
 
-// By how much a low-pass may be early: a step has the cut-off of the mean of the lights at its
-// ends, but the light that runs along a straight line of the response is on average less, by 0.28
-// %, for as long as the low-pass is on its way.
+// By how much a low-pass may be early. A step has the cut-off of the mean of the lights at its
+// ends; along a straight line of the response the light's own mean is less, here by 0.28 %. So
+// early is the low-pass while it is on its way.
 double early_us(const EventCameraSpec& spec, TimeUs interval_us) {
   constexpr double kChange = LightBetween::kChange;
   constexpr double kTimeConstants = 3;  // leave 5 % of a step

@@ -228,17 +228,6 @@ TEST_F(DetectTest, WritesAVideoOfThePilotsStages) {
   EXPECT_FALSE(fs::exists(root_ / "v.mp4.partial"));
 }
 
-TEST_F(DetectTest, RunsThePilotOfAUser) {
-  write("e.csv", "t_us,x,y,p\n100,5,5,1\n9000,6,6,0\n");
-  write("c.yaml", "{width: 64, height: 48}");
-  const std::string events = path("e.csv") + " --calibration " + path("c.yaml");
-  const std::string plugin = " --plugin " DODGESIM_BINARY_DIR "/tests/plugins/libobedient.so";
-  EXPECT_EQ(detect(events + " --set pilot=plugin" + plugin).exit_code, 0);
-  EXPECT_EQ(table("found/cycles.csv").rows(), 3u);
-  EXPECT_EQ(detect(events + " --set pilot=plugin").exit_code, 2);
-  EXPECT_EQ(detect(events + plugin).exit_code, 2);
-}
-
 TEST_F(DetectTest, SaysWhatIsWrongAndWritesNothing) {
   write("e.csv", "t_us,x,y,p\n100,5,5,1\n9000,700,6,0\n");
   write("c.yaml", "{width: 64, height: 48}");
@@ -374,23 +363,6 @@ TEST_F(DetectTest, SaysWhetherTheRatesFitTheEvents) {
     return at == output.npos ? "" : output.substr(at, output.find('\n', at) - at);
   };
   EXPECT_EQ(sharpness(of_kalibr), sharpness(fits)) << of_kalibr;
-}
-
-TEST_F(DetectTest, TakesTheOnlyValueOfASweepAndRefusesSeveral) {
-  write("e.csv", "t_us,x,y,p\n100,5,5,1\n90000,6,6,0\n");
-  write("camera.yaml", "{width: 64, height: 48}");
-  write("s.yaml", "sweep: {delays.compute_us: [20000], room: [room, field]}\n");
-  const std::string film =
-      path("e.csv") + " --calibration " + path("camera.yaml") + " --scenario " + path("s.yaml");
-  EXPECT_THAT(detect(film).output, HasSubstr("a cycle comes every 20 ms"));
-  const Outcome several = detect(film + " --set sweep.delays.compute_us=[0,8000]");
-  EXPECT_EQ(several.exit_code, 2);
-  EXPECT_THAT(several.output,
-              HasSubstr("The scenario has several values of delays.compute_us: "
-                        "choose one, such as --set 'sweep.delays.compute_us=[8000]'."));
-  const Outcome chosen = detect(film + " --set sweep.delays.compute_us=[8000]");
-  EXPECT_THAT(chosen.output, HasSubstr("a cycle comes every 8 ms"));
-  EXPECT_THAT(chosen.output, Not(HasSubstr("no effect")));
 }
 
 // Real event cameras; skips where the recordings are absent.

@@ -12,9 +12,11 @@ using ::testing::Not;
 
 class PluginTest : public CommandTest {
  protected:
-  const std::string kPictures = "sensors: {camera: {width: 64, height: 48}}\n";
+  const std::string small_pictures_ = "sensors: {camera: {width: 64, height: 48}}\n";
 
-  PluginTest() { write("s.yaml", kPictures + "pilot: plugin\nduration_s: 0.1\nrepeats: 2\n"); }
+  PluginTest() {
+    write("s.yaml", small_pictures_ + "pilot: plugin\nduration_s: 0.1\nrepeats: 2\n");
+  }
 
   // The same in all but its bytes.
   std::string another() const {
@@ -52,7 +54,8 @@ TEST_F(PluginTest, AnotherLibraryIsAnotherCampaign) {
 
 TEST_F(PluginTest, ThatFailsCostsTheFlightAndCanBeReplayed) {
   const std::string plugin = " --plugin " + library("obedient");
-  write("s.yaml", kPictures + "pilot: plugin\nrepeats: 1\nthrow: {launch_s: 0.1, distance_m: 2}\n");
+  write("s.yaml",
+        small_pictures_ + "pilot: plugin\nrepeats: 1\nthrow: {launch_s: 0.1, distance_m: 2}\n");
   const Outcome outcome = run("--set plugin_parameters=throw" + plugin);
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_THAT(outcome.output, HasSubstr("1 throw had a flight that failed"));
@@ -92,7 +95,7 @@ TEST_F(PluginTest, DoesNotPrintAmongTheTables) {
 }
 
 TEST_F(PluginTest, IsNeededForItsOwnThrowsOnly) {
-  write("s.yaml", kPictures + "duration_s: 0.1\nsweep: {pilot: [none, plugin]}\n");
+  write("s.yaml", small_pictures_ + "duration_s: 0.1\nsweep: {pilot: [none, plugin]}\n");
   const std::string plugin = " --plugin " + library("obedient");
   ASSERT_EQ(run(plugin).exit_code, 0);
   const std::string replay = "replay " + path("out") + " --throw ";

@@ -72,7 +72,7 @@ void print(const std::vector<ScenarioChange>& changes) {
   }
 }
 
-// Then it says which models differ.
+// Whether the change says by itself that another model flew.
 bool names_a_model(const ScenarioChange& change) {
   return change.key == "room" || change.key == "vehicle" || change.key.ends_with("object");
 }

@@ -8,12 +8,10 @@
 #include <utility>
 
 #include "dodge/dodger.h"
-#include "sim/base/contains.h"
 #include "sim/base/error.h"
 #include "sim/base/joined.h"
 #include "sim/campaign/campaign_files.h"
 #include "sim/config/camera_calibration.h"
-#include "sim/config/expand.h"
 #include "sim/config/pilot.h"
 #include "sim/config/stereo_pair.h"
 #include "sim/files/mp4_file.h"
@@ -24,6 +22,7 @@
 #include "sim/recordings/sensor_log.h"
 #include "tools/commands/command.h"
 #include "tools/commands/detect_report.h"
+#include "tools/commands/detect_scenario.h"
 #include "tools/commands/stop_signal.h"
 
 namespace dodgesim {
@@ -85,53 +84,6 @@ struct DetectArguments {
   std::string video;  // empty: none
   double slow = 10;   // of the video
 };
-
-// What of a scenario matters to a recording.
-const std::vector<std::string> kPilotKeys = {"pilot", "plugin_parameters", "dodger", "delays"};
-
-// A file may hold other keys: it is that of a flight. On the command line they are a mistake.
-void name_idle_keys(const std::vector<Setting>& settings) {
-  for (const Setting& setting : settings) {
-    std::string key = setting.key;
-    for (const std::string list : {"grid", "sweep"}) {
-      if (key.starts_with(list + ".")) key.erase(0, list.size() + 1);
-    }
-    const std::string group = key.substr(0, key.find('.'));
-    if (contains(kPilotKeys, group) || key == "grid" || key == "sweep") continue;
-    std::fprintf(stderr, "%s has no effect on a recording, but %s have.\n", setting.shown.c_str(),
-                 joined(kPilotKeys, {}, " and ").c_str());
-  }
-}
-
-// The scenario of a recording, which is one: grid and sweep may have one value of a pilot's key.
-Scenario with_single_values(const Scenario& scenario) {
-  if (const VariedKey* const varied = find_varied(scenario, kPilotKeys)) {
-    const bool in_grid = contains(scenario.grid, varied->key, &VariedKey::key);
-    throw ScenarioError("The scenario has several values of " + varied->key +
-                        ": choose one, such as --set '" + (in_grid ? "grid." : "sweep.") +
-                        varied->key + "=[" + to_text(varied->values.back()) + "]'.");
-  }
-  return case_of(scenario, 0).scenario;
-}
-
-Scenario load(const DetectArguments& arguments) {
-  const std::vector<Setting> settings = parse_settings("--set", arguments.set);
-  const Scenario read =
-      arguments.scenario.empty()
-          ? parse_scenario("pilot: " + std::string(kPaperPilot), "the defaults", "", settings)
-          : load_scenario(arguments.scenario, "", settings);
-  Scenario scenario = with_plugin(with_single_values(read), arguments.plugin);
-  name_idle_keys(settings);
-  if (!perceives(scenario.pilot)) {
-    throw ScenarioError("The pilot " + scenario.pilot +
-                        " sees nothing in a recording; --set pilot=falanga2020, dodgesim or "
-                        "plugin.");
-  }
-  if ((scenario.pilot == kPluginPilot) == arguments.plugin.empty()) {
-    throw ScenarioError("The pilot plugin and --plugin FILE.so go together.");
-  }
-  return scenario;
-}
 
 // Rectified, for stereo, if they are not.
 std::vector<CameraCalibration> as_pair(const CameraCalibration& upper,
@@ -325,7 +277,8 @@ std::optional<StageVideo> make_video(const DetectArguments& arguments, const Sce
 void detect(const DetectArguments& arguments) {
   watch_stop_signals();
   expect_no_campaign(arguments.out);
-  const Scenario scenario = load(arguments);
+  const Scenario scenario =
+      detect_scenario(arguments.scenario, parse_settings("--set", arguments.set), arguments.plugin);
   const std::vector<CameraCalibration> calibrations =
       load_calibrations(arguments, scenario.dodger.position.stereo_depth());
   const dodge::Config config = pilot_config(scenario, calibrations, arguments.calibrations);
