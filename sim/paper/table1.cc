@@ -217,7 +217,7 @@ Estimate difference(const Estimate& a, const Estimate& b) {
 }
 
 // "-0.022 (-0.031 to -0.012)".
-std::string to_text(const Estimate& estimate) {
+std::string estimate_text(const Estimate& estimate) {
   return with_interval(estimate.value, estimate.interval, 3);
 }
 
@@ -230,10 +230,10 @@ std::vector<std::string> trend_row(const Setup& stereo, const Setup& mono) {
   for (std::size_t bin = 0; bin < kDepthBins.size(); ++bin) {
     const auto &a = stereo.statistics[bin], &b = mono.statistics[bin];
     if (a && b) leads[bin] = difference(mean_of(*a), mean_of(*b));
-    row.push_back(leads[bin] ? to_text(*leads[bin]) : "");
+    row.push_back(leads[bin] ? estimate_text(*leads[bin]) : "");
   }
   const auto &near = leads.front(), &far = leads.back();
-  row.push_back(near && far ? to_text(difference(*far, *near)) : "");
+  row.push_back(near && far ? estimate_text(difference(*far, *near)) : "");
   return row;
 }
 

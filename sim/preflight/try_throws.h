@@ -8,8 +8,8 @@
 namespace dodgesim {
 
 // Of the simulated time of throws that are tried.
-inline constexpr double kMostSolvedS = 120;  // 2 s of computing
-inline constexpr double kMostTriedS = 480;
+inline constexpr double kMostSolvedS = 60;  // 1 to 3 s of computing
+inline constexpr double kMostTriedS = 240;
 
 struct TriedThrows {
   int solved = 0;
