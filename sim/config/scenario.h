@@ -134,10 +134,10 @@ struct ThrowSpec {
       "Distance over the ground from the launch to the aim point, where the vehicle will be on "
       "arrival. Nothing of the room may stand between launch and vehicle, or the throw is an "
       "error, not a miss.");
-    v("bearing_deg", bearing_deg, -180, 180,
+    v("bearing_deg", bearing_deg, -360, 360,
       "Where the throw comes from, seen from above: 0 ahead, along the vehicle's x axis as it lies "
       "when the object arrives, of which tilting to the side and forwards at once turns the "
-      "direction; positive to the left.");
+      "direction; positive to the left. !uniform [160, 200] is from behind.");
     v("aim_offset_m", aim_offset_m, -2, 2,
       "Offset of the aim point from the vehicle's centre across the line of the throw, [left, up] "
       "for a viewer at the vehicle who looks at the thrower; a single distribution is drawn for "

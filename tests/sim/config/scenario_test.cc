@@ -77,7 +77,7 @@ TEST(Scenario, DistributionsAreRead) {
       "  size_m: !choice [0.1, 0.2]\n"
       "  speed_mps: !uniform [3, 8]\n"
       "  distance_m: !normal {mean: 3, sd: 0.5}\n"
-      "  bearing_deg: !normal {mean: 3, sd: 0.5, min: 0, max: 5}\n"
+      "  bearing_deg: !normal {mean: 180, sd: 10, min: 150, max: 210}\n"
       "  aim_offset_m: !uniform [-0.1, 0.1]\n"
       "  spin_radps: [0, !uniform [0, 5], 1]\n");
   const ThrowSpec& spec = *scenario.throw_spec;
@@ -85,7 +85,7 @@ TEST(Scenario, DistributionsAreRead) {
   EXPECT_EQ(spec.size_m, Distribution::choice({0.1, 0.2}));
   EXPECT_EQ(spec.speed_mps, Distribution::uniform(3, 8));
   EXPECT_EQ(spec.distance_m, Distribution::normal(3, 0.5, 0.5, 20)) << "cut at the key's limits";
-  EXPECT_EQ(spec.bearing_deg, Distribution::normal(3, 0.5, 0, 5));
+  EXPECT_EQ(spec.bearing_deg, Distribution::normal(180, 10, 150, 210));
   ASSERT_EQ(spec.aim_offset_m.parts.size(), 1u);
   EXPECT_EQ(spec.aim_offset_m.part(1), Distribution::uniform(-0.1, 0.1));
   ASSERT_EQ(spec.spin_radps.parts.size(), 3u);

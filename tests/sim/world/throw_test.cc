@@ -116,6 +116,9 @@ TEST(ThrowTest, BearingAndOffsetAreMeantFromTheVehicle) {
   EXPECT_TRUE(aim_point(toss, vehicle_W, heading_rad).isApprox(Vector3d(0.8, 1, 2.1), 1e-12));
   const BodyState launch = solve_throw(toss, kBall20cm, vehicle_W, heading_rad);
   EXPECT_TRUE(launch.p_W.isApprox(Vector3d(0.8, 4, 1.5), 1e-12));
+  toss.bearing_deg = 30 - 360;
+  EXPECT_TRUE(
+      solve_throw(toss, kBall20cm, vehicle_W, heading_rad).p_W.isApprox(launch.p_W, 1e-12));
 }
 
 TEST(ThrowTest, LeftAndRightThrowsAreMirrorImages) {
