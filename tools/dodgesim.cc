@@ -14,6 +14,7 @@
 #include "sim/base/error.h"
 #include "sim/base/shell.h"
 #include "sim/base/vector_level.h"
+#include "sim/campaign/build_info.h"
 #include "tools/commands/command.h"
 
 namespace {
@@ -97,7 +98,7 @@ int run_program(int argc, char** argv) {
       "fails), 2 usage or scenario error, 3 incomplete, 4 input/output error. \"dodgesim COMMAND "
       "--help\" says more.");
   program.require_subcommand(1);
-  program.set_version_flag("--version", DODGESIM_VERSION);
+  program.set_version_flag("--version", dodgesim::build_info().name());
 
   int exit_code = kOk;
   add_run_command(program, joined(argc, argv), exit_code);

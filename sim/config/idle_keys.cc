@@ -41,6 +41,15 @@ bool flies_field(const Scenario& s) {
   return s.pilot == kPluginPilot || s.dodger.escape.law == "potential_field";
 }
 
+// The field ends at eta_0_m from the vehicle's surface. Beyond it by more than half of the largest
+// object and the camera's distance from the vehicle's centre no cap changes anything.
+bool caps_within_field(const Scenario& s) {
+  constexpr double kMostBeyondM = 1;
+  const dodge::RepulsiveConfig& field = s.dodger.repulsive;
+  const double reach_m = field.eta_0_m + field.quadrotor_radius_m + kMostBeyondM;
+  return s.dodger.escape.law != "potential_field" || s.oracle.range_cap_m < reach_m;
+}
+
 constexpr const char* kNoField = "dodger.escape.law is closest_approach";
 constexpr const char* kCentres = "dodger.position.stereo.disparity is centres";
 constexpr const char* kGates = "dodger.association.gate_sigmas is not 0";
@@ -58,6 +67,7 @@ const IdleRule kRules[] = {
      {},
      [](const Scenario& s) { return s.fly_oracle || s.pilot == kOraclePilot; },
      "the pilot oracle does not fly"},
+    {"oracle.range_cap_m", {}, caps_within_field, "dodger.repulsive.eta_0_m ends the field nearer"},
     {"dodger.escape",
      {"dodger.escape.law"},
      [](const Scenario& s) {

@@ -179,7 +179,8 @@ std::string comparison_text(const Comparison& comparison, const std::string& fir
       rate_line(first, c.first) + rate_line(second, c.second) + difference_text(c);
   return text + left_out(c.only_first, "only " + first + " has them") +
          left_out(c.only_second, "only " + second + " has them") +
-         left_out(c.counts_differ, "in one of the two only they could be flown and would have hit");
+         left_out(c.counts_differ,
+                  "in one of the two only they would have hit, or may have (their flight failed)");
 }
 
 std::string list_of(const std::vector<std::string>& items) {

@@ -61,7 +61,8 @@ GateCheck throws_are_the_same(const Comparison& comparison, bool same_machine) {
   };
   add("of the baseline only", comparison.only_first);
   add("of this campaign only", comparison.only_second);
-  add("that could be flown and would have hit in the baseline or now, but not both",
+  add("that would have hit, or may have (their flight failed), in the baseline or now, but not "
+      "both",
       comparison.counts_differ);
   if (reason.empty()) return {name, Result::kPassed, ""};
   const bool all_there = comparison.only_first.empty() && comparison.only_second.empty();
@@ -96,9 +97,9 @@ GateCheck rate_holds(const Comparison& comparison, const GateRules& rules) {
     text = formatted("with a confidence of %g not lower by the margin of %g (p = %.2g)",
                      rules.confidence, rules.margin, drop.p_kept);
   } else {
-    text =
-        formatted("no proof that it fell by more than %g, nor that it did not: %lld throws are few",
-                  rules.margin, static_cast<long long>(comparison.counts.total()));
+    text = formatted(
+        "no proof that it fell by more than %g, nor that it did not, with so few throws (%lld)",
+        rules.margin, static_cast<long long>(comparison.counts.total()));
   }
   return {"success rate", drop.fell ? Result::kFailed : Result::kPassed, text};
 }

@@ -116,7 +116,9 @@ TEST_F(DodgesimTest, HelpTeachesWithExamples) {
   EXPECT_THAT(help.output, HasSubstr("dodgesim run scenarios/demo.yaml --out out/demo"));
   EXPECT_THAT(help.output, HasSubstr("Exit codes"));
   EXPECT_EQ(dodgesim("run --help").exit_code, 0);
-  EXPECT_EQ(dodgesim("--version").exit_code, 0);
+  const Outcome version = dodgesim("--version");
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.output, ::testing::ContainsRegex("^[0-9.]+ ([0-9a-f]{40}|unknown)"));
 }
 
 TEST_F(DodgesimTest, ValidatesTheScenariosOfTheProject) {

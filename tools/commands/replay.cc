@@ -312,7 +312,9 @@ int replay(const ReplayArguments& arguments) {
   if (!recorded) return kIncomplete;
   const std::string flown = csv_row(result), before = csv_row(*recorded);
   if (flown == before) {
-    std::cout << "Throw " << arguments.throw_index << " flew as recorded, bit for bit.\n";
+    std::cout << "Throw " << arguments.throw_index
+              << (result.flown.failed() ? " fails as recorded.\n"
+                                        : " flew as recorded, bit for bit.\n");
     return shown ? kOk : kIncomplete;
   }
   std::cerr << "Throw " << arguments.throw_index

@@ -18,6 +18,12 @@ TEST(IdleKeys, AreNamedWithTheirPlaceAndTheReason) {
   EXPECT_THAT(notes_on("fly_oracle: false\noracle: {range_cap_m: 2}\n"),
               ElementsAre("s.yaml:2:23: oracle.range_cap_m has no effect: the pilot oracle does "
                           "not fly."));
+  EXPECT_THAT(notes_on("oracle: {range_cap_m: 8}\n"),
+              ElementsAre("s.yaml:1:23: oracle.range_cap_m has no effect: dodger.repulsive.eta_0_m "
+                          "ends the field nearer."));
+  EXPECT_THAT(notes_on("oracle: {range_cap_m: 3}\n"), IsEmpty());
+  EXPECT_THAT(notes_on("oracle: {range_cap_m: 8}\ndodger: {repulsive: {eta_0_m: 8}}\n"), IsEmpty());
+  EXPECT_THAT(notes_on("oracle: {range_cap_m: 8}\npilot: dodgesim\n"), IsEmpty());
   EXPECT_THAT(notes_on("plugin_parameters: fast\n"),
               ElementsAre("s.yaml:1:20: plugin_parameters has no effect: the pilot is not "
                           "plugin."));

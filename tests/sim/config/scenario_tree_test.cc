@@ -226,15 +226,32 @@ TEST_F(ScenarioTree, AKeyMayBeTakenAwayThatIsNotThere) {
               ::testing::HasSubstr("stpo is not a known"));
   EXPECT_THAT(error_of("base.yaml", {set("grid.spede_mps", "~")}),
               HasSubstr("grid.spede_mps is not a key that can take several values"));
-  EXPECT_THAT(error_of("base.yaml", {set("throw.size_m", "1"), set("grid.size_m", "[0.1, 0.2]"),
-                                     set("grid.throw.size_m", "~")}),
-              HasSubstr("grid.throw.size_m is given twice"));
   write("none.yaml", "seed: 3\nstop: ~\nthrow: ~\ngrid: {size_m: ~}\n");
   EXPECT_FALSE(load("none.yaml").anyone_throws());
   write("default.yaml", "throw: {size_m: ~}\n");
   EXPECT_TRUE(load("default.yaml").anyone_throws());
   write("empty.yaml", "seed: 3\nstop:\n");
   EXPECT_THAT(error_of("empty.yaml", {}), ::testing::HasSubstr("stop is empty"));
+}
+
+TEST_F(ScenarioTree, AKeyOfTheGridIsTheSameUnderBothOfItsNames) {
+  write("base.yaml", "throw: {size_m: 1}\ngrid: {size_m: [0.1, 0.2], throw.speed_mps: [4, 5]}\n");
+  write("over.yaml", "extends: base.yaml\ngrid: {throw.size_m: [0.3], speed_mps: [6]}\n");
+  const Scenario over = load("over.yaml");
+  ASSERT_EQ(over.grid.size(), 2u);
+  EXPECT_EQ(over.grid[0].key, "throw.size_m");
+  EXPECT_EQ(over.grid[0].values.size(), 1u);
+  EXPECT_EQ(over.grid[1].key, "throw.speed_mps");
+  EXPECT_EQ(over.grid[1].values.size(), 1u);
+  const Scenario away =
+      load("base.yaml", {set("grid.throw.size_m", "~"), set("grid.speed_mps", "[4, 5, 6]")});
+  ASSERT_EQ(away.grid.size(), 1u);
+  EXPECT_EQ(away.grid[0].values.size(), 3u);
+  for (const char* both :
+       {"{size_m: [1], throw.size_m: [1]}", "{throw.size_m: [1], size_m: [1]}"}) {
+    write("both.yaml", std::string("extends: base.yaml\ngrid: ") + both + "\n");
+    EXPECT_THAT(error_of("both.yaml", {}), HasSubstr("size_m is given twice"));
+  }
 }
 
 TEST_F(ScenarioTree, BadSettingsAreRefused) {
