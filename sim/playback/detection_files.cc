@@ -97,10 +97,10 @@ struct ObstacleRow {
 
 DetectionFiles::DetectionFiles(const std::filesystem::path& directory)
     : directory_(directory),
-      cycles_(directory / "cycles.csv"),
-      clusters_(directory / "clusters.csv"),
-      detections_(directory / "detections.csv"),
-      obstacles_(directory / "obstacles.csv") {
+      cycles_(directory / kNames[0]),
+      clusters_(directory / kNames[1]),
+      detections_(directory / kNames[2]),
+      obstacles_(directory / kNames[3]) {
   cycles_.write(csv_header<CycleRow>());
   clusters_.write(csv_header<ClusterRow>());
   detections_.write(csv_header<FoundRow>());

@@ -6,6 +6,7 @@
 // obstacles.csv   what is tracked, in W
 #pragma once
 
+#include <array>
 #include <filesystem>
 
 #include "dodge/pilot.h"
@@ -17,6 +18,9 @@ namespace dodgesim {
 
 class DetectionFiles {
  public:
+  static constexpr std::array<const char*, 4> kNames = {"cycles.csv", "clusters.csv",
+                                                        "detections.csv", "obstacles.csv"};
+
   // Makes the folder. All functions throw IoError; without finish() no file appears, nor a folder.
   explicit DetectionFiles(const std::filesystem::path& directory);
 

@@ -7,6 +7,7 @@
 
 #include "sim/base/error.h"
 #include "sim/campaign/journal.h"
+#include "sim/files/staged_file.h"
 #include "sim/files/text_table.h"
 #include "sim/tables/loaded_campaign.h"
 
@@ -103,6 +104,18 @@ std::vector<Setting> parse_settings(const std::string& option,
     settings.push_back({text.substr(0, equals), text.substr(equals + 1), shown});
   }
   return settings;
+}
+
+void refuse_to_overwrite(const std::vector<std::string>& inputs, const std::string& file,
+                         const std::string& option) {
+  std::error_code ignored;
+  const std::filesystem::path partial = StagedFile::partial_name(StagedFile::target(file));
+  for (const std::string& input : inputs) {
+    if (std::filesystem::equivalent(file, input, ignored) ||
+        std::filesystem::equivalent(partial, input, ignored)) {
+      throw ScenarioError(option + " would overwrite the input " + input + ".");
+    }
+  }
 }
 
 int completeness(const std::string& directory, const LoadedCampaign& campaign) {

@@ -54,6 +54,11 @@ void add_set_option(CLI::App& command, std::vector<std::string>& set);
 std::vector<Setting> parse_settings(const std::string& option,
                                     const std::vector<std::string>& texts);
 
+// Throws ScenarioError if `file`, which is to be written for `option` ("--out DIR"), or its
+// temporary name is one of the inputs; an empty name is none.
+void refuse_to_overwrite(const std::vector<std::string>& inputs, const std::string& file,
+                         const std::string& option);
+
 // Three lines about precision and recall, without the last line's end.
 std::string truth_text(const EventTruthSums& sums);
 

@@ -286,9 +286,25 @@ void detect(const DetectArguments& arguments) {
   std::vector<Coverage> logs;
   if (!arguments.imu.empty()) logs.emplace_back("IMU", sensors.imu);
   logs.emplace_back("State", sensors.states);
+void expect_inputs_stay(const DetectArguments& arguments) {
+  std::vector<std::string> inputs = {arguments.imu, arguments.state, arguments.range,
+                                     arguments.scenario};
+  inputs.insert(inputs.end(), arguments.events.begin(), arguments.events.end());
+  for (const std::string& file : arguments.calibrations) {
+    inputs.push_back(file.substr(0, file.rfind(":cam")));
+  }
+  for (const char* name : DetectionFiles::kNames) {
+    refuse_to_overwrite(inputs, arguments.out + "/" + name, "--out " + arguments.out);
+  }
+  if (!arguments.video.empty()) {
+    refuse_to_overwrite(inputs, arguments.video, "--video " + arguments.video);
+  }
+}
+
   logs.emplace_back("Range", sensors.ranges);
   std::vector<CheckedRates> rates = rates_to_check(arguments, calibrations.front(), sensors);
   Playback playback(scenario.delays, make_pilot(scenario, config), std::move(sensors));
+  expect_inputs_stay(arguments);
   auto* dodger = dynamic_cast<dodge::Dodger*>(&playback.pilot());
   std::optional<StageVideo> video = make_video(arguments, scenario, dodger);
   DetectionFiles files(arguments.out);

@@ -1,6 +1,5 @@
 // dodgesim emulate: video to events.
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <numeric>
 
@@ -12,7 +11,6 @@
 #include "sim/bench/timed_emulation.h"
 #include "sim/config/event_camera_file.h"
 #include "sim/events/light_between.h"
-#include "sim/files/staged_file.h"
 #include "sim/recordings/event_writer.h"
 #include "sim/recordings/frame_reader.h"
 #include "tools/commands/command.h"
@@ -198,17 +196,6 @@ void report(const FrameReader& video, const EventCamera& camera, const Counts& c
   std::printf("emulation takes %.3f of the time of cv::log\n", timed.emulation_s() / timed.log_s());
 }
 
-// Neither the output nor its temporary file may be an input.
-void refuse_same_file(const std::string& out, const std::string& input) {
-  std::error_code ignored;
-  if (!std::filesystem::equivalent(out, input, ignored) &&
-      !std::filesystem::equivalent(StagedFile::partial_name(StagedFile::target(out)), input,
-                                   ignored)) {
-    return;
-  }
-  throw ScenarioError("--out " + out + " would overwrite the input " + input + ".");
-}
-
 void emulate(const EmulateArguments& arguments) {
   if (arguments.causes && arguments.out.ends_with(".raw")) {
     throw ScenarioError("--causes: " + arguments.out +
@@ -220,8 +207,7 @@ void emulate(const EmulateArguments& arguments) {
   limit_memory(physical_memory_mb());
   const EventCameraSpec spec = named_event_camera(arguments.camera);
   FrameReader video(arguments.frames, arguments.times);
-  refuse_same_file(arguments.out, arguments.frames);
-  refuse_same_file(arguments.out, arguments.times);
+  refuse_to_overwrite({arguments.frames, arguments.times}, arguments.out, "--out " + arguments.out);
   const auto writer = make_event_writer(
       arguments.out,
       {video.width(), video.height(), video.first_us(), video.duration_us(), arguments.causes});
