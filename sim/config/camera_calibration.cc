@@ -1,6 +1,7 @@
 #include "sim/config/camera_calibration.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -114,16 +115,74 @@ void drop_empty(YamlNode& map) {
   }
 }
 
+// Calibrators of ROS and OpenCV begin with the size.
+const YamlNode::Key* key_of_ros(const YamlNode& root) {
+  for (const YamlNode::Key& key : root.keys) {
+    if (key.name == "image_width" || key.name == "image_height") return &key;
+  }
+  return nullptr;
+}
+
+// Size and lens are given once.
+void expect_one_form(const YamlNode& root, Problems& problems) {
+  const YamlNode::Key* of_ros = key_of_ros(root);
+  if (of_ros == nullptr) return;
+  const std::vector<std::string> names = {"width", "height", "intrinsics", "distortion"};
+  for (const YamlNode::Key& key : root.keys) {
+    if (!contains(names, key.name)) continue;
+    problems.add(key.at, key.name + " and " + of_ros->name +
+                             " (ROS's, OpenCV's) are keys of two forms of a calibration: take away "
+                             "what belongs to one of them.");
+    return;
+  }
+}
+
+// Where our form has what other calibrations have under a key of that name; empty: nowhere.
+std::string place_in_lens(const std::string& key) {
+  std::string name;
+  for (const char c : key) {
+    if (c != '_') name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  const std::vector<std::string> intrinsics = {
+      "cameramatrix", "intrinsicmatrix", "k", "fx", "fy", "cx", "cy"};
+  const std::vector<std::string> distortion = {"distortioncoefficients",
+                                               "distortioncoeffs",
+                                               "distcoeffs",
+                                               "distortionmodel",
+                                               "coeffs",
+                                               "d",
+                                               "k1",
+                                               "k2",
+                                               "k3",
+                                               "k4",
+                                               "k5",
+                                               "k6",
+                                               "p1",
+                                               "p2"};
+  if (contains(intrinsics, name)) return "intrinsics: {fx: ..., fy: ..., cx: ..., cy: ...}";
+  if (contains(distortion, name))
+    return "distortion: {model: radtan, coeffs: [k1, k2, p1, p2, k3]}";
+  return "";
+}
+
 // In place of Reader::finish(): any other key may stand there for people.
 void expect_no_misspelling(const YamlNode& root, Problems& problems) {
   const std::vector<std::string> names = {"width",  "height", "intrinsics", "distortion",
                                           "p_BC_m", "R_BC",   "imu_axes",   "p_BR_m"};
-  const bool of_ros = root.find("image_width") != nullptr;
+  const bool of_ros = key_of_ros(root) != nullptr;
+  const bool of_ours = root.find("width") != nullptr || root.find("height") != nullptr;
   const std::vector<std::string> kalibr = {"camera_model",      "resolution", "distortion_model",
                                            "distortion_coeffs", "T_cam_imu",  "T_imu_cam",
                                            "timeshift_cam_imu"};
   for (const YamlNode::Key& key : root.keys) {
     if (contains(names, key.name)) continue;
+    const std::string place = of_ours && !of_ros ? place_in_lens(key.name) : "";
+    if (!place.empty()) {
+      problems.add(
+          key.at,
+          key.name + " has no effect here: beside width and height it belongs in " + place + ".");
+      continue;
+    }
     if (!of_ros && contains(kalibr, key.name)) {
       problems.add(key.at, key.name +
                                " is a key of Kalibr's, which must stand below the name of its "
@@ -145,7 +204,7 @@ void read_camera_info(const YamlNode& root, ReadContext& context, CalibrationKey
   CameraInfoKeys info;
   Reader reader(root, "", context);
   info.visit(reader);
-  expect_given("image_height", context);
+  for (const char* key : {"image_width", "image_height"}) expect_given(key, context);
   keys.width = info.image_width;
   keys.height = info.image_height;
   const std::vector<double>& K = info.camera_matrix.data;
@@ -272,8 +331,9 @@ CameraCalibration load_camera_calibration(const std::string& path_and_camera) {
   CalibrationKeys keys;
   Reader reader(root, "", context);
   keys.visit(reader);
+  expect_one_form(root, context.problems);
   expect_no_misspelling(root, context.problems);
-  if (root.find("image_width") != nullptr) {
+  if (key_of_ros(root) != nullptr) {
     read_camera_info(root, context, keys);
   } else {
     for (const char* key : {"width", "height"}) expect_given(key, context);

@@ -43,8 +43,8 @@ CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {mode
   radtan_k1_k2_p1_p2_k3, coeffs: [...]}; p_BC_m and R_BC (rows), the camera's place on the body,
   which by default looks forward; imu_axes, where x, y, z of the IMU point, by default as
   the camera's (of one that looks forward: right down forward); p_BR_m, the range sensor's place.
-  Other keys are passed over, but for what looks like a slip of the pen. Size and lens may have
-  the keys of ROS's and OpenCV's calibrators (plumb_bob).
+  Other keys are passed over, but for what looks like a slip of the pen or belongs elsewhere. Size
+  and lens may instead have the keys of ROS's and OpenCV's calibrators (plumb_bob).
   Or Kalibr's camchain.yaml or DSEC's cam_to_cam.yaml (pinhole, radtan): the first camera in it
   or, with FILE.yaml:cam1, cam1. It looks forward, and the body's origin is the IMU of T_cam_imu
   (or T_imu_cam), its axes are the camera's forward, left and up; timeshift_cam_imu is taken from

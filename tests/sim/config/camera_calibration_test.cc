@@ -96,10 +96,42 @@ TEST_F(Calibration, TurnsTheAxesOfTheImu) {
 TEST_F(Calibration, PassesOverWhatIsForPeopleButNotMisspelledKeys) {
   EXPECT_EQ(load("width: 320\nheight: 240\nsensor: DVXplorer\nlicence: MIT\n").camera.width, 320);
   EXPECT_THAT(refusal("width: 320\nheigth: 240\n"), HasSubstr("did you mean height?"));
-  EXPECT_THAT(refusal("width: 320\nheight: 240\ndistortion_coeffs: [0.1, 0, 0, 0]\n"),
-              HasSubstr("camera.yaml:3:1: distortion_coeffs is a key of Kalibr's"));
+  EXPECT_THAT(refusal("resolution: [320, 240]\ndistortion_coeffs: [0.1, 0, 0, 0]\n"),
+              HasSubstr("camera.yaml:2:1: distortion_coeffs is a key of Kalibr's"));
   EXPECT_THAT(refusal("width: 320\nheight: 240\nintrinsic: {fx: 1, fy: 1, cx: 1, cy: 1}\n"),
               HasSubstr("camera.yaml:3:1: intrinsic is not a known key; did you mean intrinsics?"));
+}
+
+TEST_F(Calibration, SaysWhereKeysOfOtherFormsBelong) {
+  const std::string size = "width: 320\nheight: 240\n";
+  for (const char* key : {"camera_matrix", "cameraMatrix", "K", "fx", "cy"}) {
+    EXPECT_EQ(refusal(size + key + ": 1\n"),
+              (root_ / "camera.yaml").string() + ":3:1: " + key +
+                  " has no effect here: beside width and height it belongs in intrinsics: {fx: "
+                  "..., fy: ..., cx: ..., cy: ...}.");
+  }
+  for (const char* key : {"distortion_coefficients", "distortion_coeffs", "dist_coeffs", "D", "k1",
+                          "p2", "distortion_model"}) {
+    EXPECT_EQ(refusal(size + key + ": 1\n"),
+              (root_ / "camera.yaml").string() + ":3:1: " + key +
+                  " has no effect here: beside width and height it belongs in distortion: {model: "
+                  "radtan, coeffs: [k1, k2, p1, p2, k3]}.");
+  }
+}
+
+TEST_F(Calibration, IsOfOneForm) {
+  const std::string ros =
+      "image_width: 64\nimage_height: 48\n"
+      "camera_matrix: {rows: 3, cols: 3, data: [100, 0, 32, 0, 100, 24, 0, 0, 1]}\n";
+  EXPECT_EQ(load(ros + "p_BC_m: [0, 0, 1]\nwidth: ~\n").camera.fx, 100);
+  for (const std::string key : {"width: 64", "intrinsics: {fx: 50, fy: 50, cx: 32, cy: 24}",
+                                "distortion: {coeffs: [0, 0, 0, 0]}"}) {
+    EXPECT_EQ(refusal(ros + key + "\n"),
+              (root_ / "camera.yaml").string() + ":4:1: " + key.substr(0, key.find(':')) +
+                  " and image_width (ROS's, OpenCV's) are keys of two forms of a calibration: take "
+                  "away what belongs to one of them.");
+  }
+  EXPECT_THAT(refusal("image_height: 48\n"), HasSubstr("image_width is missing"));
 }
 
 TEST_F(Calibration, OfRosIsRead) {
