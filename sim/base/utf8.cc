@@ -32,6 +32,20 @@ std::string valid_utf8(std::string_view text) {
   return out;
 }
 
+std::string printable(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const auto first = static_cast<unsigned char>(text[0]);
+    const bool c1 = length == 2 && first == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0;
+    const std::size_t taken = length == 0 || c1 ? 1 : length;
+    const bool shown = length > 0 && !c1 && first >= 0x20 && first != 0x7f;
+    out += shown ? std::string(text.substr(0, taken)) : formatted("\\x%02x", first);
+    text.remove_prefix(taken);
+  }
+  return out;
+}
+
 std::string beyond_ascii(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   std::size_t at = 0;

@@ -11,6 +11,7 @@
 #include "sim/base/input_file.h"
 #include "sim/base/joined.h"
 #include "sim/base/numbers.h"
+#include "sim/base/utf8.h"
 
 namespace dodgesim {
 
@@ -37,7 +38,22 @@ std::string_view without_quotes(std::string_view cell) {
 }  // namespace
 
 TextColumns::TextColumns(const std::string& path)
-    : path_(path), file_(open_file(path)), bytes_(std::filesystem::file_size(path)) {}
+    : path_(path), file_(open_file(path)), bytes_(std::filesystem::file_size(path)) {
+  expect_plain_text();
+}
+
+void TextColumns::expect_plain_text() {
+  std::string begin(2, ' ');
+  file_.read(begin.data(), 2);
+  file_.clear();
+  file_.seekg(0);
+  if (begin == "\x1f\x8b") {
+    throw ScenarioError(path_ + " is compressed by gzip: unpack it first (gunzip).");
+  }
+  if (begin == "\xff\xfe" || begin == "\xfe\xff") {
+    throw ScenarioError(path_ + " is text in UTF-16, but must be in ASCII or UTF-8.");
+  }
+}
 
 void TextColumns::split(std::string_view line) {
   const std::string_view blanks = separator_ == '\t' ? " \r" : " \t\r";
@@ -71,9 +87,21 @@ bool TextColumns::read_line() {
 
 bool TextColumns::next() {
   while (read_line()) {
-    if (!cells_.empty() && !is_remark()) return true;
+    if (cells_.empty() || is_remark()) continue;
+    if (!names_.empty() && cells_.size() > names_.size()) expect_empty_from(names_.size());
+    return true;
   }
   return false;
+}
+
+void TextColumns::expect_empty_from(std::size_t index) const {
+  const auto is_empty = [](std::string_view cell) { return cell.empty(); };
+  if (std::all_of(cells_.begin() + static_cast<std::ptrdiff_t>(index), cells_.end(), is_empty)) {
+    return;
+  }
+  throw ScenarioError(place() + ": the line has " + std::to_string(cells_.size()) + " cells, but " +
+                      std::to_string(names_.size()) + " columns have names" +
+                      (separator_ == ',' ? ": are there commas in place of decimal points?" : "."));
 }
 
 void TextColumns::read_names(const std::vector<std::string>& required) {
@@ -135,8 +163,8 @@ double TextColumns::number(const Column& column) const {
 void TextColumns::refuse(const Column& column, const std::string& what) const {
   constexpr std::size_t kLongestQuote = 40;
   throw ScenarioError(place() + ": " + column.name + " is \"" +
-                      std::string(text(column).substr(0, kLongestQuote)) + "\", but must be " +
-                      what + ".");
+                      printable(text(column).substr(0, kLongestQuote)) + "\", but must be " + what +
+                      ".");
 }
 
 }  // namespace dodgesim

@@ -4,7 +4,8 @@
 // or what stands between the names in their place, semicolons or tabs. Blanks and double quotes
 // around a cell do not count, nor do empty lines, lines that begin with #, a byte order mark
 // (UTF-8) and whether lines end in \n or \r\n. The line that names the columns may itself begin
-// with #. Cells of columns that nobody asks for may hold anything, or be missing.
+// with #. Cells of columns that nobody asks for may hold anything, or be missing; beyond the
+// columns that have names, cells must be empty.
 #pragma once
 
 #include <cstdint>
@@ -46,6 +47,8 @@ class TextColumns {
   [[noreturn]] void refuse(const Column& column, const std::string& what) const;
 
  private:
+  void expect_plain_text();
+  void expect_empty_from(std::size_t index) const;  // the cells of the line
   bool read_line();
   void split(std::string_view line);
   bool is_remark() const { return !cells_.empty() && cells_.front().starts_with('#'); }

@@ -14,5 +14,12 @@ TEST(Utf8, TheFirstCharacterBeyondAsciiHasItsNumber) {
   EXPECT_EQ(beyond_ascii("\x85"), "");
 }
 
+TEST(Utf8, IsShownWithoutControlCharacters) {
+  EXPECT_EQ(printable("2,5 \xc2\xb5s"), "2,5 \xc2\xb5s");
+  EXPECT_EQ(printable(std::string("1\0\x1b[2J\x7f", 7)), "1\\x00\\x1b[2J\\x7f");
+  EXPECT_EQ(printable("\xff\xc3"), "\\xff\\xc3");
+  EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b");  // begins commands of terminals
+}
+
 }  // namespace
 }  // namespace dodgesim

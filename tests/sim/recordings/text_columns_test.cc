@@ -94,5 +94,45 @@ TEST(TextColumns, SaysWhatIsMissing) {
   EXPECT_THAT(refusal("b,a\n1,1e30\n"), HasSubstr("must be a whole number"));
 }
 
+// Decimal commas shift all cells behind them.
+TEST(TextColumns, RefusesCellsBeyondTheNames) {
+  const TemporaryDirectory root;
+  const std::string path = root / "f.csv";
+  const auto refusal = [&](const std::string& text) {
+    return complaint<ScenarioError>([&] { read_imu_log(put(path, "t_us,wx,wy,wz\n" + text)); });
+  };
+  EXPECT_EQ(refusal("1,0,0,0\n2,0,5,0,5,0,5\n"),
+            path +
+                ":3: the line has 7 cells, but 4 columns have names: are there commas in place of "
+                "decimal points?");
+  EXPECT_EQ(refusal("1,0,0,0,\n2,0,0,0, ,\n"), "");
+  // Without names there may be more, such as the causes of events.
+  EXPECT_EQ(open_events(put(root / "e.txt", "1 2 3 1 254 7\n"), {10, 10})->next().size(), 1u);
+}
+
+TEST(TextColumns, QuotesNoControlCharacters) {
+  const TemporaryDirectory root;
+  const std::string path = put(root / "e.txt", std::string("1 2 3 1\n1\0 2 3 1\n", 17));
+  EXPECT_EQ(complaint<ScenarioError>([&] {
+              open_events(path, {10, 10})->next();
+            }),
+            path + ":2: t is \"1\\x00\", but must be a number.");
+}
+
+TEST(TextColumns, SaysThatAFileIsNoPlainText) {
+  const TemporaryDirectory root;
+  const auto refusal = [&](const std::string& name, const std::string& bytes) {
+    return complaint<ScenarioError>([&] { open_events(put(root / name, bytes), {10, 10}); });
+  };
+  for (const char* name : {"e.txt", "e.csv"}) {
+    const std::string path = root / name;
+    EXPECT_EQ(refusal(name, "\x1f\x8b\b"),
+              path + " is compressed by gzip: unpack it first (gunzip).");
+    for (const char* mark : {"\xff\xfe", "\xfe\xff"}) {
+      EXPECT_EQ(refusal(name, mark), path + " is text in UTF-16, but must be in ASCII or UTF-8.");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dodgesim
