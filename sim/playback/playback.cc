@@ -69,7 +69,7 @@ std::vector<StateReading> Playback::states_from_rates() const {
   std::vector<StateReading> states;
   for (const ImuReading& reading : imu_) {
     StateReading state{.t_us = reading.t_us, .w_B = reading.w_B_radps};
-    if (!states.empty()) {
+    if (states.size() > (late ? 1 : 0)) {
       const StateReading& before = states.back();
       const Eigen::Vector3d turn =
           0.5 * seconds(state.t_us - before.t_us) * (before.w_B + state.w_B);
@@ -77,10 +77,11 @@ std::vector<StateReading> Playback::states_from_rates() const {
     }
     states.push_back(state);
   }
-  if (states.empty()) states.push_back({.t_us = now_us_});
   return states;
 }
 
+  const bool late = imu_.empty() || imu_.front().t_us > first_event_us_;
+  if (late) states.push_back({.t_us = now_us_});
 std::int64_t Playback::events(int camera) const {
   return eyes_.at(static_cast<std::size_t>(camera)).count;
 }

@@ -282,6 +282,24 @@ TEST(Playback, WithoutStatesTurnsAsTheRatesSayAndStaysInItsPlace) {
   }
 }
 
+TEST(Playback, WithoutStatesIsAtRestUntilTheFirstRate) {
+  const Eigen::Vector3d w(0, 0, 3);
+  RecordedSensors sensors = sensors_of({random_events(kEpochUs, 1000, 4)});
+  sensors.imu = every<ImuReading>(1000, kEpochUs + 30000, 30);
+  for (ImuReading& reading : sensors.imu) reading.w_B_radps = w;
+  const Witness::Arrivals seen = play({}, std::move(sensors));
+  ASSERT_GT(seen.estimates.size(), 10u);
+  EXPECT_LE(seen.estimates[0].t_us, kEpochUs);
+  EXPECT_TRUE(seen.estimates[0].w_WB_B.isZero());
+  for (std::size_t i = 1; i < seen.estimates.size(); ++i) {
+    const dodge::StateEstimate& state = seen.estimates[i];
+    const double t_s = seconds(state.t_us - kEpochUs - 30000);
+    const Eigen::Quaterniond expected(Eigen::AngleAxisd(3 * t_s, Eigen::Vector3d::UnitZ()));
+    EXPECT_LT(state.q_WB.angularDistance(expected), 1e-9);
+    EXPECT_EQ(state.w_WB_B, w);
+  }
+}
+
 TEST(Playback, WithoutStatesAndRatesIsAtRest) {
   const Witness::Arrivals seen = play({}, sensors_of({random_events(kEpochUs, 1000, 5)}));
   ASSERT_EQ(seen.estimates.size(), 1u);
