@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
@@ -24,7 +25,7 @@ bool are_rectified(const dodge::CameraModel& upper, const dodge::CameraModel& lo
   const Vector3d down = upper.X_BC.inverse() * lower.X_BC.translation();
   const Eigen::Vector4d a(upper.fx, upper.fy, upper.cx, upper.cy);
   const Eigen::Vector4d b(lower.fx, lower.fy, lower.cx, lower.cy);
-  return (a - b).norm() <= kRoundingOfText * upper.fx &&
+  return down.norm() > 0 && (a - b).norm() <= kRoundingOfText * upper.fx &&
          Eigen::AngleAxisd(upper.X_BC.linear().transpose() * lower.X_BC.linear()).angle() <=
              kRoundingOfText &&
          angle_between(down, Vector3d::UnitY()) <= kRoundingOfText;
@@ -43,13 +44,18 @@ Eigen::Matrix3d common_axes(const dodge::CameraModel& upper, const dodge::Camera
   const Vector3d baseline_B = lower.X_BC.translation() - upper.X_BC.translation();
   const double aside =
       std::max(angle_between(baseline_B, U.col(1)), angle_between(baseline_B, L.col(1)));
-  if (!(baseline_B.norm() > 0) || aside > kMostAside) {
-    throw ScenarioError(
-        "Stereo needs the second camera below the first, along the columns of both images, but by "
-        "their calibrations it lies " +
-        (baseline_B.norm() > 0 ? formatted("%.0f degrees aside", aside * 180 / std::numbers::pi)
-                               : std::string("in the same place")) +
-        ".");
+  const std::string need =
+      "Stereo needs the second camera below the first, along the columns of both images, but their "
+      "calibrations ";
+  if (!(baseline_B.norm() > 0)) {
+    throw ScenarioError(need + "give both the same place (p_BC_m, or of a chain T_cam_imu).");
+  }
+  const bool above = std::min(angle_between(-baseline_B, U.col(1)),
+                              angle_between(-baseline_B, L.col(1))) <= kMostAside;
+  if (above) throw ScenarioError(need + "put it above the first: give the upper camera first.");
+  if (aside > kMostAside) {
+    throw ScenarioError(need +
+                        formatted("put it %.0f degrees aside.", aside * 180 / std::numbers::pi));
   }
   Eigen::Matrix3d R_BC;
   R_BC.col(1) = baseline_B.normalized();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/base/error.h"
+#include "sim/base/joined.h"
 #include "sim/base/rotation.h"
 
 namespace dodgesim {
@@ -43,13 +44,16 @@ Playback::Playback(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot,
       states_(std::move(sensors.states)),
       ranges_(std::move(sensors.ranges)) {
   TimeUs first_us = std::numeric_limits<TimeUs>::max();
-  for (auto& reader : sensors.cameras) {
-    eyes_.emplace_back(std::move(reader), delays.packet_us);
+  for (std::size_t i = 0; i < sensors.cameras.size(); ++i) {
+    const std::string name =
+        i < sensors.files.size() ? sensors.files[i] : "Camera " + std::to_string(i);
+    eyes_.emplace_back(name, std::move(sensors.cameras[i]), delays.packet_us);
     const Event* first = eyes_.back().queue.front();
     if (first != nullptr) first_us = std::min(first_us, first->t_us);
   }
   if (first_us == std::numeric_limits<TimeUs>::max()) {
-    throw ScenarioError("There is no event in the recording.");
+    throw ScenarioError(joined(eyes_, &Eye::name, " and ") +
+                        (eyes_.size() == 1 ? " has no event." : " have no event."));
   }
   first_event_us_ = last_event_us_ = first_us;
   now_us_ = first_us / delays.period_us() * delays.period_us();
@@ -63,10 +67,22 @@ void Playback::expect_same_clock() const {
   expect_near(first_event_us_, ranges_, "range sensor's");
 }
 
-// The attitude that the IMU's rates add up to, from that of W at its first reading; the place stays
-// the origin.
+void Playback::expect_few_strays() const {
+  for (const Eye& eye : eyes_) {
+    const std::int64_t strays = eye.queue.strays();
+    if (strays <= eye.count) continue;
+    throw ScenarioError(eye.name + " must be in order of time, but " + std::to_string(strays) +
+                        " of its " + std::to_string(strays + eye.count) +
+                        " events are stamped far ahead of those behind them.");
+  }
+}
+
+// The attitude that the IMU's rates add up to, from that of W at its first reading and before it;
+// the place stays the origin.
 std::vector<StateReading> Playback::states_from_rates() const {
   std::vector<StateReading> states;
+  const bool late = imu_.empty() || imu_.front().t_us > first_event_us_;
+  if (late) states.push_back({.t_us = now_us_});
   for (const ImuReading& reading : imu_) {
     StateReading state{.t_us = reading.t_us, .w_B = reading.w_B_radps};
     if (states.size() > (late ? 1 : 0)) {
@@ -80,8 +96,6 @@ std::vector<StateReading> Playback::states_from_rates() const {
   return states;
 }
 
-  const bool late = imu_.empty() || imu_.front().t_us > first_event_us_;
-  if (late) states.push_back({.t_us = now_us_});
 std::int64_t Playback::events(int camera) const {
   return eyes_.at(static_cast<std::size_t>(camera)).count;
 }
@@ -115,7 +129,10 @@ bool Playback::next() {
       eyes_, [](const Eye& e) { return e.queue.front() == nullptr && e.held.empty(); });
   const int last_camera = static_cast<int>(eyes_.size()) - 1;
   const TimeUs transport_us = delays_.transport_us_of(last_camera);
-  if (ended && now_us_ >= last_event_us_ + delays_.packet_us + transport_us) return false;
+  if (ended && now_us_ >= last_event_us_ + delays_.packet_us + transport_us) {
+    expect_few_strays();
+    return false;
+  }
   now_us_ += delays_.period_us();
   send_readings();
   for (std::size_t camera = 0; camera < eyes_.size(); ++camera) {
@@ -142,7 +159,7 @@ void Playback::hold(Eye& eye, TimeUs until_us) {
     if (event.t_us < eye.newest_us - EventQueue::kSortedUs) ++eye.late;
     eye.held.push_back(event);
     if (eye.held.size() <= kMostHeld) continue;
-    throw ScenarioError("There are more than " + std::to_string(kMostHeld) + " events from " +
+    throw ScenarioError(eye.name + " has more than " + std::to_string(kMostHeld) + " events from " +
                         std::to_string(eye.held.front().t_us) + " to " +
                         std::to_string(eye.held.back().t_us) +
                         " us, more than a camera can see: is t in microseconds?");
@@ -174,9 +191,8 @@ void Playback::send_events(int camera) {
   if (!eye.held.empty() || next == nullptr ||
       next->t_us <= last_event_us_ + EventQueue::kLongestGapUs)
     return;
-  throw ScenarioError("Camera " + std::to_string(camera) + " has an event at " +
-                      std::to_string(next->t_us) + " us after one at " +
-                      std::to_string(last_event_us_) +
+  throw ScenarioError(eye.name + " has an event at " + std::to_string(next->t_us) +
+                      " us after one at " + std::to_string(last_event_us_) +
                       " us: gaps of more than ten minutes are not played.");
 }
 

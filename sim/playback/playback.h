@@ -19,6 +19,7 @@ namespace dodgesim {
 
 struct RecordedSensors {
   std::vector<std::unique_ptr<EventReader>> cameras;  // in the order of the pilot's
+  std::vector<std::string> files;                     // theirs, for messages; may be empty
   std::vector<ImuReading> imu;                        // in B; may be empty, as the others
   std::vector<StateReading> states;  // empty: in its place, turning as the IMU says, if it does
   std::vector<RangeReading> ranges;
@@ -31,7 +32,8 @@ class Playback {
   //
   // Cycles begin at multiples of delays.period_us() on the recording's clock, the first after the
   // first event. Throws ScenarioError if no camera has any event, or a log has no reading while
-  // there are events; all functions throw as EventReader does.
+  // there are events, and next() does at the end if most of a camera's events are strays; all
+  // functions throw as EventReader does.
   Playback(const DelaySpec& delays, std::unique_ptr<dodge::Pilot> pilot, RecordedSensors sensors);
 
   // Runs the next cycle; false when the pilot has had every event.
@@ -59,9 +61,10 @@ class Playback {
  private:
   // What comes from one camera.
   struct Eye {
-    Eye(std::unique_ptr<EventReader> events, TimeUs packet_us)
-        : queue(std::move(events)), packetizer(packet_us) {}
+    Eye(std::string name_in_messages, std::unique_ptr<EventReader> events, TimeUs packet_us)
+        : name(std::move(name_in_messages)), queue(std::move(events)), packetizer(packet_us) {}
 
+    std::string name;
     EventQueue queue;
     Packetizer packetizer;
     std::vector<Event> held;                                // in order of time, not yet due
@@ -76,6 +79,7 @@ class Playback {
   void send_events(int camera);
   void send_readings();
   void expect_same_clock() const;
+  void expect_few_strays() const;
   std::vector<StateReading> states_from_rates() const;
 
   DelaySpec delays_;

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kPortion = 1 << 14;  // events
 
 // Whether one of the first events has a fraction in place of whole microseconds.
-bool in_seconds(const std::string& path) {
+bool has_fractions(const std::string& path) {
   TextColumns file(path);
   const Column t = {"t", 0};
   for (std::size_t i = 0; i < kPortion && file.next(); ++i) {
@@ -33,7 +33,7 @@ bool in_seconds(const std::string& path) {
 class TextReader : public EventReader {
  public:
   TextReader(const std::string& path, const ImageSize& image, bool names_columns)
-      : image_(image), in_seconds_(!names_columns && in_seconds(path)), file_(path) {
+      : image_(image), in_seconds_(!names_columns && has_fractions(path)), file_(path) {
     if (!names_columns) return;
     t_.name = "t_us";
     file_.read_names({"t_us", "x", "y", "p"});
@@ -49,6 +49,7 @@ class TextReader : public EventReader {
     return events_;
   }
 
+  bool in_seconds() const override { return in_seconds_; }
   double part_read() const override { return share(file_.bytes_read(), file_.bytes()); }
 
  private:

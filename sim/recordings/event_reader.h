@@ -40,6 +40,9 @@ class EventReader {
   // Valid until the next call.
   virtual std::span<const Event> next() = 0;
 
+  // Whether its times have fractions and are therefore taken for seconds.
+  virtual bool in_seconds() const { return false; }
+
   // How much of the file has been read, 0 to 1.
   virtual double part_read() const = 0;
 };

@@ -49,5 +49,35 @@ TEST_F(DetectRefusalsTest, DoesNotOverwriteItsInputs) {
   EXPECT_EQ(contents("found/cycles.csv"), "t_us,wx,wy,wz\n0,0,0,0\n");
 }
 
+TEST_F(DetectRefusalsTest, NamesTheCalibrationsOfAPair) {
+  for (const char* name : {"up.yaml", "down.yaml"}) {
+    write(name, "{width: 64, height: 48, p_BC_m: [0, 0, " +
+                    std::string(name == std::string("up.yaml") ? "0.1" : "0") + "]}");
+  }
+  const auto refusal = [this](const std::string& first, const std::string& second) {
+    return dodgesim("detect " + path("e.csv") + " " + path("e.csv") + " --calibration " +
+                    path(first) + " " + path(second) + " --out " + path("found"))
+        .output;
+  };
+  EXPECT_THAT(refusal("down.yaml", "up.yaml"),
+              AllOf(HasSubstr(path("down.yaml") + " and " + path("up.yaml") + ": Stereo needs"),
+                    HasSubstr("give the upper camera first.")));
+  EXPECT_THAT(refusal("up.yaml", "up.yaml"), HasSubstr("give both the same place"));
+}
+
+TEST_F(DetectRefusalsTest, NamesTheFileOfEvents) {
+  write("none.csv", "t_us,x,y,p\n");
+  EXPECT_THAT(detect("none.csv").output, HasSubstr(path("none.csv") + " has no event."));
+  std::string text = "0.5 5 5 1\n";
+  for (int i = 0; i < 40; ++i) text += "1000 5 5 1\n";
+  write("e.txt", text);
+  const Outcome jump = detect("e.txt");
+  EXPECT_EQ(jump.exit_code, 2);
+  EXPECT_THAT(jump.output,
+              AllOf(HasSubstr("e.txt: its times have fractions, and are taken for seconds."),
+                    HasSubstr("e.txt has an event at 1000000000 us after one at 500000 us")));
+  EXPECT_FALSE(fs::exists(path("found")));
+}
+
 }  // namespace
 }  // namespace dodgesim::testing

@@ -85,13 +85,19 @@ struct DetectArguments {
   double slow = 10;   // of the video
 };
 
-// Rectified, for stereo, if they are not.
-std::vector<CameraCalibration> as_pair(const CameraCalibration& upper,
-                                       const CameraCalibration& lower) {
+// Rectified, for stereo, if they are not. `files`: theirs.
+std::vector<CameraCalibration> as_pair(const std::vector<CameraCalibration>& calibrations,
+                                       const std::vector<std::string>& files) {
   const auto turn_deg = [](const CameraCalibration& rectified) {
     return Eigen::AngleAxisd(rectified.camera.lens->R_CL).angle() * 180 / std::numbers::pi;
   };
-  const StereoPair pair = rectified(upper, lower);
+  const StereoPair pair = [&] {
+    try {
+      return rectified(calibrations[0], calibrations[1]);
+    } catch (const ScenarioError& error) {
+      throw ScenarioError(joined(files, {}, " and ") + ": " + error.what());
+    }
+  }();
   if (pair.upper.camera.lens) {
     std::printf(
         "The cameras are rectified by their calibrations: turned by %.2f and %.2f degrees.\n",
@@ -116,7 +122,7 @@ std::vector<CameraCalibration> load_calibrations(const DetectArguments& argument
     std::printf("%s: %s is taken; FILE:%s would be another.\n", file.c_str(), read.name.c_str(),
                 read.passed_over.front().c_str());
   }
-  if (calibrations.size() == 2 && stereo) return as_pair(calibrations[0], calibrations[1]);
+  if (calibrations.size() == 2 && stereo) return as_pair(calibrations, arguments.calibrations);
   return calibrations;
 }
 
@@ -156,9 +162,14 @@ RecordedSensors load_sensors(const DetectArguments& arguments,
                              const std::vector<CameraCalibration>& calibrations) {
   RecordedSensors sensors;
   for (std::size_t i = 0; i < arguments.events.size(); ++i) {
+  sensors.files = arguments.events;
     const dodge::CameraModel& camera = calibrations[i].camera;
     sensors.cameras.push_back(open_events(arguments.events[i], {camera.width, camera.height}));
     if (calibrations[i].focal_length_assumed) {
+    if (sensors.cameras.back()->in_seconds()) {
+      std::printf("%s: its times have fractions, and are taken for seconds.\n",
+                  arguments.events[i].c_str());
+    }
       std::printf("%s has no intrinsics: 80 degrees over %d columns are assumed.\n",
                   arguments.calibrations[i].c_str(), camera.width);
     }

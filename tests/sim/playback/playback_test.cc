@@ -311,13 +311,28 @@ TEST(Playback, RefusesRecordingsThatCannotBePlayed) {
   const auto refusal = [](RecordedSensors sensors) {
     return complaint<ScenarioError>([&] { play({}, std::move(sensors)); });
   };
-  EXPECT_THAT(refusal(sensors_of({{}, {}})), HasSubstr("no event"));
+  EXPECT_EQ(refusal(sensors_of({{}, {}})), "Camera 0 and Camera 1 have no event.");
+  RecordedSensors named = sensors_of({{}});
+  named.files = {"e.txt"};
+  EXPECT_EQ(refusal(std::move(named)), "e.txt has no event.");
   RecordedSensors other_clock = sensors_of({random_events(kEpochUs, 100, 6)});
   other_clock.imu = every<ImuReading>(1000, 0, 100);
   EXPECT_THAT(refusal(std::move(other_clock)), HasSubstr("must have one clock"));
   std::vector<Event> jump = random_events(0, 100, 7);
   jump.insert(jump.end(), EventQueue::kAhead + 1, {3'600'000'000, 1, 1, 1});
-  EXPECT_THAT(refusal(sensors_of({jump})), HasSubstr("ten minutes"));
+  RecordedSensors jumping = sensors_of({jump});
+  jumping.files = {"e.txt"};
+  EXPECT_EQ(refusal(std::move(jumping)), "e.txt has an event at 3600000000 us after one at " +
+                                             std::to_string(jump[99].t_us) +
+                                             " us: gaps of more than ten minutes are not played.");
+  // Each is stamped earlier than the one before it.
+  std::vector<Event> backwards = random_events(0, 600, 8);
+  for (std::size_t i = 0; i < backwards.size(); ++i) {
+    backwards[i].t_us = 20000 * static_cast<TimeUs>(backwards.size() - i);
+  }
+  EXPECT_EQ(refusal(sensors_of({backwards})),
+            "Camera 0 must be in order of time, but 599 of its 600 events are stamped far ahead of "
+            "those behind them.");
   RecordedSensors instant;
   instant.cameras.push_back(std::make_unique<OneInstant>());
   EXPECT_THAT(refusal(std::move(instant)),
