@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "sim/base/formatted.h"
 #include "sim/recordings/hdf5_library.h"
 #include "sim/recordings/raw_event.h"
 
@@ -108,9 +110,14 @@ class Hdf5Reader : public EventReader {
         H5Dread(dataset, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0;
     H5Sclose(space);
     H5Dclose(dataset);
-    const bool whole = read && static_cast<long double>(value) == exact;
-    if (whole && value >= -kLastUs && value <= kLastUs) return value;
-    throw ScenarioError(path_ + ": " + name + " must be one whole number.");
+    if (!read || exact != std::floor(exact)) {
+      throw ScenarioError(path_ + ": " + name + " must be one whole number.");
+    }
+    if (std::abs(exact) <= static_cast<long double>(kLastUs)) return value;
+    throw ScenarioError(path_ + ": " + name + " is " + formatted("%.0Lf", exact) +
+                        ", but must be from " + std::to_string(-kLastUs) + " to " +
+                        std::to_string(kLastUs) +
+                        (name == "t_offset" ? " us: are these nanoseconds?" : "."));
   }
 
   void expect_size(const std::string& side, int expected) const {

@@ -262,10 +262,16 @@ TEST_F(Reading, TakesHdf5sOffsetIfItIsWhole) {
   const auto refused = [&path] { return complaint<ScenarioError>([&] { read(path); }); };
   with_offset(H5T_NATIVE_DOUBLE, 0.25);
   EXPECT_THAT(refused(), HasSubstr("t_offset must be one whole number"));
-  with_offset(H5T_NATIVE_INT64, std::numeric_limits<std::int64_t>::max());
+  with_offset(H5T_NATIVE_DOUBLE, std::nan(""));
   EXPECT_THAT(refused(), HasSubstr("t_offset must be one whole number"));
+  const std::string range = ", but must be from -1152921504606846976 to 1152921504606846976 us";
+  with_offset(H5T_NATIVE_INT64, std::int64_t{1700000000000000000});
+  EXPECT_EQ(refused(),
+            path + ": t_offset is 1700000000000000000" + range + ": are these nanoseconds?");
   with_offset(H5T_NATIVE_INT64, std::numeric_limits<std::int64_t>::min());
-  EXPECT_THAT(refused(), HasSubstr("t_offset must be one whole number"));
+  EXPECT_THAT(refused(), HasSubstr("t_offset is -9223372036854775808" + range));
+  with_offset(H5T_NATIVE_UINT64, std::numeric_limits<std::uint64_t>::max());
+  EXPECT_THAT(refused(), HasSubstr("t_offset is 18446744073709551615" + range));
 }
 
 TEST_F(Reading, RefusesHdf5WhoseNumbersAreNotWhole) {
