@@ -15,7 +15,9 @@ namespace {
 
 constexpr std::size_t kLongestHeader = 64 * 1024;  // NumPy refuses more than 10,000 bytes
 
-std::string bytes_text(std::uint64_t bytes) { return std::to_string(bytes) + " bytes"; }
+std::string bytes_text(std::uint64_t bytes) {
+  return std::to_string(bytes) + (bytes == 1 ? " byte" : " bytes");
+}
 
 }  // namespace
 

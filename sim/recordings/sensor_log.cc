@@ -1,5 +1,6 @@
 #include "sim/recordings/sensor_log.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <initializer_list>
@@ -7,6 +8,7 @@
 #include <optional>
 
 #include "sim/base/error.h"
+#include "sim/base/joined.h"
 #include "sim/base/numbers.h"
 #include "sim/recordings/raw_event.h"
 #include "sim/recordings/text_columns.h"
@@ -70,8 +72,13 @@ class VectorColumns {
 
 // Of columns that may be missing as a group.
 std::optional<VectorColumns> if_any(const TextColumns& file, std::array<const char*, 3> names) {
-  if (!file.has(names[0]) && !file.has(names[1]) && !file.has(names[2])) return std::nullopt;
-  return VectorColumns(file, names);
+  const auto has = [&file](const char* name) { return file.has(name); };
+  const auto given = std::ranges::find_if(names, has);
+  if (given == names.end()) return std::nullopt;
+  const auto missing = std::ranges::find_if_not(names, has);
+  if (missing == names.end()) return VectorColumns(file, names);
+  throw ScenarioError(file.path() + " has a column " + *given + ", but no column " + *missing +
+                      ": " + joined(names, {}, " and ") + " must be there all or not at all.");
 }
 
 Eigen::Vector3d read(const std::optional<VectorColumns>& columns) {

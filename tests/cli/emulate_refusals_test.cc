@@ -72,7 +72,7 @@ TEST_F(EmulateRefusalsTest, RefusesBadVideosWithOneSentence) {
   put(root_ / "f.npy", good.substr(0, good.size() - 1));
   expect_refused(ideal(), 2, "f.npy is truncated: ");
   put(root_ / "f.npy", good + "x");
-  expect_refused(ideal(), 2, "f.npy holds 1 bytes too many: ");
+  expect_refused(ideal(), 2, "f.npy holds 1 byte too many: ");
   Film film = film_;
   film.times.back() = film.times.front();
   write(film);

@@ -147,7 +147,7 @@ TEST_F(FrameReaderTest, RefusesOtherShapes) {
 TEST_F(FrameReaderTest, RefusesFilesOfAnotherSize) {
   expect_bad_frames(good_frames_.substr(0, good_frames_.size() - 1),
                     "is truncated: its array of shape (2, 1, 2) needs 16 bytes, but 15 bytes");
-  expect_bad_frames(good_frames_ + "\n", "holds 1 bytes too many");
+  expect_bad_frames(good_frames_ + "\n", "holds 1 byte too many");
   expect_bad_frames(npy(1, header("<f4", "(9223372036854775807, 9, 9)"), "abc"),
                     "is truncated: its array of shape (9223372036854775807, 9, 9) needs more");
   expect_bad_times(good_times_ + "more", "holds 4 bytes too many");

@@ -131,7 +131,10 @@ TEST_F(SensorLog, RefusesWhatCannotBeWithItsLine) {
               HasSubstr("log.csv:2: wy is \"fast\", but must be a number."));
   EXPECT_THAT(refusal("t_us,wx,wy,wz\n7,0,0,1e300\n"), HasSubstr("wz is \"1e300\", but must be"));
   EXPECT_THAT(refusal("t_us,wx,wy\n7,0,0\n"), HasSubstr("there is no column wz"));
-  EXPECT_THAT(refusal("t_us,wx,wy,wz,ax\n7,0,0,0,0\n"), HasSubstr("no column ay"));
+  EXPECT_THAT(
+      refusal("t_us,wx,wy,wz,az\n7,0,0,0,0\n"),
+      HasSubstr("log.csv has a column az, but no column ax: ax, ay and az must be there all "
+                "or not at all."));
   EXPECT_THAT(complaint<ScenarioError>([&] {
                 read_state_log(file("t_us,x,y,z,qw,qx,qy,qz,vx,vy,vz\n1,0,0,0,1,1,0,0,0,0,0\n"));
               }),
