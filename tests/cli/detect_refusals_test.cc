@@ -79,5 +79,41 @@ TEST_F(DetectRefusalsTest, NamesTheFileOfEvents) {
   EXPECT_FALSE(fs::exists(path("found")));
 }
 
+TEST_F(DetectRefusalsTest, SaysWhatALogLacks) {
+  const std::string names = "t_us,x,y,z,qw,qx,qy,qz,vx,vy,vz\n", rest = ",0,0,1,1,0,0,0,0,0,0\n";
+  write("late.csv", names + "300000" + rest + "500000" + rest);
+  EXPECT_THAT(detect("e.csv", "--state " + path("late.csv")).output,
+              HasSubstr("State: before its first reading, 0.300 s after the first event, nothing "
+                        "can be measured\nState: 2 readings, covers 0.195 of 0.495 s"));
+  write("one.csv", names + "0" + rest);
+  EXPECT_THAT(detect("e.csv", "--state " + path("one.csv")).output,
+              AllOf(HasSubstr("State: 1 reading\n"), Not(HasSubstr("nothing can be measured")),
+                    Not(HasSubstr("of one clock?"))));
+}
+
+TEST_F(DetectRefusalsTest, SaysThatThePilotLandsAndThatRangesAreOfNoUse) {
+  std::string state = "t_us,x,y,z,qw,qx,qy,qz,vx,vy,vz\n", range = "t_us,range_m\n", mm = range;
+  for (int ms = 0; ms < 500; ms += 5) {
+    const std::string stamp = std::to_string(1000 * ms) + ",";
+    state += stamp + "0,0," + (ms < 250 ? "1.0" : "1.5") + ",1,0,0,0,0,0,0\n";
+    range += stamp + "1.0\n";
+    mm += stamp + "1000\n";
+  }
+  write("state.csv", state);
+  write("range.csv", range);
+  write("mm.csv", mm);
+  const std::string options =
+      "--set dodger.height_monitor.persist_us=100000 --state " + path("state.csv") + " --range ";
+  const std::string lands = detect("e.csv", options + path("range.csv")).output;
+  EXPECT_THAT(lands, ::testing::ContainsRegex(
+                         "The pilot lands in [0-9]+ cycles, from 0\\.3[0-9]+ s on: its height "
+                         "estimate and the range readings disagree\n"));
+  EXPECT_THAT(lands, Not(HasSubstr("are they in metres?")));
+  EXPECT_THAT(detect("e.csv", options + path("mm.csv")).output,
+              AllOf(HasSubstr("Range: none of 100 readings lies within 0.5 to 60 m: are they in "
+                              "metres?\n"),
+                    Not(HasSubstr("lands"))));
+}
+
 }  // namespace
 }  // namespace dodgesim::testing

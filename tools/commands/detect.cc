@@ -53,11 +53,12 @@ CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {mode
   be of one size); in a chain by T_cam_imu or T_cn_cnm1. Calibrations stand behind the events.
 IMU.csv: t_us, wx, wy, wz [rad/s]. STATE.csv: t_us, x, y, z, qw, qx, qy, qz (body to world), vx, vy,
   vz [m, m/s]. RANGE.csv: t_us, range_m. A line with these names first; other columns are passed
-  over, as are empty lines and those that begin with #. All t_us are of the clock of the events, and
-  not negative.
+  over, as are empty lines and those that begin with #. No line may have more cells than there are
+  names. All t_us are of the clock of the events; those of logs may be negative.
 Without IMU.csv the camera turns as STATE.csv says or, without that, not at all. Without STATE.csv
-the vehicle turns as its IMU says and stays in its place. With one camera, depth comes from a known
-size (dodger.position.known_size_m).
+the vehicle turns as its IMU says, from its first reading on, and stays in its place. Before the
+first state nothing can be measured. With one camera, depth comes from a known size
+(dodger.position.known_size_m).
 
 It says how much sharper the rates make the events while the camera turns, and with which other
 axes or clock they would fit better; and of two cameras, if their events seem to be swapped.
@@ -161,15 +162,15 @@ void warn_of_degrees(const std::vector<ImuReading>& imu) {
 RecordedSensors load_sensors(const DetectArguments& arguments,
                              const std::vector<CameraCalibration>& calibrations) {
   RecordedSensors sensors;
-  for (std::size_t i = 0; i < arguments.events.size(); ++i) {
   sensors.files = arguments.events;
+  for (std::size_t i = 0; i < arguments.events.size(); ++i) {
     const dodge::CameraModel& camera = calibrations[i].camera;
     sensors.cameras.push_back(open_events(arguments.events[i], {camera.width, camera.height}));
-    if (calibrations[i].focal_length_assumed) {
     if (sensors.cameras.back()->in_seconds()) {
       std::printf("%s: its times have fractions, and are taken for seconds.\n",
                   arguments.events[i].c_str());
     }
+    if (calibrations[i].focal_length_assumed) {
       std::printf("%s has no intrinsics: 80 degrees over %d columns are assumed.\n",
                   arguments.calibrations[i].c_str(), camera.width);
     }
@@ -285,18 +286,6 @@ std::optional<StageVideo> make_video(const DetectArguments& arguments, const Sce
   return StageVideo(arguments, scenario.delays.period_us());
 }
 
-void detect(const DetectArguments& arguments) {
-  watch_stop_signals();
-  expect_no_campaign(arguments.out);
-  const Scenario scenario =
-      detect_scenario(arguments.scenario, parse_settings("--set", arguments.set), arguments.plugin);
-  const std::vector<CameraCalibration> calibrations =
-      load_calibrations(arguments, scenario.dodger.position.stereo_depth());
-  const dodge::Config config = pilot_config(scenario, calibrations, arguments.calibrations);
-  RecordedSensors sensors = load_sensors(arguments, calibrations);
-  std::vector<Coverage> logs;
-  if (!arguments.imu.empty()) logs.emplace_back("IMU", sensors.imu);
-  logs.emplace_back("State", sensors.states);
 void expect_inputs_stay(const DetectArguments& arguments) {
   std::vector<std::string> inputs = {arguments.imu, arguments.state, arguments.range,
                                      arguments.scenario};
@@ -312,10 +301,23 @@ void expect_inputs_stay(const DetectArguments& arguments) {
   }
 }
 
+void detect(const DetectArguments& arguments) {
+  watch_stop_signals();
+  expect_no_campaign(arguments.out);
+  expect_inputs_stay(arguments);
+  const Scenario scenario =
+      detect_scenario(arguments.scenario, parse_settings("--set", arguments.set), arguments.plugin);
+  const std::vector<CameraCalibration> calibrations =
+      load_calibrations(arguments, scenario.dodger.position.stereo_depth());
+  const dodge::Config config = pilot_config(scenario, calibrations, arguments.calibrations);
+  RecordedSensors sensors = load_sensors(arguments, calibrations);
+  std::vector<Coverage> logs;
+  if (!arguments.imu.empty()) logs.emplace_back("IMU", sensors.imu);
+  logs.emplace_back("State", sensors.states, "nothing can be measured");
   logs.emplace_back("Range", sensors.ranges);
+  report_ranges(sensors.ranges, config.range_sensor);
   std::vector<CheckedRates> rates = rates_to_check(arguments, calibrations.front(), sensors);
   Playback playback(scenario.delays, make_pilot(scenario, config), std::move(sensors));
-  expect_inputs_stay(arguments);
   auto* dodger = dynamic_cast<dodge::Dodger*>(&playback.pilot());
   std::optional<StageVideo> video = make_video(arguments, scenario, dodger);
   DetectionFiles files(arguments.out);
@@ -335,7 +337,7 @@ void expect_inputs_stay(const DetectArguments& arguments) {
   progress.finish();
   sums.report(playback, static_cast<int>(arguments.events.size()), scenario.delays.period_us());
   for (const Coverage& log : logs) {
-    log.report(playback.first_event_us(), playback.last_event_us());
+    log.report(playback.first_event_us(), playback.last_event_us(), scenario.delays.period_us());
   }
   for (const CheckedRates& checked : rates) checked.report();
   report_order(order);

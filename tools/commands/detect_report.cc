@@ -64,8 +64,16 @@ void PlaybackProgress::show(const Playback& playback) {
   if (played_kb >= 1) progress_.show(static_cast<std::int64_t>(played_kb));
 }
 
-void Coverage::report(TimeUs begin_us, TimeUs end_us) const {
+void Coverage::report(TimeUs begin_us, TimeUs end_us, TimeUs period_us) const {
   if (stamps_us_.empty()) return;
+  if (*lacking_ != 0 && stamps_us_.front() > begin_us + period_us) {
+    std::printf("%s: before its first reading, %.3f s after the first event, %s\n", name_,
+                seconds(stamps_us_.front() - begin_us), lacking_);
+  }
+  if (stamps_us_.size() == 1) {  // of whatever time
+    std::printf("%s: 1 reading\n", name_);
+    return;
+  }
   const TimeUs covered_us =
       std::min(end_us, stamps_us_.back()) - std::max(begin_us, stamps_us_.front());
   TimeUs longest_gap_us = 0;
@@ -116,6 +124,17 @@ bool report_degrees(const char* log, const RateCheck::Fit& fit) {
   return true;
 }
 
+void report_ranges(const std::vector<RangeReading>& ranges,
+                   const dodge::RangeSensorConfig& config) {
+  const auto usable = [&config](const RangeReading& reading) {
+    return reading.range_m >= config.min_range_m && reading.range_m <= config.max_range_m;
+  };
+  if (ranges.empty() || std::ranges::any_of(ranges, usable)) return;
+  std::printf("Range: none of %s lies within %g to %g m: are they in metres?\n",
+              count_text(std::ssize(ranges), "reading").c_str(), config.min_range_m,
+              config.max_range_m);
+}
+
 void report_order(const CameraOrder& order) {
   if (!order.surely_swapped()) return;
   std::printf(
@@ -132,6 +151,9 @@ void Sums::add(int clusters, const Playback& playback) {
   with_detections_ += found > 0 ? 1 : 0;
   detections_ += found;
   evading_ += playback.command().evading ? 1 : 0;
+  if (playback.command().landing && landing_++ == 0) {
+    landing_since_us_ = playback.now_us() - playback.first_event_us();
+  }
   if (const auto* dodger = dynamic_cast<const dodge::Dodger*>(&playback.pilot())) {
     const dodge::StageTimes& times = dodger->stage_times();
     stages_us_ += times.ego_motion_us + times.threshold_us + times.morphology_us +
@@ -146,7 +168,13 @@ void Sums::report(const Playback& playback, int cameras, TimeUs period_us) const
               seconds(playback.last_event_us() - playback.first_event_us()),
               count_text(cycles_, "cycle").c_str(), with_clusters_, with_detections_,
               count_text(detections_, "detection").c_str(), evading_);
-  if (dynamic_cast<const dodge::Dodger*>(&playback.pilot()) == nullptr) return;
+  const bool ours = dynamic_cast<const dodge::Dodger*>(&playback.pilot()) != nullptr;
+  if (landing_ > 0) {
+    std::printf("The pilot lands in %s, from %.3f s on%s\n", count_text(landing_, "cycle").c_str(),
+                seconds(landing_since_us_),
+                ours ? ": its height estimate and the range readings disagree" : "");
+  }
+  if (!ours) return;
   std::printf("The pilot's stages take %.3f ms a cycle here; a cycle comes every %g ms\n",
               1e-3 * stages_us_ / static_cast<double>(cycles_),
               1e-3 * static_cast<double>(period_us));

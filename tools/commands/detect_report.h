@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dodge/monitor/range_height.h"
 #include "sim/base/progress.h"
 #include "sim/playback/camera_order.h"
 #include "sim/playback/playback.h"
@@ -28,21 +29,28 @@ class PlaybackProgress {
 // Says how much of the recording's time a log covers.
 class Coverage {
  public:
+  // `lacking`: what holds before its first reading, if something does.
   template <class Reading>
-  Coverage(const char* name, const std::vector<Reading>& log) : name_(name) {
+  Coverage(const char* name, const std::vector<Reading>& log, const char* lacking = "")
+      : name_(name), lacking_(lacking) {
     for (const Reading& reading : log) stamps_us_.push_back(reading.t_us);
   }
 
-  void report(TimeUs begin_us, TimeUs end_us) const;
+  // Of a recording with events from begin_us to end_us.
+  void report(TimeUs begin_us, TimeUs end_us, TimeUs period_us) const;
 
  private:
   const char* name_;
+  const char* lacking_;
   std::vector<TimeUs> stamps_us_;
 };
 
 // Says whether a log's rates fit the events, and with which other axes or clock they would. `axes`:
 // whose axes these are, as in "with AXES forward right down".
 void report_rates(const char* log, const char* axes, const RateCheck::Fit& fit);
+
+// Says so if there are readings, but the pilot uses none.
+void report_ranges(const std::vector<RangeReading>& ranges, const dodge::RangeSensorConfig& config);
 
 // Says so if the events of the first camera seem to be those of the lower one.
 void report_order(const CameraOrder& order);
@@ -60,7 +68,9 @@ class Sums {
 
  private:
   long long cycles_ = 0, with_clusters_ = 0, with_detections_ = 0, detections_ = 0, evading_ = 0;
-  double stages_us_ = 0;  // wall clock
+  long long landing_ = 0;
+  TimeUs landing_since_us_ = 0;  // since the first event
+  double stages_us_ = 0;         // wall clock
 };
 
 }  // namespace dodgesim
