@@ -14,8 +14,8 @@ struct OracleSpec {
     v("range_cap_m", range_cap_m, 0, 100,
       "Objects farther than this from the reference camera are not seen; 0 for no cap. Without one "
       "the oracle is no upper bound in a room: far objects, or several, drive it into the walls. "
-      "It avoids nothing beyond dodger.repulsive.eta_0_m (3 m from the vehicle, unless "
-      "dodger.escape.law is closest_approach): see farther with a larger one.");
+      "With dodger.escape.law potential_field it avoids nothing farther than "
+      "dodger.repulsive.eta_0_m from the vehicle, whatever it sees.");
     v("field_of_view", field_of_view,
       "See an object only while its centre is inside the image of the reference camera.");
   }

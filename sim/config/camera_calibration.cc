@@ -170,14 +170,21 @@ void expect_no_misspelling(const YamlNode& root, Problems& problems) {
   const std::vector<std::string> names = {"width",  "height", "intrinsics", "distortion",
                                           "p_BC_m", "R_BC",   "imu_axes",   "p_BR_m"};
   const bool of_ros = key_of_ros(root) != nullptr;
+  const std::vector<std::string> ros = {"camera_matrix", "distortion_model",
+                                        "distortion_coefficients"};
   const bool of_ours = root.find("width") != nullptr || root.find("height") != nullptr;
   const std::vector<std::string> kalibr = {"camera_model",      "resolution", "distortion_model",
                                            "distortion_coeffs", "T_cam_imu",  "T_imu_cam",
                                            "timeshift_cam_imu"};
   for (const YamlNode::Key& key : root.keys) {
     if (contains(names, key.name)) continue;
-    const std::string place = of_ours && !of_ros ? place_in_lens(key.name) : "";
-    if (!place.empty()) {
+    const std::string place = place_in_lens(key.name);
+    if (!place.empty() && of_ros && !contains(ros, key.name)) {
+      problems.add(key.at, key.name + " has no effect here: beside image_width the lens is " +
+                               "camera_matrix and distortion_coefficients, each with data: [...].");
+      continue;
+    }
+    if (!place.empty() && of_ours && !of_ros) {
       problems.add(
           key.at,
           key.name + " has no effect here: beside width and height it belongs in " + place + ".");

@@ -41,13 +41,20 @@ bool flies_field(const Scenario& s) {
   return s.pilot == kPluginPilot || s.dodger.escape.law == "potential_field";
 }
 
-// The field ends at eta_0_m from the vehicle's surface. Beyond it by more than half of the largest
-// object and the camera's distance from the vehicle's centre no cap changes anything.
+bool flies_oracle(const Scenario& s) { return s.fly_oracle || s.pilot == kOraclePilot; }
+
+// The field ends at eta_0_m from the vehicle's surface. No cap changes anything beyond it by half
+// of the largest object, the camera's distance from the vehicle's centre and what an object flies
+// until the oracle knows of it.
 bool caps_within_field(const Scenario& s) {
-  constexpr double kMostBeyondM = 1;
+  constexpr double kMostBeyondM = 1, kFastestMps = 50;
   const dodge::RepulsiveConfig& field = s.dodger.repulsive;
-  const double reach_m = field.eta_0_m + field.quadrotor_radius_m + kMostBeyondM;
-  return s.dodger.escape.law != "potential_field" || s.oracle.range_cap_m < reach_m;
+  const TimeUs age_us = s.sensors.events.latency_us + s.delays.packet_us + s.delays.period_us() +
+                        s.delays.transport_us;
+  const double reach_m =
+      field.eta_0_m + field.quadrotor_radius_m + kMostBeyondM + kFastestMps * seconds(age_us);
+  return !flies_oracle(s) || s.dodger.escape.law != "potential_field" ||
+         s.oracle.range_cap_m < reach_m;
 }
 
 constexpr const char* kNoField = "dodger.escape.law is closest_approach";
@@ -63,10 +70,7 @@ const IdleRule kRules[] = {
      {},
      [](const Scenario& s) { return s.pilot == kPluginPilot; },
      "the pilot is not plugin"},
-    {"oracle",
-     {},
-     [](const Scenario& s) { return s.fly_oracle || s.pilot == kOraclePilot; },
-     "the pilot oracle does not fly"},
+    {"oracle", {}, flies_oracle, "the pilot oracle does not fly"},
     {"oracle.range_cap_m", {}, caps_within_field, "dodger.repulsive.eta_0_m ends the field nearer"},
     {"dodger.escape",
      {"dodger.escape.law"},

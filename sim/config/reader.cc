@@ -20,20 +20,13 @@ using Kind = YamlNode::Kind;
 
 constexpr std::size_t kLongestQuote = 60;  // of the user's text in a message
 
-// Quoted, but for the quotation mark at the end.
-std::string opened(const std::string& text) {
-  std::string quoted = in_quotes(text);
-  quoted.pop_back();
-  return quoted;
-}
-
 std::string quote(const std::string& text) {
   const std::string strange = beyond_ascii(text);
-  const std::string behind = strange.empty() ? "\"" : "\" (with the character " + strange + ")";
-  if (text.size() <= kLongestQuote) return opened(text) + behind;
+  const std::string behind = strange.empty() ? "" : " (with the character " + strange + ")";
+  if (text.size() <= kLongestQuote) return in_quotes(text) + behind;
   std::size_t end = kLongestQuote;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0u) == 0x80) --end;  // whole UTF-8
-  return opened(text.substr(0, end)) + "..." + behind;
+  return in_quotes(text.substr(0, end) + "...") + behind;
 }
 
 // "{mean: 3, sd: 1}", if it is short.
@@ -365,7 +358,8 @@ bool Reader::read_model(const YamlNode& node, const std::string& name, const cha
       const std::string near = closest_name(node.text, models);
       return refuse(node, name,
                     "there is no model file " + file.string() +
-                        (models.empty() ? " (nor any other: --models, DODGESIM_MODELS)"
+                        (models.empty() ? ", and no other in that folder: --models or "
+                                          "DODGESIM_MODELS names the one of models"
                          : near.empty() ? " (there are " + joined(models) + ")"
                                         : " (did you mean " + near + "?)"));
     }

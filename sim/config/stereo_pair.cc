@@ -48,9 +48,10 @@ Eigen::Matrix3d common_axes(const dodge::CameraModel& upper, const dodge::Camera
       "Stereo needs the second camera below the first, along the columns of both images, but their "
       "calibrations ";
   if (!(baseline_B.norm() > 0)) {
-    throw ScenarioError(need + "give both the same place (p_BC_m, or of a chain T_cam_imu).");
+    throw ScenarioError(need +
+                        "give both the same place (p_BC_m; of a chain T_cam_imu or T_cn_cnm1).");
   }
-  const bool above = std::min(angle_between(-baseline_B, U.col(1)),
+  const bool above = std::max(angle_between(-baseline_B, U.col(1)),
                               angle_between(-baseline_B, L.col(1))) <= kMostAside;
   if (above) throw ScenarioError(need + "put it above the first: give the upper camera first.");
   if (aside > kMostAside) {

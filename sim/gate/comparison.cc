@@ -180,7 +180,7 @@ std::string comparison_text(const Comparison& comparison, const std::string& fir
   return text + left_out(c.only_first, "only " + first + " has them") +
          left_out(c.only_second, "only " + second + " has them") +
          left_out(c.counts_differ,
-                  "in one of the two only they would have hit, or may have (their flight failed)");
+                  "in one of the two they would have missed, or nobody could fly them");
 }
 
 std::string list_of(const std::vector<std::string>& items) {

@@ -61,8 +61,7 @@ GateCheck throws_are_the_same(const Comparison& comparison, bool same_machine) {
   };
   add("of the baseline only", comparison.only_first);
   add("of this campaign only", comparison.only_second);
-  add("that would have hit, or may have (their flight failed), in the baseline or now, but not "
-      "both",
+  add("that would have missed, or that nobody could fly, in one of the two only",
       comparison.counts_differ);
   if (reason.empty()) return {name, Result::kPassed, ""};
   const bool all_there = comparison.only_first.empty() && comparison.only_second.empty();

@@ -110,7 +110,7 @@ class Hdf5Reader : public EventReader {
         H5Dread(dataset, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value) >= 0;
     H5Sclose(space);
     H5Dclose(dataset);
-    if (!read || exact != std::floor(exact)) {
+    if (!read || !std::isfinite(exact) || exact != std::floor(exact)) {
       throw ScenarioError(path_ + ": " + name + " must be one whole number.");
     }
     if (std::abs(exact) <= static_cast<long double>(kLastUs)) return value;

@@ -46,6 +46,14 @@ TEST_F(DetectRefusalsTest, DoesNotOverwriteItsInputs) {
     EXPECT_THAT(detect("e.csv", option + path("found/cycles.csv")).output,
                 HasSubstr("would overwrite the input"));
   }
+  EXPECT_THAT(detect("e.csv", "--video " + path("c.yaml")).output,
+              HasSubstr("would overwrite the input"));
+  for (const char* camera : {"", ":cam1"}) {
+    EXPECT_THAT(dodgesim("detect " + path("e.csv") + " --calibration " + path("found/cycles.csv") +
+                         camera + " --out " + path("found"))
+                    .output,
+                HasSubstr("would overwrite the input"));
+  }
   EXPECT_EQ(contents("found/cycles.csv"), "t_us,wx,wy,wz\n0,0,0,0\n");
 }
 
@@ -110,7 +118,7 @@ TEST_F(DetectRefusalsTest, SaysThatThePilotLandsAndThatRangesAreOfNoUse) {
                          "estimate and the range readings disagree\n"));
   EXPECT_THAT(lands, Not(HasSubstr("are they in metres?")));
   EXPECT_THAT(detect("e.csv", options + path("mm.csv")).output,
-              AllOf(HasSubstr("Range: none of 100 readings lies within 0.5 to 60 m: are they in "
+              AllOf(HasSubstr("Range: no reading (of 100) lies within 0.5 to 60 m: are they in "
                               "metres?\n"),
                     Not(HasSubstr("lands"))));
 }

@@ -291,7 +291,8 @@ void expect_inputs_stay(const DetectArguments& arguments) {
                                      arguments.scenario};
   inputs.insert(inputs.end(), arguments.events.begin(), arguments.events.end());
   for (const std::string& file : arguments.calibrations) {
-    inputs.push_back(file.substr(0, file.rfind(":cam")));
+    inputs.push_back(file);
+    inputs.push_back(file.substr(0, file.rfind(':')));  // without the name of a camera
   }
   for (const char* name : DetectionFiles::kNames) {
     refuse_to_overwrite(inputs, arguments.out + "/" + name, "--out " + arguments.out);
@@ -315,7 +316,7 @@ void detect(const DetectArguments& arguments) {
   if (!arguments.imu.empty()) logs.emplace_back("IMU", sensors.imu);
   logs.emplace_back("State", sensors.states, "nothing can be measured");
   logs.emplace_back("Range", sensors.ranges);
-  report_ranges(sensors.ranges, config.range_sensor);
+  if (!arguments.range.empty()) report_ranges(sensors.ranges, config.range_sensor);
   std::vector<CheckedRates> rates = rates_to_check(arguments, calibrations.front(), sensors);
   Playback playback(scenario.delays, make_pilot(scenario, config), std::move(sensors));
   auto* dodger = dynamic_cast<dodge::Dodger*>(&playback.pilot());

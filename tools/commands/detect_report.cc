@@ -70,7 +70,7 @@ void Coverage::report(TimeUs begin_us, TimeUs end_us, TimeUs period_us) const {
     std::printf("%s: before its first reading, %.3f s after the first event, %s\n", name_,
                 seconds(stamps_us_.front() - begin_us), lacking_);
   }
-  if (stamps_us_.size() == 1) {  // of whatever time
+  if (stamps_us_.size() == 1 && *lacking_ != 0) {  // the state of a camera at rest
     std::printf("%s: 1 reading\n", name_);
     return;
   }
@@ -84,9 +84,10 @@ void Coverage::report(TimeUs begin_us, TimeUs end_us, TimeUs period_us) const {
     }
   }
   const bool little = 10 * covered_us < end_us - begin_us;
-  std::printf("%s: %zu readings, covers %.3f of %.3f s, longest gap %.1f ms%s\n", name_,
-              stamps_us_.size(), seconds(std::max<TimeUs>(covered_us, 0)),
-              seconds(end_us - begin_us), 1e-3 * static_cast<double>(longest_gap_us),
+  std::printf("%s: %s, covers %.3f of %.3f s, longest gap %.1f ms%s\n", name_,
+              count_text(std::ssize(stamps_us_), "reading").c_str(),
+              seconds(std::max<TimeUs>(covered_us, 0)), seconds(end_us - begin_us),
+              1e-3 * static_cast<double>(longest_gap_us),
               little ? ": are all times in microseconds, of one clock?" : "");
 }
 
@@ -129,10 +130,9 @@ void report_ranges(const std::vector<RangeReading>& ranges,
   const auto usable = [&config](const RangeReading& reading) {
     return reading.range_m >= config.min_range_m && reading.range_m <= config.max_range_m;
   };
-  if (ranges.empty() || std::ranges::any_of(ranges, usable)) return;
-  std::printf("Range: none of %s lies within %g to %g m: are they in metres?\n",
-              count_text(std::ssize(ranges), "reading").c_str(), config.min_range_m,
-              config.max_range_m);
+  if (std::ranges::any_of(ranges, usable)) return;
+  std::printf("Range: no reading (of %zd) lies within %g to %g m: are they in metres?\n",
+              std::ssize(ranges), config.min_range_m, config.max_range_m);
 }
 
 void report_order(const CameraOrder& order) {

@@ -49,7 +49,7 @@ class Coverage {
 // whose axes these are, as in "with AXES forward right down".
 void report_rates(const char* log, const char* axes, const RateCheck::Fit& fit);
 
-// Says so if there are readings, but the pilot uses none.
+// Of a log that was given: says so if it has no reading that the pilot uses.
 void report_ranges(const std::vector<RangeReading>& ranges, const dodge::RangeSensorConfig& config);
 
 // Says so if the events of the first camera seem to be those of the lower one.

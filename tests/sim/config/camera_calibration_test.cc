@@ -110,6 +110,13 @@ TEST_F(Calibration, SaysWhereKeysOfOtherFormsBelong) {
                   " has no effect here: beside width and height it belongs in intrinsics: {fx: "
                   "..., fy: ..., cx: ..., cy: ...}.");
   }
+  const std::string of_ros =
+      "image_width: 320\nimage_height: 240\n"
+      "camera_matrix: {data: [100, 0, 160, 0, 100, 120, 0, 0, 1]}\n";
+  for (const char* key : {"K", "D", "dist_coeffs", "Distortion_Coefficients"}) {
+    EXPECT_THAT(refusal(of_ros + key + ": 1\n"),
+                HasSubstr(std::string(":4:1: ") + key + " has no effect here: beside image_width"));
+  }
   for (const char* key : {"distortion_coefficients", "distortion_coeffs", "dist_coeffs", "D", "k1",
                           "p2", "distortion_model"}) {
     EXPECT_EQ(refusal(size + key + ": 1\n"),

@@ -21,7 +21,11 @@ TEST(IdleKeys, AreNamedWithTheirPlaceAndTheReason) {
   EXPECT_THAT(notes_on("oracle: {range_cap_m: 8}\n"),
               ElementsAre("s.yaml:1:23: oracle.range_cap_m has no effect: dodger.repulsive.eta_0_m "
                           "ends the field nearer."));
+  EXPECT_THAT(notes_on("fly_oracle: false\noracle: {range_cap_m: 8}\n"), SizeIs(1));
   EXPECT_THAT(notes_on("oracle: {range_cap_m: 3}\n"), IsEmpty());
+  EXPECT_THAT(notes_on("oracle: {range_cap_m: 8}\nsensors: {events: {latency_us: 100000}}\n"),
+              IsEmpty())
+      << "a fast object is within the field when the oracle learns of it";
   EXPECT_THAT(notes_on("oracle: {range_cap_m: 8}\ndodger: {repulsive: {eta_0_m: 8}}\n"), IsEmpty());
   EXPECT_THAT(notes_on("oracle: {range_cap_m: 8}\npilot: dodgesim\n"), IsEmpty());
   EXPECT_THAT(notes_on("plugin_parameters: fast\n"),

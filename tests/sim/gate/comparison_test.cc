@@ -76,8 +76,8 @@ TEST(Comparison, LeavesOutWhatWouldHaveHitInOneCampaignOnly) {
   EXPECT_THAT(
       comparison_text(c, "a", "b"),
       HasSubstr(
-          "Left out, because in one of the two only they would have hit, or may have (their flight "
-          "failed): throws 1, 2"));
+          "Left out, because in one of the two they would have missed, or nobody could fly them: "
+          "throws 1, 2"));
 }
 
 TEST(Comparison, LeavesOutWhatNobodyCouldFlyInOneCampaign) {
@@ -88,6 +88,7 @@ TEST(Comparison, LeavesOutWhatNobodyCouldFlyInOneCampaign) {
   EXPECT_TRUE(c.paired);
   EXPECT_EQ(c.counts.total(), 2);
   EXPECT_THAT(c.counts_differ, ElementsAre(1));
+  EXPECT_THAT(comparison_text(c, "a", "b"), HasSubstr("or nobody could fly them: throws 1\n"));
 }
 
 TEST(Comparison, TakesTheCommonPartOfCampaignsOfDifferentLength) {
@@ -187,7 +188,7 @@ TEST(Comparison, StatesNoRateWhereNoThrowCounts) {
     EXPECT_THAT(text, Not(HasSubstr("p =")));
   }
   EXPECT_THAT(comparison_text(compared("mh", "hm"), "before", "after"),
-              HasSubstr("would have hit in both\nLeft out, because in one of the two only"));
+              HasSubstr("would have hit in both\nLeft out, because in one of the two they"));
 }
 
 }  // namespace
