@@ -97,9 +97,9 @@ TEST(StereoPair, LiesOneBelowTheOther) {
   };
   EXPECT_THAT(refusal({0, -0.15, 0.1}), HasSubstr("degrees aside."));
   EXPECT_THAT(refusal({0, 0, 0.25}), HasSubstr("above the first: give the upper camera first."));
-  EXPECT_THAT(refusal({0, 0, 0.1}), HasSubstr("give both the same place (p_BC_m, "));
+  EXPECT_THAT(refusal({0, 0, 0.1}), HasSubstr("give both the same place (p_BC_m; "));
   EXPECT_THAT(complaint<ScenarioError>([&] { rectified(upper, upper); }),
-              HasSubstr("give both the same place (p_BC_m, "));
+              HasSubstr("give both the same place (p_BC_m; "));
   EXPECT_EQ(refusal({0, -0.05, 0}), "");
 }
 
