@@ -46,7 +46,8 @@ TEST_F(DetectRefusalsTest, DoesNotOverwriteItsInputs) {
     EXPECT_THAT(detect("e.csv", option + path("found/cycles.csv")).output,
                 HasSubstr("would overwrite the input"));
   }
-  EXPECT_THAT(detect("e.csv", "--video " + path("c.yaml")).output,
+  write("r.mp4", "t_us,range_m\n");
+  EXPECT_THAT(detect("e.csv", "--range " + path("r.mp4") + " --video " + path("r.mp4")).output,
               HasSubstr("would overwrite the input"));
   for (const char* camera : {"", ":cam1"}) {
     EXPECT_THAT(dodgesim("detect " + path("e.csv") + " --calibration " + path("found/cycles.csv") +

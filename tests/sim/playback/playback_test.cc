@@ -326,22 +326,13 @@ TEST(Playback, RefusesRecordingsThatCannotBePlayed) {
                                              std::to_string(jump[99].t_us) +
                                              " us: gaps of more than ten minutes are not played.");
   // Each is stamped earlier than the one before it.
-  const auto backwards = [](TimeUs step_us) {
-    std::vector<Event> events = random_events(0, 600, 8);
-    for (std::size_t i = 0; i < events.size(); ++i) {
-      events[i].t_us = step_us * static_cast<TimeUs>(events.size() - i);
-    }
-    return sensors_of({events});
-  };
-  const std::string out_of_order = "Camera 0 must be in order of time, but of its 600 events ";
-  EXPECT_EQ(refusal(backwards(20000)),
-            out_of_order +
-                "599 are stamped far ahead of those behind them, and 0 stand more than "
-                "10 ms too late.");
-  EXPECT_EQ(refusal(backwards(100)),
-            out_of_order +
-                "0 are stamped far ahead of those behind them, and 499 stand more than "
-                "10 ms too late.");
+  std::vector<Event> backwards = random_events(0, 600, 8);
+  for (std::size_t i = 0; i < backwards.size(); ++i) {
+    backwards[i].t_us = 20000 * static_cast<TimeUs>(backwards.size() - i);
+  }
+  EXPECT_EQ(refusal(sensors_of({backwards})),
+            "Camera 0 must be in order of time, but 599 of its 600 events are stamped far ahead of "
+            "those behind them.");
   RecordedSensors instant;
   instant.cameras.push_back(std::make_unique<OneInstant>());
   EXPECT_THAT(refusal(std::move(instant)),
