@@ -63,7 +63,7 @@ TEST_F(PluginTest, ThatFailsCostsTheFlightAndCanBeReplayed) {
   EXPECT_THAT(contents("out/table.md"), HasSubstr("1 / 1"));  // none was hit
   const Outcome again = dodgesim("replay " + path("out") + " --throw 0" + plugin);
   EXPECT_EQ(again.exit_code, 0);
-  EXPECT_THAT(again.output, HasSubstr("flew as recorded"));
+  EXPECT_THAT(again.output, HasSubstr("fails as recorded"));
 }
 
 TEST_F(PluginTest, ThatDiesCostsTheThrowAndCanBeWatched) {
