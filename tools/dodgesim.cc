@@ -98,7 +98,7 @@ int run_program(int argc, char** argv) {
       "fails), 2 usage or scenario error, 3 incomplete, 4 input/output error. \"dodgesim COMMAND "
       "--help\" says more.");
   program.require_subcommand(1);
-  program.set_version_flag("--version", dodgesim::build_info().name());
+  program.set_version_flag("--version", [] { return build_info().name(); });
 
   int exit_code = kOk;
   add_run_command(program, joined(argc, argv), exit_code);

@@ -179,15 +179,11 @@ void expect_no_misspelling(const YamlNode& root, Problems& problems) {
   for (const YamlNode::Key& key : root.keys) {
     if (contains(names, key.name)) continue;
     const std::string place = place_in_lens(key.name);
-    if (!place.empty() && of_ros && !contains(ros, key.name)) {
-      problems.add(key.at, key.name + " has no effect here: beside image_width the lens is " +
-                               "camera_matrix and distortion_coefficients, each with data: [...].");
-      continue;
-    }
-    if (!place.empty() && of_ours && !of_ros) {
-      problems.add(
-          key.at,
-          key.name + " has no effect here: beside width and height it belongs in " + place + ".");
+    if (!place.empty() && (of_ros ? !contains(ros, key.name) : of_ours)) {
+      problems.add(key.at, key.name + " has no effect here: beside " +
+                               (of_ros ? "image_width the lens is camera_matrix and "
+                                         "distortion_coefficients, each with data: [...]."
+                                       : "width and height it belongs in " + place + "."));
       continue;
     }
     if (!of_ros && contains(kalibr, key.name)) {
