@@ -172,6 +172,17 @@ DODGESIM_TARGET_AVX2 inline __m256 coordinates_of_cell(CellRow row, int cell) {
                        _mm256_mul_ps(_mm256_set1_ps(row.step[cell]), pixel));
 }
 
+DODGESIM_TARGET_AVX2 inline __m128i four_pairs(const std::uint16_t* means, const int* places) {
+  const __m128i a = _mm_loadu_si32(means + places[0]), b = _mm_loadu_si32(means + places[1]);
+  const __m128i c = _mm_loadu_si32(means + places[2]), d = _mm_loadu_si32(means + places[3]);
+  return _mm_unpacklo_epi64(_mm_unpacklo_epi32(a, b), _mm_unpacklo_epi32(c, d));
+}
+
+// What a gather would load, on AMD's processors in less time.
+DODGESIM_TARGET_AVX2 inline __m256i eight_pairs(const std::uint16_t* means, const int* places) {
+  return _mm256_set_m128i(four_pairs(means, places + 4), four_pairs(means, places));
+}
+
 DODGESIM_TARGET_AVX2 void read_avx2(const std::uint16_t* means, int stride, CellRow u, CellRow v,
                                     int cells, float* luminance) {
   static_assert(kKeyCellPx == 8);
@@ -182,13 +193,15 @@ DODGESIM_TARGET_AVX2 void read_avx2(const std::uint16_t* means, int stride, Cell
     const __m256 fu = _mm256_sub_ps(at_u, _mm256_cvtepi32_ps(column));
     const __m256 fv = _mm256_sub_ps(at_v, _mm256_cvtepi32_ps(row));
     const __m256i at = _mm256_add_epi32(_mm256_mullo_epi32(row, _mm256_set1_epi32(stride)), column);
-    const std::uint16_t* const next =
-        means + _mm_cvtsi128_si32(_mm256_castsi256_si128(at)) + kNextRow * stride;
-    _mm_prefetch(next, _MM_HINT_T0);
-    _mm_prefetch(next + stride, _MM_HINT_T0);
-    const __m256i top = _mm256_i32gather_epi32(reinterpret_cast<const int*>(means), at, 2);
-    const __m256i bottom =
-        _mm256_i32gather_epi32(reinterpret_cast<const int*>(means + stride), at, 2);
+    alignas(32) int places[kKeyCellPx];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(places), at);
+    for (const int place : {places[0], places[kKeyCellPx - 1]}) {
+      const std::uint16_t* const later = means + place + 2 * kNextRow * stride;
+      _mm_prefetch(later, _MM_HINT_T0);
+      _mm_prefetch(later + stride, _MM_HINT_T0);
+    }
+    const __m256i top = eight_pairs(means, places);
+    const __m256i bottom = eight_pairs(means + stride, places);
     const __m256 upper =
         between(numbers(_mm256_and_si256(top, low)), numbers(_mm256_srli_epi32(top, 16)), fu);
     const __m256 lower =
