@@ -189,8 +189,11 @@ void validate(const Config& config) {
   if (!config.p_BR.allFinite()) fail("The range sensor's place p_BR is not finite.");
   const std::size_t needed = config.position.cameras();
   if (config.cameras.size() < needed) {
-    fail("Depth by " + config.position.depth + " needs " + std::to_string(needed) +
-         " camera(s), but the configuration has " + std::to_string(config.cameras.size()) + ".");
+    std::string sentence = "Depth by " + config.position.depth + " needs " +
+                           std::to_string(needed) + " camera(s), but the configuration has " +
+                           std::to_string(config.cameras.size()) + ".";
+    if (!config.cameras.empty()) sentence += " With position.depth: mono one is enough.";
+    fail(sentence);
   }
   for (std::size_t i = 0; i < config.cameras.size(); ++i) {
     check_camera(config.cameras[i], "Camera " + std::to_string(i));

@@ -211,7 +211,9 @@ void read_camera_info(const YamlNode& root, ReadContext& context, CalibrationKey
   keys.width = info.image_width;
   keys.height = info.image_height;
   const std::vector<double>& K = info.camera_matrix.data;
-  if (K.size() != 9 || K[0] < 1 || K[4] < 1) {
+  const bool is_matrix = K.size() == 9 && K[0] >= 1 && K[4] >= 1 && K[1] == 0 && K[3] == 0 &&
+                         K[6] == 0 && K[7] == 0 && K[8] == 1;
+  if (!is_matrix) {
     context.add_problem("camera_matrix",
                         "camera_matrix.data must be the nine numbers fx, 0, cx, 0, fy, cy, 0, 0 "
                         "and 1.");

@@ -28,6 +28,7 @@ TEST_F(DetectScenarioTest, RunsThePilotOfAUser) {
   const std::string plugin = "--plugin " DODGESIM_BINARY_DIR "/tests/plugins/libobedient.so";
   EXPECT_EQ(detect("--set pilot=plugin " + plugin).exit_code, 0);
   EXPECT_EQ(CsvTable(root_ / "found/cycles.csv").rows(), 3u);
+  EXPECT_EQ(detect("--set pilot=plugin --set plugin_parameters=exit " + plugin).exit_code, 3);
   EXPECT_EQ(detect("--set pilot=plugin").exit_code, 2);
   EXPECT_EQ(detect(plugin).exit_code, 2);
 }

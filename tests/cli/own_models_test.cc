@@ -81,7 +81,9 @@ TEST_F(OwnModelsCommandTest, AVehicleWithOneCameraFliesWhoeverNeedsNoMore) {
   EXPECT_EQ(run("").exit_code, 0) << "nobody looks";
   const Outcome stereo = run(" --set pilot=falanga2020");
   EXPECT_EQ(stereo.exit_code, 2);
-  EXPECT_THAT(stereo.output, HasSubstr("vehicles/one_eyed.xml: Depth by stereo needs 2 camera(s)"));
+  EXPECT_THAT(stereo.output,
+              AllOf(HasSubstr("vehicles/one_eyed.xml: Depth by stereo needs 2 camera(s)"),
+                    HasSubstr("With position.depth: mono one is enough.")));
   const Outcome mono =
       run(" --set pilot=falanga2020 --set dodger.position.depth=mono "
           "--set sensors.camera.width=160 --set sensors.camera.height=120");

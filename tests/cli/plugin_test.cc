@@ -75,6 +75,15 @@ TEST_F(PluginTest, ThatDiesCostsTheThrowAndCanBeWatched) {
   EXPECT_NE(again.exit_code, 0);
 }
 
+TEST_F(PluginTest, ThatCallsExitDoesNotEndTheProgramAsIfAllWereWell) {
+  const std::string exits = "--set plugin_parameters=exit --plugin " + library("obedient");
+  EXPECT_EQ(run(exits).exit_code, 3);
+  const Outcome again =
+      dodgesim("replay " + path("out") + " --throw 0 --plugin " + library("obedient"));
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_THAT(again.output, HasSubstr("The pilot ended the program by exit()."));
+}
+
 TEST_F(PluginTest, WhoseMemoryIsShortCostsTheThrow) {
   const std::string plugin = " --plugin " + library("obedient");
   const std::string order = "--set 'plugin_parameters=take all memory'";
@@ -90,6 +99,7 @@ TEST_F(PluginTest, DoesNotPrintAmongTheTables) {
   EXPECT_EQ(quiet.exit_code, 0) << quiet.output;
   EXPECT_THAT(quiet.output, ::testing::StartsWith("# s\n"));
   EXPECT_THAT(quiet.output, Not(HasSubstr("Here I am.")));
+  EXPECT_THAT(run("--force " + print).output, HasSubstr("Here I am."));  // on standard error
   const Outcome resolved = dodgesim("validate --resolved " + path("s.yaml") + " " + print);
   EXPECT_THAT(resolved.output, Not(HasSubstr("I am made.")));
 }

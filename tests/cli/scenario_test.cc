@@ -158,6 +158,10 @@ TEST_F(ScenarioCommandTest, BadSettingsAreUsageErrors) {
                                  " --out x --over throw.size_m=0.1 --over throw.size_m=0.2");
   EXPECT_EQ(twice.exit_code, 2);
   EXPECT_THAT(twice.output, HasSubstr("--over throw.size_m=0.2: throw.size_m is swept already"));
+  const Outcome by_two_names =
+      dodgesim("sweep " + path("s.yaml") + " --out x --over throw.size_m=0.1 --over size_m=0.2");
+  EXPECT_EQ(by_two_names.exit_code, 2);
+  EXPECT_THAT(by_two_names.output, HasSubstr("--over size_m=0.2: size_m is swept already"));
   const Outcome places =
       dodgesim("sweep " + path("s.yaml") + " --out x --over 'mission.start_m=[0,0,1],[0,0,-1]'");
   EXPECT_EQ(places.exit_code, 2);

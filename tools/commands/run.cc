@@ -84,7 +84,9 @@ std::vector<Setting> settings_of(const RunArguments& arguments) {
   std::vector<Setting> settings = parse_settings("--set", arguments.set);
   std::set<std::string> swept;
   for (Setting& setting : parse_settings("--over", arguments.over)) {
-    if (!swept.insert(setting.key).second) {
+    constexpr std::string_view kThrow = "throw.";  // which keys of a sweep may leave out
+    const bool whole = setting.key.starts_with(kThrow);
+    if (!swept.insert(whole ? setting.key.substr(kThrow.size()) : setting.key).second) {
       throw ScenarioError(setting.shown + ": " + setting.key +
                           " is swept already; give all its values in one --over.");
     }

@@ -168,6 +168,9 @@ TEST_F(Calibration, OfRosIsRead) {
               HasSubstr("distortion_model is \"equidistant\", but must be plumb_bob"));
   EXPECT_THAT(refused("image_height", "height"), HasSubstr("image_height is missing"));
   EXPECT_THAT(refused("250.1, ", ""), HasSubstr("camera_matrix.data must be the nine numbers"));
+  EXPECT_THAT(refused("0., 160.2, 0, 251, 120.7, 0, 0, 1", "0, 0, 0, 251, 0, 160.2, 120.7, 1"),
+              HasSubstr("camera_matrix.data must be the nine numbers"));
+  EXPECT_THAT(refused("0., 160.2", "5, 160.2"), HasSubstr("must be the nine numbers"));
   EXPECT_THAT(refused(", -0.03]", ", 0, 0, 0, 0]"),
               HasSubstr("distortion_coefficients.data must be the four or five numbers"));
 }

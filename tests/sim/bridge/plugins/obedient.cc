@@ -27,7 +27,8 @@ class Leftward : public dodge::Pilot {
     if (order_ == "throw a number") throw 7;
     if (order_ == "round up") std::fesetround(FE_UPWARD);
     if (order_ == "die") std::abort();
-    if (order_ == "print") std::printf("Here I am.\n"), std::fflush(stdout);
+    if (order_ == "exit") std::exit(0);
+    if (order_ == "print") std::printf("Here I am.\n");
     dodge::VelocityCommand command{now_us, Eigen::Vector3d(0, 2, 0), true, false};
     if (order_ == "command nothing") command.v_W.x() = std::numeric_limits<double>::quiet_NaN();
     if (order_ == "race") command.v_W.z() = -1e200;
