@@ -1,13 +1,11 @@
 #include "sim/recordings/event_reader.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <vector>
 
-#include "sim/files/npy_reader.h"
 #include "sim/recordings/hdf5_event_reader.h"
+#include "sim/recordings/npy_event_reader.h"
 #include "sim/recordings/prophesee_reader.h"
 #include "sim/recordings/raw_event.h"
 #include "sim/recordings/text_columns.h"
@@ -67,61 +65,13 @@ class TextReader : public EventReader {
   std::vector<Event> events_;
 };
 
-class NpyEventReader : public EventReader {
- public:
-  NpyEventReader(const std::string& path, const ImageSize& image) : image_(image), file_(path) {
-    const NpyHeader& header = file_.header();
-    const std::string fields = "[('t', '<i8'), ('x', '<u2'), ('y', '<u2'), ('p', '|i1')";
-    record_bytes_ = header.dtype == fields + "]" ? 13 : 14;
-    if (record_bytes_ == 14 && header.dtype != fields + ", ('cause', '|u1')]") {
-      throw ScenarioError(path + " has items of " + header.dtype + ", but must have records of " +
-                          fields + "].");
-    }
-    if (header.shape.size() != 1) {
-      throw ScenarioError(path + " has the shape " + shape_text(header.shape) +
-                          ", but must have one dimension.");
-    }
-    file_.require_size(record_bytes_);
-  }
-
-  std::span<const Event> next() override {
-    const std::uint64_t left = file_.header().shape.front() - read_;
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(kPortion, left));
-    bytes_.resize(count * record_bytes_);
-    file_.read(bytes_.data(), bytes_.size());
-    events_.clear();
-    for (std::size_t i = 0; i < count; ++i, ++read_) {
-      const char* record = bytes_.data() + i * record_bytes_;
-      Event event;
-      std::memcpy(&event.t_us, record, 8);
-      std::memcpy(&event.x, record + 8, 2);
-      std::memcpy(&event.y, record + 10, 2);
-      std::memcpy(&event.polarity, record + 12, 1);
-      events_.push_back(checked_event({event.t_us, event.x, event.y, event.polarity}, image_, [&] {
-        return file_.path() + ", event " + std::to_string(read_);
-      }));
-    }
-    return events_;
-  }
-
-  double part_read() const override { return share(read_, file_.header().shape.front()); }
-
- private:
-  ImageSize image_;
-  NpyReader file_;
-  std::size_t record_bytes_ = 0;
-  std::uint64_t read_ = 0;  // events
-  std::vector<char> bytes_;
-  std::vector<Event> events_;
-};
-
 }  // namespace
 
 std::unique_ptr<EventReader> open_events(const std::string& path, const ImageSize& image) {
   const std::string end = std::filesystem::path(path).extension().string();
   if (end == ".txt") return std::make_unique<TextReader>(path, image, false);
   if (end == ".csv") return std::make_unique<TextReader>(path, image, true);
-  if (end == ".npy") return std::make_unique<NpyEventReader>(path, image);
+  if (end == ".npy") return open_npy_events(path, image);
   if (end == ".h5" || end == ".hdf5") return open_hdf5_events(path, image);
   if (end == ".raw") return open_prophesee_events(path, image);
   throw ScenarioError(path +
