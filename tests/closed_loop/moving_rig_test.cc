@@ -105,7 +105,7 @@ void expect_no_bursts(const Seen& seen, const Seen& anew) {
 
 TEST_F(MovingRig, SeesNearlyTheEventsOfARigThatDrawsTheRoomForEveryPicture) {
   KeySpec narrow;  // the margin is small, so that there are many keys
-  narrow.margin_px = 16;
+  narrow.margin_px = 8;
   narrow.max_misplacement_px = 0.5;
   for (const Motion& motion : kMotions) {
     const Seen anew = see(motion, every_picture());

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* kModels = DODGESIM_SOURCE_DIR "/models";
 
 TEST(SamplingStudy, FindsNoDifferenceBetweenTheReferenceAndItself) {
-  SamplingOptions options{kModels, 1, 5, EventCameraSpec(), 1500};
+  SamplingOptions options{kModels, 1, 5, EventCameraSpec(), 2500};
   SamplingVariant coarse{"coarse"};
   coarse.sampling.max_displacement_px = 4;
   int reported = 0;
