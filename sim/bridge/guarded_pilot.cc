@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <new>
 #include <optional>
 
@@ -12,6 +10,7 @@
 #include "sim/base/memory_limit.h"
 #include "sim/base/process_state.h"
 #include "sim/base/utf8.h"
+#include "sim/bridge/no_exit.h"
 #include "sim/world/snapshot.h"
 
 namespace dodgesim {
@@ -20,28 +19,6 @@ namespace {
 
 // Numbers beyond could overflow.
 constexpr double kFastestMps = 1e6, kFarthestM = 1e6;
-
-// While there is one, exit() does not end the program as if all were well.
-class NoExit {
- public:
-  NoExit() {
-    [[maybe_unused]] static const int registered = std::atexit(complain);
-    ++depth_;
-  }
-  ~NoExit() { --depth_; }
-  NoExit(const NoExit&) = delete;
-  NoExit& operator=(const NoExit&) = delete;
-
- private:
-  static void complain() {
-    constexpr int kFlightFailed = 3;
-    if (depth_ == 0) return;
-    std::fflush(stdout);
-    std::fputs("The pilot ended the program by exit().\n", stderr);
-    std::_Exit(kFlightFailed);
-  }
-  static inline int depth_ = 0;
-};
 
 template <class Call>
 auto guarded(Call call) -> decltype(call()) {

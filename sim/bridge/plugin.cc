@@ -16,6 +16,7 @@
 #include "sim/base/input_file.h"
 #include "sim/base/process_state.h"
 #include "sim/bridge/guarded_pilot.h"
+#include "sim/bridge/no_exit.h"
 
 namespace dodgesim {
 
@@ -92,6 +93,7 @@ std::unique_ptr<dodge::Pilot> make_plugin_pilot(const Plugin& plugin, const dodg
   if (plugin.file.empty()) throw SimulationError("The pilot is plugin, but no library is given.");
   // Libraries compiled with -ffast-math change it when they are loaded.
   const KeptRounding rounding;
+  const NoExit no_exit;
   keep_decimal_point();
   PilotFunction* const make = loaded(plugin);
   std::unique_ptr<dodge::Pilot> pilot;

@@ -28,7 +28,12 @@ TEST_F(DetectScenarioTest, RunsThePilotOfAUser) {
   const std::string plugin = "--plugin " DODGESIM_BINARY_DIR "/tests/plugins/libobedient.so";
   EXPECT_EQ(detect("--set pilot=plugin " + plugin).exit_code, 0);
   EXPECT_EQ(CsvTable(root_ / "found/cycles.csv").rows(), 3u);
-  EXPECT_EQ(detect("--set pilot=plugin --set plugin_parameters=exit " + plugin).exit_code, 3);
+  for (const std::string when : {"exit", "exit at once"}) {
+    const Outcome ended =
+        detect("--set pilot=plugin --set 'plugin_parameters=" + when + "' " + plugin);
+    EXPECT_EQ(ended.exit_code, 3);
+    EXPECT_THAT(ended.output, HasSubstr("The pilot ended the program by exit()."));
+  }
   EXPECT_EQ(detect("--set pilot=plugin").exit_code, 2);
   EXPECT_EQ(detect(plugin).exit_code, 2);
 }

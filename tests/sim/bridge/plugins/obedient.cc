@@ -68,6 +68,7 @@ std::unique_ptr<dodge::Pilot> make(const dodge::Config& config, const std::strin
   if (parameters == "refuse") throw std::invalid_argument("I take no such parameters");
   if (parameters == "refuse with a number") throw 7;
   if (parameters == "die at once") std::abort();
+  if (parameters == "exit at once") std::exit(0);
   if (parameters == "take all memory at once") throw std::bad_alloc();
   if (parameters == "be the dodger") return std::make_unique<dodge::Dodger>(config);
   return std::make_unique<Leftward>(parameters);

@@ -1,0 +1,34 @@
+// Keeps the code of a pilot from ending the program as if all were well.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace dodgesim {
+
+// While there is one, exit() says so on standard error and ends the program with kExitCode. For one
+// thread, as all calls of pilots are.
+class NoExit {
+ public:
+  static constexpr int kExitCode = 3;  // a flight failed
+
+  NoExit() {
+    [[maybe_unused]] static const int registered = std::atexit(complain);
+    ++depth_;
+  }
+  ~NoExit() { --depth_; }
+  NoExit(const NoExit&) = delete;
+  NoExit& operator=(const NoExit&) = delete;
+
+ private:
+  static void complain() {
+    if (depth_ == 0) return;
+    std::fflush(stdout);
+    std::fputs("The pilot ended the program by exit().\n", stderr);
+    std::_Exit(kExitCode);
+  }
+
+  static inline int depth_ = 0;
+};
+
+}  // namespace dodgesim
