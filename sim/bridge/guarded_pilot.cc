@@ -77,6 +77,11 @@ std::string threw_bad_alloc() {
          (limit_mb ? ": the limit is " + std::to_string(*limit_mb) + " MB." : ".");
 }
 
+GuardedPilot::~GuardedPilot() {
+  const NoExit no_exit;
+  pilot_.reset();
+}
+
 void GuardedPilot::add_events(int camera, std::span<const dodge::Event> events) {
   guarded([&] { pilot_->add_events(camera, events); });
 }

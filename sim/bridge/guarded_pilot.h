@@ -22,6 +22,7 @@ std::string threw_bad_alloc();
 class GuardedPilot : public dodge::Pilot {
  public:
   explicit GuardedPilot(std::unique_ptr<dodge::Pilot> pilot) : pilot_(std::move(pilot)) {}
+  ~GuardedPilot() override;
 
   void add_events(int camera, std::span<const dodge::Event> events) override;
   void add_imu(const dodge::ImuSample& sample) override;

@@ -104,7 +104,7 @@ void prepare_worker(const WorkerLimits& limits, pid_t campaign) {
   // decides what becomes of its workers.
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_IGN);
   ::dup2(STDERR_FILENO, STDOUT_FILENO);      // the tables are alone on standard output
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // what a pilot says before it dies is not lost
+  std::setvbuf(stdout, nullptr, _IONBF, 0);  // what a pilot says before it dies is not lost
   die_with(campaign);
   if (limits.memory_mb > 0) limit_memory(limits.memory_mb);
 }

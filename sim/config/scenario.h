@@ -165,8 +165,8 @@ struct StopSpec {
   void visit(Visitor& v) {
     v("half_width", half_width, 0.005, 0.5,
       "Fly no more throws when the success rate is known to plus or minus this; the number of "
-      "throws is then at most the scenario's. To find the rule takes half a minute for 0.005, and "
-      "minutes with a confidence of 0.999, before the first throw.");
+      "throws is then at most the scenario's. Before the first throw, to find the rule that "
+      "stops takes half a minute for 0.005, and minutes if confidence is 0.999 as well.");
     v("confidence", confidence, 0.5, 0.999,
       "Probability that the interval holds the true rate, whatever it is.");
   }

@@ -1,6 +1,8 @@
 #include "sim/recordings/npy_event_reader.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <regex>
 #include <string>
@@ -13,9 +15,11 @@ namespace dodgesim {
 
 namespace {
 
-constexpr std::size_t kEventsAtOnce = 1 << 14;  // events
+static_assert(std::endian::native == std::endian::little);
 
-// One number of a record.
+constexpr std::size_t kBytesAtOnce = 1 << 18;
+
+// What stands in a record.
 struct Field {
   std::string name;
   std::size_t offset = 0;
@@ -23,26 +27,28 @@ struct Field {
   char kind = 0;  // as NumPy has it: 'i', 'u', 'b' (a truth), 'V' (padding), ...
 
   bool is_integer() const {
-    return kind == 'b' ||
-           ((kind == 'i' || kind == 'u') && (bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8));
+    if (kind == 'b') return bytes == 1;
+    return (kind == 'i' || kind == 'u') && bytes <= 8 && std::has_single_bit(bytes);
   }
 
-  // Of an integer, little-endian. What is beyond an int64 becomes negative, which no event is.
+  // Of an integer. The largest int64 stands for all that are larger.
   std::int64_t of(const char* record) const {
     std::uint64_t value = 0;
     std::memcpy(&value, record + offset, bytes);
+    if (kind != 'i') {
+      return static_cast<std::int64_t>(std::min<std::uint64_t>(value, INT64_MAX));
+    }
     const std::size_t unused = 64 - 8 * bytes;
-    if (kind == 'i') return static_cast<std::int64_t>(value << unused) >> unused;
-    return static_cast<std::int64_t>(value);
+    return static_cast<std::int64_t>(value << unused) >> unused;
   }
 };
 
-// The fields of "[('t', '<i8'), ('x', '<u2'), ...]"; none if it is not such a list of little-endian
-// numbers.
+// The fields of "[('t', '<i8'), ('x', '<u2'), ...]"; none if it is not such a list, or one of
+// nested or big-endian fields.
 std::vector<Field> fields_of(const std::string& dtype) {
-  static const std::regex list(R"(\[(\s*\('\w*', '[<|][a-zA-Z]\d{1,3}'\),?)+\s*\])");
-  static const std::regex field(R"(\('(\w*)', '[<|]([a-zA-Z])(\d+)'\))");
-  constexpr std::size_t kLongest = 1024;  // std::regex recurs for each character
+  static const std::regex list(R"(\[(\s*\('[^']*', '[<|][a-zA-Z]\d{1,3}(\[\w+\])?'\),?)+\s*\])");
+  static const std::regex field(R"(\('([^']*)', '[<|]([a-zA-Z])(\d+)(\[\w+\])?'\))");
+  constexpr std::size_t kLongest = 1024;  // std::regex recurses for each character
   if (dtype.size() > kLongest || !std::regex_match(dtype, list)) return {};
   std::vector<Field> fields;
   std::size_t offset = 0;
@@ -64,8 +70,8 @@ class NpyEventReader : public EventReader {
       const auto found = std::ranges::find(fields, name, &Field::name);
       if (found == fields.end() || !found->is_integer()) {
         throw ScenarioError(path + " has items of " + file_.header().dtype +
-                            ", but must have records of t [us], x, y and p, each a little-endian "
-                            "integer.");
+                            ", but must have records with the fields t [us], x, y and p, each a "
+                            "little-endian integer.");
       }
       *field = *found;
     }
@@ -79,7 +85,8 @@ class NpyEventReader : public EventReader {
 
   std::span<const Event> next() override {
     const std::uint64_t left = file_.header().shape.front() - read_;
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(kEventsAtOnce, left));
+    const std::size_t at_once = std::max<std::size_t>(1, kBytesAtOnce / record_bytes_);
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(at_once, left));
     bytes_.resize(count * record_bytes_);
     file_.read(bytes_.data(), bytes_.size());
     events_.clear();

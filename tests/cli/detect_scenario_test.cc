@@ -34,6 +34,9 @@ TEST_F(DetectScenarioTest, RunsThePilotOfAUser) {
     EXPECT_EQ(ended.exit_code, 3);
     EXPECT_THAT(ended.output, HasSubstr("The pilot ended the program by exit()."));
   }
+  EXPECT_EQ(detect("--set pilot=plugin --set 'plugin_parameters=have a child that exits' " + plugin)
+                .exit_code,
+            0);
   EXPECT_EQ(detect("--set pilot=plugin").exit_code, 2);
   EXPECT_EQ(detect(plugin).exit_code, 2);
 }

@@ -100,6 +100,8 @@ TEST_F(PluginTest, DoesNotPrintAmongTheTables) {
   EXPECT_THAT(quiet.output, ::testing::StartsWith("# s\n"));
   EXPECT_THAT(quiet.output, Not(HasSubstr("Here I am.")));
   EXPECT_THAT(run("--force " + print).output, HasSubstr("Here I am."));  // on standard error
+  const std::string dies = "--set 'plugin_parameters=print, then die'";
+  EXPECT_THAT(run("--force " + dies + plugin).output, HasSubstr("I am dying"));
   const Outcome resolved = dodgesim("validate --resolved " + path("s.yaml") + " " + print);
   EXPECT_THAT(resolved.output, Not(HasSubstr("I am made.")));
 }

@@ -37,7 +37,7 @@ EVENTS: .h5 (DSEC, RVT; or t, x, y, p at the root, as records CD/events or as a 
   of records with the integers t [us], x, y and p; .txt as `emulate` and `replay --events` write it,
   or of the rpg data sets, with t in seconds (it has a fraction in one of the first 16,384 events);
   .csv whose first line names the columns t_us, x, y and p; .raw of Prophesee (EVT 2.0 and 3.0).
-  0 and -1 are OFF, 1 is ON. They must be in order of time, but
+  Of p, 0 and -1 are OFF, 1 is ON. The events must be in order of time, but
   for 10 ms. The pilot drops those that come later; up to 16 in a row with stamps far ahead of the
   next are passed over, and so are up to 32 at the end that are more than ten minutes ahead.
 CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {model:

@@ -84,9 +84,9 @@ std::vector<Setting> settings_of(const RunArguments& arguments) {
   std::vector<Setting> settings = parse_settings("--set", arguments.set);
   std::set<std::string> swept;
   for (Setting& setting : parse_settings("--over", arguments.over)) {
-    constexpr std::string_view kThrow = "throw.";  // which keys of a sweep may leave out
-    const bool whole = setting.key.starts_with(kThrow);
-    if (!swept.insert(whole ? setting.key.substr(kThrow.size()) : setting.key).second) {
+    constexpr std::string_view kThrow = "throw.";  // a prefix that keys of a sweep may leave out
+    const std::size_t skipped = setting.key.starts_with(kThrow) ? kThrow.size() : 0;
+    if (!swept.insert(setting.key.substr(skipped)).second) {
       throw ScenarioError(setting.shown + ": " + setting.key +
                           " is swept already; give all its values in one --over.");
     }

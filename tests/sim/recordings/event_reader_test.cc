@@ -154,42 +154,6 @@ TEST_F(Reading, SaysWhichEventOfABinaryFileIsNone) {
   }
 }
 
-std::string npy_of(const std::string& descr, const std::string& shape, const std::string& bytes) {
-  const std::string header =
-      "{'descr': " + descr + ", 'fortran_order': False, 'shape': " + shape + ", }\n";
-  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header +
-         bytes;
-}
-
-TEST_F(Reading, RecordsOfAnArrayMayHaveOtherFieldsInAnyOrder) {
-  // As Prophesee's tools write them, and with a truth, another number and padding.
-  EXPECT_THAT(read(file("e.npy", npy_of("[('x', '<u2'), ('y', '<u2'), ('p', '<i2'), ('t', '<i8')]",
-                                        "(1,)", {"\x01\x01\2\0\xff\xff\7\0\0\0\0\0\0\0", 14}))),
-              ElementsAre(Event{7, 257, 2, -1}));
-  EXPECT_THAT(
-      read(file("e.npy", npy_of("[('p', '|b1'), ('', '|V2'), ('t', '<u4'), ('size', '<f4'), "
-                                "('y', '|u1'), ('x', '|u1')]",
-                                "(2,)", {"\1--\1\0\0\x80....\3\4\0--\2\0\0\x80....\xc8\6", 26}))),
-      ElementsAre(Event{0x80000001, 4, 3, 1}, Event{0x80000002, 6, 200, -1}));
-  EXPECT_THAT(refusal("e.npy", npy_of("[('t', '<u8'), ('x', '|i1'), ('y', '|i1'), ('p', '|i1')]",
-                                      "(1,)", std::string(8, '\xff') + "abc")),
-              HasSubstr("e.npy, event 0: t [us] is -1, but"));
-}
-
-TEST_F(Reading, RefusesArraysThatAreNoEvents) {
-  for (const std::string descr :
-       {"'<f4'", "[('t', '<f8'), ('x', '<u2'), ('y', '<u2'), ('p', '|i1')]",
-        "[('t', '<i8'), ('x', '>u2'), ('y', '<u2'), ('p', '|i1')]",
-        "[('t', '<i8'), ('x', '<u2'), ('y', '<u2')]",
-        "[('t', '<i8'), ('x', '<u2', (2,)), ('y', '<u2'), ('p', '|i1')]"}) {
-    EXPECT_THAT(refusal("e.npy", npy_of(descr, "(0,)", "")),
-                HasSubstr("but must have records of t [us], x, y and p, each a little-endian"));
-  }
-  const std::string fields = "[('t', '<i8'), ('x', '<u2'), ('y', '<u2'), ('p', '|i1')]";
-  EXPECT_THAT(refusal("e.npy", npy_of(fields, "(0, 2)", "")), HasSubstr("(0, 2)"));
-  EXPECT_NE(refusal("e.npy", npy_of(fields, "(3,)", std::string(38, '\0'))), "");
-}
-
 TEST_F(Reading, RefusesHdf5OfAnotherImageOrLayout) {
   const Events events = random_recording(100, 5);
   testing::write(root_ / "e.h5", recording_of(events), events);

@@ -1,4 +1,7 @@
 // A plug-in that does what its parameters say.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cfenv>
 #include <cstdio>
 #include <cstdlib>
@@ -28,7 +31,9 @@ class Leftward : public dodge::Pilot {
     if (order_ == "round up") std::fesetround(FE_UPWARD);
     if (order_ == "die") std::abort();
     if (order_ == "exit") std::exit(0);
-    if (order_ == "print") std::printf("Here I am.\n");
+    if (order_ == "print") std::puts("Here I am.");
+    if (order_ == "print, then die") std::printf("I am dying"), std::abort();
+    if (order_ == "have a child that exits") have_a_child();
     dodge::VelocityCommand command{now_us, Eigen::Vector3d(0, 2, 0), true, false};
     if (order_ == "command nothing") command.v_W.x() = std::numeric_limits<double>::quiet_NaN();
     if (order_ == "race") command.v_W.z() = -1e200;
@@ -41,6 +46,14 @@ class Leftward : public dodge::Pilot {
   std::span<const dodge::Obstacle> obstacles() const override { return {}; }
 
  private:
+  static void have_a_child() {
+    const pid_t child = ::fork();
+    if (child == 0) std::exit(0);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    if (status != 0) throw std::runtime_error("My child did not end well");
+  }
+
   // Something at the origin, with a fault.
   void detect(const std::string& fault, dodge::TimeUs now_us) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
