@@ -21,6 +21,18 @@ std::string closest_varied(const std::string& word, const std::vector<std::strin
   return near.empty() ? closest_key(word, keys) : near;
 }
 
+// 0.20 is 0.2, alone or within a value.
+bool same_value(const YamlNode& a, const YamlNode& b) {
+  if (a.kind != b.kind || a.tag != b.tag || a.items.size() != b.items.size()) return false;
+  if (a.kind == YamlNode::Kind::kScalar) {
+    if (a.quoted || b.quoted) return a.quoted == b.quoted && a.text == b.text;
+    const std::optional<double> number = as_number(a.text);
+    return number ? as_number(b.text) == number : a.text == b.text;
+  }
+  return std::ranges::equal(a.keys, b.keys, {}, &YamlNode::Key::name, &YamlNode::Key::name) &&
+         std::ranges::equal(a.items, b.items, same_value);
+}
+
 }  // namespace
 
 bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const VariedKeys& before,
@@ -50,11 +62,7 @@ bool Reader::read_varied(const YamlNode& node, const YamlNode::Key& key, const V
     return refuse(node, name, "must be a list of values, such as [0.1, 0.2]");
   }
   for (const YamlNode& item : node.items) {
-    // 0.20 is 0.2.
-    const std::optional<double> number = as_number(to_text(item));
-    const auto same = [&](const YamlNode& other) {
-      return number ? as_number(to_text(other)) == number : to_text(other) == to_text(item);
-    };
+    const auto same = [&item](const YamlNode& other) { return same_value(item, other); };
     if (std::ranges::any_of(axis.values, same)) {
       return refuse(item, name + "[" + std::to_string(axis.values.size()) + "]",
                     "this value is in the list already");
