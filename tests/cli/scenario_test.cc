@@ -170,7 +170,7 @@ TEST_F(ScenarioCommandTest, BadSettingsAreUsageErrors) {
   EXPECT_EQ(over.exit_code, 2);
   EXPECT_THAT(over.output, HasSubstr("--over delays.compute_us=-1: delays.compute_us is -1, but"));
   std::string many = "!uniform [1, 8]";
-  for (int i = 1; i < 1640; ++i) many += ", !uniform [1, 8." + std::to_string(i) + "]";
+  for (int i = 1; i < 1640; ++i) many += ", !uniform [1, 8." + std::to_string(1000 + i) + "]";
   const Outcome values =
       dodgesim("sweep " + path("s.yaml") + " --out x --over 'throw.speed_mps=" + many + "'");
   EXPECT_EQ(values.exit_code, 2);

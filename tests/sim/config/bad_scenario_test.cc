@@ -275,7 +275,7 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:2:22: grid.size_m[1] is 2e-1, but this value is in the list already."},
     {"GridTwiceTheSameRange",
      "throw: {}\ngrid: {size_m: [!uniform [0.1, 0.2], !uniform [0.1, 0.20]]}\n",
-     "bad.yaml:2:37: grid.size_m[1] is !uniform [0.1, 0.20], but this value is in the list "
+     "bad.yaml:2:38: grid.size_m[1] is !uniform with a list of 2, but this value is in the list "
      "already."},
     {"GridByBothNames", "throw: {}\ngrid: {size_m: [0.1], throw.size_m: [0.2]}\n",
      "bad.yaml:2:23: grid.throw.size_m is given twice; it is already in bad.yaml:2:8."},

@@ -33,7 +33,7 @@ TEST(Problems, ALongListOfProblemsIsCut) {
 TEST(Problems, MoreValuesThanCanBeReadAgainAreRefused) {
   const auto speeds = [](int count) {
     std::string values = "!uniform [1, 8]";
-    for (int i = 1; i < count; ++i) values += ", !uniform [1, 8." + std::to_string(i) + "]";
+    for (int i = 1; i < count; ++i) values += ", !uniform [1, 8." + std::to_string(1000 + i) + "]";
     return "throw: {}\ngrid: {speed_mps: [" + values + "]}\n";
   };
   EXPECT_EQ(error_of(speeds(200)), "");
