@@ -46,8 +46,8 @@ struct Field {
 // The fields of "[('t', '<i8'), ('x', '<u2'), ...]"; none if it is not such a list, or one of
 // nested or big-endian fields.
 std::vector<Field> fields_of(const std::string& dtype) {
-  static const std::regex list(R"(\[(\s*\('[^']*', '[<|][a-zA-Z]\d{1,3}(\[\w+\])?'\),?)+\s*\])");
-  static const std::regex field(R"(\('([^']*)', '[<|]([a-zA-Z])(\d+)(\[\w+\])?'\))");
+  static const std::string one = R"(\('([^']*)', '[<|]([a-zA-Z])(\d{1,3})(\[\w+\])?'\))";
+  static const std::regex field(one), list(R"(\[(\s*)" + one + R"(,?)+\s*\])");
   constexpr std::size_t kLongest = 1024;  // std::regex recurses for each character
   if (dtype.size() > kLongest || !std::regex_match(dtype, list)) return {};
   std::vector<Field> fields;

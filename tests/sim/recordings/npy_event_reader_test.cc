@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/base/error.h"
+#include "sim/files/npy_header.h"
 #include "tests/complaint.h"
 #include "tests/sim/files/temporary_directory.h"
 
@@ -38,26 +39,21 @@ class NpyEvents : public ::testing::Test {
   testing::TemporaryDirectory root_;
 };
 
-std::string npy_of(const std::string& descr, const std::string& shape, const std::string& bytes) {
-  const std::string header =
-      "{'descr': " + descr + ", 'fortran_order': False, 'shape': " + shape + ", }\n";
-  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header +
-         bytes;
-}
-
 TEST_F(NpyEvents, RecordsOfAnArrayMayHaveOtherFieldsInAnyOrder) {
   // As Prophesee's tools write them, and with a truth, another number and padding.
-  EXPECT_THAT(read(file("e.npy", npy_of("[('x', '<u2'), ('y', '<u2'), ('p', '<i2'), ('t', '<i8')]",
-                                        "(1,)", {"\x01\x01\2\0\xff\xff\7\0\0\0\0\0\0\0", 14}))),
+  EXPECT_THAT(read(file("e.npy",
+                        npy_front("[('x', '<u2'), ('y', '<u2'), ('p', '<i2'), ('t', '<i8')]", {1}) +
+                            std::string("\x01\x01\2\0\xff\xff\7\0\0\0\0\0\0\0", 14))),
               ElementsAre(Event{7, 257, 2, -1}));
   EXPECT_THAT(
-      read(file("e.npy", npy_of("[('p', '|b1'), ('', '|V2'), ('t', '<u4'), ('size', '<f4'), "
-                                "('y', '|u1'), ('x', '|u1')]",
-                                "(2,)", {"\1--\1\0\0\x80....\3\4\0--\2\0\0\x80....\xc8\6", 26}))),
+      read(file("e.npy", npy_front("[('p', '|b1'), ('', '|V2'), ('t', '<u4'), ('size', '<f4'), "
+                                   "('y', '|u1'), ('x', '|u1')]",
+                                   {2}) +
+                             std::string("\1--\1\0\0\x80....\3\4\0--\2\0\0\x80....\xc8\6", 26))),
       ElementsAre(Event{0x80000001, 4, 3, 1}, Event{0x80000002, 6, 200, -1}));
   EXPECT_THAT(
-      refusal("e.npy", npy_of("[('t', '<u8'), ('x', '|i1'), ('y', '|i1'), ('p', '|i1')]", "(1,)",
-                              std::string(8, '\xff') + "abc")),
+      refusal("e.npy", npy_front("[('t', '<u8'), ('x', '|i1'), ('y', '|i1'), ('p', '|i1')]", {1}) +
+                           std::string(8, '\xff') + "abc"),
       AllOf(HasSubstr("e.npy, event 0: t [us] is 9223372036854775807"), HasSubstr("nanoseconds")));
 }
 
@@ -72,13 +68,13 @@ TEST_F(NpyEvents, RefusesArraysThatAreNoEvents) {
         "[('t', '<i8'), ('x', '<i3'), ('y', '<u2'), ('p', '|i1')]",
         "[('t', '<i8'), ('x', '<u2', (2,)), ('y', '<u2'), ('p', '|i1')]"}) {
     EXPECT_THAT(
-        refusal("e.npy", npy_of(descr, "(0,)", "")),
+        refusal("e.npy", npy_front(descr, {0})),
         HasSubstr(
             "but must have records with the fields t [us], x, y and p, each a little-endian"));
   }
   const std::string fields = "[('t', '<i8'), ('x', '<u2'), ('y', '<u2'), ('p', '|i1')]";
-  EXPECT_THAT(refusal("e.npy", npy_of(fields, "(0, 2)", "")), HasSubstr("(0, 2)"));
-  EXPECT_NE(refusal("e.npy", npy_of(fields, "(3,)", std::string(38, '\0'))), "");
+  EXPECT_THAT(refusal("e.npy", npy_front(fields, {0, 2})), HasSubstr("(0, 2)"));
+  EXPECT_NE(refusal("e.npy", npy_front(fields, {3}) + std::string(38, '\0')), "");
 }
 
 }  // namespace
