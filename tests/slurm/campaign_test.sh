@@ -14,7 +14,7 @@ done
 . "$here/cluster.sh"
 
 shards=3
-throws=300  # a shard takes many times as long as to lose its node
+throws=180  # a shard takes many times as long as to lose its node
 say() { echo "$SECONDS s: $*"; }
 
 fail() {
