@@ -24,7 +24,7 @@ if(BUILD)
   file(COPY ${SOURCE_DIR}/dodge DESTINATION ${WORK_DIR})
   set(configure -S ${WORK_DIR}/dodge/example -B ${WORK_DIR}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Debug
                 # Without -g: built to see whether it builds. -Og compiles faster than -O0.
-                -DCMAKE_CXX_FLAGS_DEBUG=-Og\ --param=ggc-min-heapsize=1500000
+                -DCMAKE_CXX_FLAGS_DEBUG=-Og
                 -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0
                 -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
                 -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
