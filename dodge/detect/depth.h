@@ -30,7 +30,9 @@ struct StereoConfig {
   void visit(Visitor& v) {
     v("disparity", disparity, {"centres", "correlation"},
       "Disparity of a matched pair: the shift at which the rho images of the two cameras agree "
-      "best, starting from the disparity of the clusters' centres, or the latter alone. The two "
+      "best, starting from the disparity of the clusters' centres, or the latter alone. (Of what "
+      "the "
+      "upper or lower border of an image cuts off, the disparity of the other end.) The two "
       "cameras see different parts of an object's outline move: centres alone err by 10 cm at 1 m "
       "and match noise with noise, the correlation errs by 2 to 4 cm. The paper says no more than "
       "'the cluster's disparity' and 'the cluster's centers'.");
@@ -120,6 +122,7 @@ class DepthEstimator {
                       std::vector<Detection>& detections) const;
   void locate_by_stereo(const View& top, const View& bottom, const StateEstimate& state,
                         std::vector<Detection>& detections);
+  double cluster_disparity_px(const Cluster& top, const Cluster& bottom) const;
   void match_clusters(const std::vector<Cluster>& top, const std::vector<Cluster>& bottom);
   cv::RotatedRect joined(const cv::RotatedRect& top, const cv::RotatedRect& bottom,
                          double disparity_px);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/imgproc.hpp>
+
 #include "tests/dodge/synthetic_events.h"
 
 namespace dodge {
@@ -284,6 +286,42 @@ TEST_F(DepthTest, CorrelationMeasuresDepthThoughEachCameraSeesAnotherPart) {
 
   rho_[1] = 0.0F;  // the images do not agree: no match
   EXPECT_TRUE(locate(config, {top}, {bottom}).empty());
+}
+
+// What is left of a cluster of upright rectangle in the image.
+Cluster cut_off_at_border(Cluster cluster) {
+  const float side = cluster.rectangle.size.height, v = cluster.rectangle.center.y;
+  const float first = std::max(-0.5F, v - side / 2), last = std::min(239.5F, v + side / 2);
+  cluster.rectangle.center.y = (first + last) / 2;
+  cluster.rectangle.size.height = last - first;
+  cluster.centroid.y() = cluster.rectangle.center.y;
+  cluster.pixels = static_cast<int>(static_cast<float>(cluster.pixels) * (last - first) / side);
+  return cluster;
+}
+
+// From where the bottom camera has lost the upper half of it to where the top one has lost the
+// lower half.
+TEST_F(DepthTest, WhatABorderCutsOffInOneCameraHasTheDepthOfItsOtherEnd) {
+  const double depth_m = 0.35, side_px = 190.7 * 0.15 / depth_m;  // as large as the baseline
+  const double disparity_px = 190.7 * 0.15 / depth_m;
+  int cut = 0;
+  for (double v = disparity_px; v <= 240; v += 2.5) {
+    const Cluster top = square(160, v, side_px), bottom = square(160, v - disparity_px, side_px);
+    const Cluster seen_top = cut_off_at_border(top), seen_bottom = cut_off_at_border(bottom);
+    cut += seen_top.rectangle.size.height + seen_bottom.rectangle.size.height < 2 * side_px - 1;
+    for (std::size_t i = 0; i < 2; ++i) {
+      rho_[i] = 0.0F;
+      cv::rectangle(rho_[i], (i == 0 ? top : bottom).rectangle.boundingRect(), 0.3F, 2);
+    }
+    for (const std::string disparity : {"centres", "correlation"}) {
+      DepthConfig config;
+      config.stereo.disparity = disparity;
+      const auto detections = locate(config, {seen_top}, {seen_bottom});
+      ASSERT_EQ(detections.size(), 1U) << v;
+      EXPECT_NEAR(detections[0].depth_m, depth_m, 0.02 * depth_m) << disparity << " at " << v;
+    }
+  }
+  EXPECT_GT(cut, 20);
 }
 
 // A horizontal bar that the bottom camera sees twice: its cluster is the worse of the two.
