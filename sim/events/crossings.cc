@@ -1,7 +1,6 @@
 #include "sim/events/crossings.h"
 
 #include "sim/base/branchless.h"
-#include "sim/base/vector_level.h"
 #include "sim/events/logarithm.h"
 
 namespace dodgesim {
@@ -141,19 +140,14 @@ void Crossings::add(const Pixel& pixel) {
   on_[i] = pixel.on;
 }
 
-void Crossings::solve(double refractory_us) {
-  static const int level = vector_level();
-  solve(refractory_us, level);
-}
-
-void Crossings::solve(double refractory_us, int vector_level) {
+void Crossings::solve(double refractory_us, int level) {
   const Row row = {size(),          s0_.data(),          s1_.data(),
                    dt_us_.data(),   rise_per_us_.data(), decay_per_us_.data(),
                    held_us_.data(), reference_.data(),   off_.data(),
                    on_.data(),      crossing_us_.data(), reference_after_.data(),
                    answer_.data(),  on_event_.data(),    refractory_us};
-  const auto solve = bent_ ? compiled_for<solve_row<true>>(vector_level)
-                           : compiled_for<solve_row<false>>(vector_level);
+  const auto solve =
+      bent_ ? compiled_for<solve_row<true>>(level) : compiled_for<solve_row<false>>(level);
   solve(row);
 }
 

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/base/vector_level.h"
+
 namespace dodgesim {
 
 class Crossings {
@@ -39,8 +41,7 @@ class Crossings {
   std::size_t size() const { return size_; }
 
   // Answers for all pixels. The same bytes at every vector level.
-  void solve(double refractory_us);
-  void solve(double refractory_us, int vector_level);
+  void solve(double refractory_us, int level = vector_level());
 
   Answer answer(std::size_t i) const { return static_cast<Answer>(answer_[i]); }
   // Of pixels with an event: the crossing, and whether it is one of rising light.

@@ -46,7 +46,7 @@ class ExactSignal : public PixelSignal {
   }
 
   void finish(std::span<Candidate> candidates) override {
-    static const auto respond = compiled_for<apply<&Response::at>>(vector_level());
+    const auto respond = compiled_for<apply<&Response::at>>(vector_level());
     respond(response_, values_.data(), values_.size());
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       candidates[i].s0 = values_[2 * i];
@@ -55,7 +55,7 @@ class ExactSignal : public PixelSignal {
   }
 
   void set_bounds(std::span<const SignalBounds> bounds) override {
-    static const auto invert = compiled_for<apply<&Response::inverse>>(vector_level());
+    const auto invert = compiled_for<apply<&Response::inverse>>(vector_level());
     limits_.resize(2 * bounds.size());
     for (std::size_t i = 0; i < bounds.size(); ++i) {
       limits_[2 * i] = bounds[i].low;

@@ -4,8 +4,6 @@
 #include <bit>
 #include <limits>
 
-#include "sim/base/vector_level.h"
-
 namespace dodgesim {
 
 namespace {
@@ -66,14 +64,8 @@ void LuminanceBounds::set(std::size_t pixel, double low_luminance, double high_l
 }
 
 void LuminanceBounds::scan(std::size_t first, std::size_t size, const float* luminance,
-                           unsigned char* may_fire) const {
-  static const int level = vector_level();
-  scan(first, size, luminance, may_fire, level);
-}
-
-void LuminanceBounds::scan(std::size_t first, std::size_t size, const float* luminance,
-                           unsigned char* may_fire, int vector_level) const {
-  compiled_for<scan_part>(vector_level)(
+                           unsigned char* may_fire, int level) const {
+  compiled_for<scan_part>(level)(
       {size, luminance, low_.data() + first, high_.data() + first, may_fire, epsilon_});
 }
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/base/vector_level.h"
+
 namespace dodgesim {
 
 // The bounds of all pixels, packed into 16 bits each so that a pass over them is short. Packing
@@ -19,10 +21,8 @@ class LuminanceBounds {
 
   // may_fire[i] = 1 where luminance[i], that of the pixel first + i, is not between its bounds or
   // is negative or no number. The same at every vector level.
-  void scan(std::size_t first, std::size_t size, const float* luminance,
-            unsigned char* may_fire) const;
   void scan(std::size_t first, std::size_t size, const float* luminance, unsigned char* may_fire,
-            int vector_level) const;
+            int level = vector_level()) const;
 
  private:
   float epsilon_;

@@ -9,7 +9,6 @@
 #include <type_traits>
 
 #include "sim/base/branchless.h"
-#include "sim/base/vector_level.h"
 #include "sim/events/spec.h"
 
 namespace dodgesim {
@@ -225,17 +224,12 @@ double Photoreceptor::straight_s(const Charge& now, double luminance, double slo
   return std::sqrt(8 * tolerance / curvature);
 }
 
-void Photoreceptor::advance(const Row& row) const {
-  static const int level = vector_level();
-  advance(row, level);
-}
-
-void Photoreceptor::advance(const Row& row, int vector_level) const {
+void Photoreceptor::advance(const Row& row, int level) const {
   const Constants constants = {response_, static_cast<float>(rad_s_),
                                static_cast<float>(dark_rad_s_),
                                static_cast<float>(follower_rad_s_)};
   const bool linear = response_.linear_somewhere();
-  kernel_for(order_, row.dt_s != nullptr, linear, vector_level)(constants, row);
+  kernel_for(order_, row.dt_s != nullptr, linear, level)(constants, row);
 }
 
 }  // namespace dodgesim

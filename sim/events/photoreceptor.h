@@ -12,6 +12,7 @@
 
 #include <cstddef>
 
+#include "sim/base/vector_level.h"
 #include "sim/events/response.h"
 
 namespace dodgesim {
@@ -66,8 +67,7 @@ class Photoreceptor {
     unsigned char* may_fire;      // 1: z may have left its bounds, or the luminance is no number
   };
   // In single precision; the same bytes at every vector level (see sim/base/vector_level.h).
-  void advance(const Row& row) const;
-  void advance(const Row& row, int vector_level) const;
+  void advance(const Row& row, int level = vector_level()) const;
 
  private:
   ResponseOf<float> response_;

@@ -5,8 +5,6 @@
 #include <limits>
 #include <type_traits>
 
-#include "sim/base/vector_level.h"
-
 namespace dodgesim {
 
 namespace {
@@ -177,13 +175,8 @@ constexpr std::array<std::array<SolidKernels, kSolidTypes>, kVectorLevels> kKern
 
 }  // namespace
 
-const SolidKernels& solid_kernels(SolidType type, int vector_level) {
-  return kKernels[static_cast<std::size_t>(vector_level)][static_cast<std::size_t>(type)];
-}
-
-const SolidKernels& solid_kernels(SolidType type) {
-  static const int level = vector_level();
-  return solid_kernels(type, level);
+const SolidKernels& solid_kernels(SolidType type, int level) {
+  return kKernels[static_cast<std::size_t>(level)][static_cast<std::size_t>(type)];
 }
 
 }  // namespace dodgesim

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "sim/base/vector_level.h"
 #include "sim/render/solids.h"
 
 namespace dodgesim {
@@ -52,7 +53,6 @@ struct SolidKernels {
 enum class SolidType { kEllipsoid, kCapsule, kCylinder, kBox };
 inline constexpr int kSolidTypes = 4;
 
-const SolidKernels& solid_kernels(SolidType type);  // the fastest
-const SolidKernels& solid_kernels(SolidType type, int vector_level);
+const SolidKernels& solid_kernels(SolidType type, int level = vector_level());
 
 }  // namespace dodgesim

@@ -4,8 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include "sim/base/vector_level.h"
-
 namespace dodgesim {
 
 namespace {
@@ -209,13 +207,8 @@ constexpr std::array<SurfaceKernels, kVectorLevels> kKernels = {kernels(kPortabl
 
 }  // namespace
 
-const SurfaceKernels& surface_kernels(int vector_level) {
-  return kKernels[static_cast<std::size_t>(vector_level)];
-}
-
-const SurfaceKernels& surface_kernels() {
-  static const int level = vector_level();
-  return surface_kernels(level);
+const SurfaceKernels& surface_kernels(int level) {
+  return kKernels[static_cast<std::size_t>(level)];
 }
 
 }  // namespace dodgesim

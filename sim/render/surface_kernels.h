@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/base/vector_level.h"
 #include "sim/render/solid_kernels.h"
 
 namespace dodgesim {
@@ -55,7 +56,6 @@ struct SurfaceKernels {
                 float* luminance);
 };
 
-const SurfaceKernels& surface_kernels();  // the fastest
-const SurfaceKernels& surface_kernels(int vector_level);
+const SurfaceKernels& surface_kernels(int level = vector_level());
 
 }  // namespace dodgesim
