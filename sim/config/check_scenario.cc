@@ -104,18 +104,6 @@ void check_stop(const Scenario& scenario, ReadContext& context) {
   }
 }
 
-void check_vehicle(const Scenario& scenario, ReadContext& context) {
-  const VehicleOverrides& vehicle = scenario.vehicle_overrides;
-  constexpr double kLeast = VehicleOverrides::kLeastMassOfInertia;
-  if (vehicle.mass_scale >= kLeast * vehicle.inertia_scale) return;
-  context.add_problem("vehicle_overrides.mass_scale",
-                      "vehicle_overrides.mass_scale is " + to_text(vehicle.mass_scale) +
-                          ", but must be at least " + to_text(kLeast) +
-                          " of vehicle_overrides.inertia_scale, which is " +
-                          to_text(vehicle.inertia_scale) +
-                          ": so light a vehicle would climb away when its rotors turn it.");
-}
-
 void check_rate(const std::string& key, int rate_hz, ReadContext& context) {
   if (SampleClock::fits(rate_hz)) return;
   context.add_problem(key, key + " is " + std::to_string(rate_hz) + ", but must divide " +
@@ -192,7 +180,6 @@ void check_keys_together(const Scenario& scenario, ReadContext& context) {
                     context);
   check_throws(scenario, context);
   check_pilot(scenario, context);
-  check_vehicle(scenario, context);
   check_rates(scenario, context);
   check_range_sensor(scenario, context);
   check_thrust(scenario, context);

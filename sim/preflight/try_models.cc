@@ -134,6 +134,22 @@ void check_rotors(const World& world, const Trial& trial) {
       trial, [&] { Mixer(world.vehicle(), trial.min_thrust_n, world.vehicle().max_thrust_n, 0); });
 }
 
+// Whether each rotor lifts its share of the weight with some to spare.
+void check_lift(const World& world, const Trial& trial) {
+  const VehicleParameters& vehicle = world.vehicle();
+  const double weight_n = vehicle.mass_kg * kGravityMps2;
+  const Mixer mixer(vehicle, 0, weight_n, 0);
+  const double share_n = std::ranges::max(mixer.rotor_thrusts({weight_n, {0, 0, 0}}));
+  const double lift = trial.max_thrust_fraction * vehicle.max_thrust_n / share_n;
+  if (lift >= kLeastLift) return;
+  throw ScenarioError(
+      "controller.max_thrust_fraction is " + to_text(trial.max_thrust_fraction) +
+      formatted(", with which a rotor of %s lifts only %.4g times its share of %.4g kg, which is "
+                "%.4g N; it needs at least %g to fly (vehicle_overrides.mass_scale, "
+                "vehicle_overrides.max_thrust_n).",
+                trial.world.vehicle_file().c_str(), lift, vehicle.mass_kg, share_n, kLeastLift));
+}
+
 // Of all models only rooms can have geoms that are refused: height fields never move.
 SceneGeometry scene_of(const World& world, const Trial& trial) {
   try {
@@ -171,14 +187,8 @@ void check_world(const World& world, const Trial& trial) {
                                   "weight: idling rotors would lift it.",
                                   weight_n / 4));
   }
-  const double lift = 4 * trial.max_thrust_fraction * most_n / weight_n;
-  if (lift < kLeastLift) {
-    throw ScenarioError("controller.max_thrust_fraction is " + to_text(trial.max_thrust_fraction) +
-                        ", with which the rotors lift only " + std::to_string(lift) +
-                        " times the vehicle's weight; it needs at least " + to_text(kLeastLift) +
-                        " to fly (vehicle_overrides.mass_scale, vehicle_overrides.max_thrust_n).");
-  }
   check_rotors(world, trial);
+  check_lift(world, trial);
   if (trial.stereo) check_stereo(world, trial);
   if (trial.seen) check_visible(world, trial);
 }

@@ -272,7 +272,7 @@ SceneGeometry collect_scene(const mjModel& model, const std::vector<int>& object
   mj_comPos(&model, data.get());
   mj_camlight(&model, data.get());
   for (int geom = 0; geom < model.ngeom; ++geom) {
-    if (model.geom_group[geom] >= kFirstHiddenGroup || geom_color(model, geom)[3] == 0) continue;
+    if (!is_drawn(model, geom)) continue;
     const int root = model.body_weldid[model.geom_bodyid[geom]];
     int object = -1;
     for (std::size_t i = 0; i < object_bodies.size(); ++i) {

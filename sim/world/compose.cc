@@ -48,6 +48,9 @@ void for_each_element(const std::vector<MjcfTag>& tags, Visit visit) {
   }
 }
 
+// Of what flies: the room's lights, which do not move, are the scene's.
+constexpr std::initializer_list<const char*> kOfRooms = {"light", "visual"};
+
 // Makes bodies and skins of its own, which the event cameras would not see.
 constexpr std::initializer_list<const char*> kUnseen = {"composite", "skin"};
 
@@ -123,6 +126,7 @@ std::vector<MjcfTag> scaled_object(const WorldSpec& world, std::size_t i) {
   // Files that bring global settings would change the other models in the world.
   refuse(tags, {"option", "size", "default", "contact"}, "an object", label);
   refuse(tags, kUnseen, "an object", label);
+  refuse(tags, kOfRooms, "an object", label);
   expect_one_body(tags, label);
   if (!contains(tags, "inertial", &MjcfTag::name)) {
     throw ScenarioError(label + ": The body of an object must have an <inertial>, which is what " +
@@ -221,6 +225,7 @@ MjModelPtr compose_model(const WorldSpec& spec) {
     // The pictures of a room are drawn once and shown from many places.
     if (what == "a room") refuse(tags, {"joint", "freejoint"}, what, label);
     if (what == "a vehicle") {
+      refuse(tags, kOfRooms, what, label);
       expect_one_joint(tags, label);
       expect_no_place(tags, label);
     }

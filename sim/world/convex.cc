@@ -168,8 +168,7 @@ Convex Convex::from_geom(const mjModel& model, int geom, const std::string& labe
       return hull(X, std::move(vertices));
     }
     default:
-      throw ScenarioError(label +
-                          ": a geom that can collide must be a sphere, capsule, cylinder, " +
+      throw ScenarioError(label + ": a geom of a body must be a sphere, capsule, cylinder, " +
                           "ellipsoid, box or mesh.");
   }
 }
@@ -211,12 +210,12 @@ double reach_m(const std::vector<Convex>& parts, const Eigen::Vector3d& directio
   return farthest_m;
 }
 
-std::vector<Convex> colliding_parts(const mjModel& model, int body, const std::string& label,
-                                    const std::function<bool(int geom)>& collides) {
+std::vector<Convex> convex_parts(const mjModel& model, int body, const std::string& label,
+                                 const std::function<bool(int geom)>& wanted) {
   std::vector<Convex> parts;
   const int first = model.body_geomadr[body];
   for (int geom = first; geom < first + model.body_geomnum[body]; ++geom) {
-    if (collides(geom)) parts.push_back(Convex::from_geom(model, geom, label));
+    if (wanted(geom)) parts.push_back(Convex::from_geom(model, geom, label));
   }
   return parts;
 }

@@ -55,9 +55,9 @@ class Convex {
 // vector; 0 if none does.
 double reach_m(const std::vector<Convex>& parts, const Eigen::Vector3d& direction);
 
-// Of the geoms of a body that collide, in the body's frame. Throws as from_geom() does.
-std::vector<Convex> colliding_parts(const mjModel& model, int body, const std::string& label,
-                                    const std::function<bool(int geom)>& collides);
+// Of the wanted geoms of a body, in the body's frame. Throws as from_geom() does.
+std::vector<Convex> convex_parts(const mjModel& model, int body, const std::string& label,
+                                 const std::function<bool(int geom)>& wanted);
 
 // Radius [m] of a sphere about the frame's origin that encloses the parts, each by its own sphere;
 // 0 without parts.

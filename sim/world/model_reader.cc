@@ -13,6 +13,7 @@
 #include "sim/world/convex.h"
 #include "sim/world/geom_color.h"
 #include "sim/world/mujoco_eigen.h"
+#include "sim/world/plausibility.h"
 
 namespace dodgesim {
 
@@ -38,17 +39,6 @@ constexpr double kMostKappaM = 0.1;
 struct Extent {
   double reach_m = 0, length_m = 0;
 };
-
-// No point of the body's geoms is farther from its origin.
-double farthest_m(const mjModel& model, int body) {
-  double farthest_m = 0;
-  const int first = model.body_geomadr[body];
-  for (int g = first; g < first + model.body_geomnum[body]; ++g) {
-    const double reach_m = ConstMap3(model.geom_pos + 3 * g).norm() + model.geom_rbound[g];
-    farthest_m = std::max(farthest_m, reach_m);
-  }
-  return farthest_m;
-}
 
 // Nearly: of the parts along the edges and diagonals of a cube.
 Extent extent_of(const std::vector<Convex>& parts) {
@@ -126,7 +116,7 @@ void ModelReader::check_contact(int geom) const {
 // What the cameras see throws back no more light than falls on it, and hides what is behind it.
 void ModelReader::check_paint(int geom) const {
   const float* rgba = geom_color(model_, geom);
-  if (model_.geom_group[geom] >= kFirstHiddenGroup || rgba[3] == 0) return;
+  if (!is_drawn(model_, geom)) return;
   if (*std::max_element(rgba, rgba + 3) > 1) {
     throw ScenarioError(file_ +
                         ": a geom's colour is above 1: it would throw back more light than " +
@@ -162,18 +152,6 @@ void ModelReader::check_room() const {
                       ": no geom of the room can collide: all would fall through its floor.");
 }
 
-// No body of its mass and size has more; one given in g m^2 or kg cm^2 would.
-void ModelReader::check_inertia(int body) const {
-  const double reach_m = farthest_m(model_, body);
-  const double most_kgm2 = model_.body_mass[body] * reach_m * reach_m;
-  const mjtNum* inertia = model_.body_inertia + 3 * body;
-  const double greatest_kgm2 = *std::max_element(inertia, inertia + 3);
-  if (greatest_kgm2 <= most_kgm2) return;
-  throw ScenarioError(file_ + formatted(": the body's inertia is %.3g kg m^2, but must be at most "
-                                        "%.3g: its mass times the square of how far it reaches.",
-                                        greatest_kgm2, most_kgm2));
-}
-
 FreeBody ModelReader::free_body(int body) const {
   FreeBody out;
   out.body = body;
@@ -203,7 +181,7 @@ FreeBody ModelReader::free_body(int body) const {
   }
   const int first = model_.body_geomadr[body];
   for (int g = first; g < first + model_.body_geomnum[body]; ++g) check_geom(g);
-  check_inertia(body);
+  check_inertia(model_, body, file_);
   out.qpos = model_.jnt_qposadr[joint];
   out.qvel = dof;
   const Eigen::Matrix3d R = quaternion(model_.body_iquat + 4 * body).toRotationMatrix();
@@ -328,28 +306,31 @@ VehicleParameters ModelReader::vehicle(double mass_scale) const {
     throw ScenarioError(file_ + ": the range sensor must look down: z of its site, 'range', is " +
                         "its line of sight and must be -z of the body.");
   }
+  check_mounts(model_, body, vehicle, file_);
+  check_turning(vehicle, file_);
   return vehicle;
 }
 
-void ModelReader::check_reach(int body, double size_m) const {
+void ModelReader::check_reach(int body, double size_m, const char* which,
+                              bool (*wanted)(const mjModel& model, int geom)) const {
   const std::vector<Convex> parts =
-      colliding_parts(model_, body, file_, [this](int geom) { return collides(model_, geom); });
+      convex_parts(model_, body, file_, [&](int geom) { return wanted(model_, geom); });
   if (parts.empty()) return;
   const auto [reach_m, length_m] = extent_of(parts);
   if (reach_m <= kLeastReach * size_m || reach_m >= kMostReach * size_m) {
     throw ScenarioError(
         file_ +
-        formatted(": with a size of %.3g m its geoms that collide reach %.3g m from its centre "
-                  "of mass, but must reach %.3g to %.3g m: reference_size_m is the longest "
-                  "extension of the model.",
-                  size_m, reach_m, kLeastReach * size_m, kMostReach * size_m));
+        formatted(": with a size of %.3g m its geoms that %s reach %.3g m from its centre of mass, "
+                  "but must reach %.3g to %.3g m: reference_size_m is the longest extension of "
+                  "the model.",
+                  size_m, which, reach_m, kLeastReach * size_m, kMostReach * size_m));
   }
   if (length_m < kMostLength * size_m) return;
   throw ScenarioError(
-      file_ + formatted(": with a size of %.3g m its geoms that collide are %.3g m long from end "
-                        "to end: reference_size_m is the longest extension of the model, a ball's "
+      file_ + formatted(": with a size of %.3g m its geoms that %s are %.3g m long from end to "
+                        "end: reference_size_m is the longest extension of the model, a ball's "
                         "diameter.",
-                        size_m, length_m));
+                        size_m, which, length_m));
 }
 
 ObjectPhysics ModelReader::object(const std::string& prefix, double size_m) const {
@@ -357,7 +338,12 @@ ObjectPhysics ModelReader::object(const std::string& prefix, double size_m) cons
   ObjectPhysics object;
   object.mass_kg = model_.body_mass[body];
   object.bounding_radius_m = farthest_m(model_, body);
-  check_reach(body, size_m);
+  check_reach(body, size_m, "collide", collides);
+  check_reach(body, size_m, "are seen", is_drawn);
+  check_density(model_, body, file_);
+  for (int g = 0; g < model_.body_geomnum[body]; ++g) {
+    check_faces(model_, model_.body_geomadr[body] + g, file_);
+  }
   object.drag_area_m2 =
       numeric(prefix + "drag_coefficient", 1)[0] * numeric(prefix + "frontal_area_m2", 1)[0];
   if (!(object.drag_area_m2 >= 0)) {

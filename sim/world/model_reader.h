@@ -53,8 +53,8 @@ class ModelReader {
   // Of a model that is overridden already; mass_scale: by how much its mass was.
   VehicleParameters vehicle(double mass_scale) const;
 
-  // `prefix`: what the names of the object begin with. Its geoms that collide must fit its
-  // size `size_m`, as its longest extension.
+  // `prefix`: what the names of the object begin with. Its geoms that collide, and those that are
+  // seen, must fit its size `size_m`, as its longest extension.
   ObjectPhysics object(const std::string& prefix, double size_m) const;
 
  private:
@@ -63,9 +63,9 @@ class ModelReader {
   void check_geom(int geom) const;
   void check_contact(int geom) const;
   void check_paint(int geom) const;
-  void check_inertia(int body) const;
   void check_rotor(int site, int actuator) const;
-  void check_reach(int body, double size_m) const;
+  void check_reach(int body, double size_m, const char* which,
+                   bool (*wanted)(const mjModel& model, int geom)) const;
   void read_rotors(VehicleParameters& vehicle) const;
 
   const mjModel& model_;

@@ -51,8 +51,8 @@ Referee::Body Referee::read_body(const World& world, int body, const std::string
   const std::string label = world.spec().path(file) + ": The body";
   Body out;
   out.id = body;
-  out.parts = colliding_parts(world.model(), body, label,
-                              [&world](int geom) { return world.can_collide(geom); });
+  out.parts = convex_parts(world.model(), body, label,
+                           [&world](int geom) { return world.can_collide(geom); });
   out.radius_m = radius_m(out.parts);
   if (out.parts.empty()) throw ScenarioError(label + " has no geom that can collide.");
   return out;

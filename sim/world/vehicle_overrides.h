@@ -10,10 +10,6 @@
 namespace dodgesim {
 
 struct VehicleOverrides {
-  // With less mass for its inertia the default controller climbs away in a limit cycle (nominal
-  // vehicle at 1.5 m/s: well behaved at 0.6, 2.5 m above its goal at 0.5, gone at 0.4).
-  static constexpr double kLeastMassOfInertia = 0.6;
-
   double mass_scale = 1;
   double inertia_scale = 1;
   double max_thrust_n = 0;
@@ -30,7 +26,8 @@ struct VehicleOverrides {
   template <class Visitor>
   void visit(Visitor& v) {
     v("mass_scale", mass_scale, 0.1, 10,
-      "Factor on the vehicle's mass; at least 0.6 of inertia_scale. Its air drag, a force, stays "
+      "Factor on the vehicle's mass; of the nominal one at least 0.6 of inertia_scale. Its air "
+      "drag, a force, stays "
       "what it is.");
     v("inertia_scale", inertia_scale, 0.1, 10,
       "Factor on its moments of inertia. Lower it with the mass: rotors that have to turn the "

@@ -184,8 +184,20 @@ TEST_F(OwnModelsCommandTest, AVehicleThatCannotFlyIsRefusedBeforeTheCampaign) {
   EXPECT_EQ(dodgesim(held + "0.9").exit_code, 0);
   const Outcome weak = dodgesim(held + "0.7");
   EXPECT_EQ(weak.exit_code, 2);
-  EXPECT_THAT(weak.output, HasSubstr("=0.7: controller.max_thrust_fraction is 0.7, with which the "
-                                     "rotors lift only 1.08"));
+  EXPECT_THAT(weak.output, HasSubstr("=0.7: controller.max_thrust_fraction is 0.7, with which a "
+                                     "rotor of vehicles/qav_rxl.xml lifts only 1.085 times its "
+                                     "share of 2.5 kg"));
+
+  // The front rotors carry nearly all of it.
+  copy_models(root_);
+  const std::string even = contents("models/vehicles/qav_rxl.xml");
+  const std::string uneven = std::regex_replace(even, std::regex("pos=\"-0.085"), "pos=\"-0.485");
+  ASSERT_NE(uneven, even);
+  write("models/vehicles/qav_rxl.xml", uneven);
+  const std::string own = "validate " + path("s.yaml") + " --models " + path("models") +
+                          " --set vehicle_overrides.mass_scale=";
+  EXPECT_EQ(dodgesim(own + "1").exit_code, 0);
+  EXPECT_THAT(dodgesim(own + "2").output, HasSubstr("times its share of 2 kg, which is 8.3"));
 }
 
 TEST_F(OwnModelsCommandTest, AVehicleThatCrashesBeforeItIsThrownAtIsNamed) {

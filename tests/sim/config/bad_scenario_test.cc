@@ -319,9 +319,6 @@ const BadScenario kBadScenarios[] = {
      "bad.yaml:1:10: extends is \"../../../../../../../../etc/passwd\", but must end in .yaml or"},
     {"ExtendsAbsolute", "extends: /etc/hosts.yaml\n",
      "bad.yaml:1:10: extends is \"/etc/hosts.yaml\", but must be relative"},
-    {"LightForItsInertia", "vehicle_overrides: {mass_scale: 0.4}\n",
-     "bad.yaml:1:33: vehicle_overrides.mass_scale is 0.4, but must be at least 0.6 of "
-     "vehicle_overrides.inertia_scale, which is 1"},
     {"NegativeMass", "vehicle_overrides: {mass_scale: -1}\n",
      "bad.yaml:1:33: vehicle_overrides.mass_scale is -1, but must be between 0.1 and 10."},
     {"CoreContradiction", "dodger: {position: {min_range_m: 2, max_range_m: 1}}\n",

@@ -161,6 +161,21 @@ TEST_F(OwnModels, NamesThatRoomAndVehicleShareAreReportedWithBothFiles) {
                                        HasSubstr("vehicles/qav_rxl.xml: "), HasSubstr("hull")));
 }
 
+// The cameras' scene has lights that stay where they are.
+TEST_F(OwnModels, WhatFliesBringsNoLight) {
+  const std::string lamp = "<light pos='0 0 0' dir='1 0 0'/>", good = object("<geom size='0.05'/>");
+  write_object(object("<geom size='0.05'/>" + lamp));
+  EXPECT_THAT(message_of(spec_), HasSubstr("The model of an object must not use <light>"));
+  write_object(object("<geom size='0.05'/>", "<visual><headlight ambient='1 1 1'/></visual>"));
+  EXPECT_THAT(message_of(spec_), HasSubstr("The model of an object must not use <visual>"));
+  write_object(good);
+  const std::filesystem::path path = directory_ / "vehicles" / "qav_rxl.xml";
+  std::string lit = testing::contents(path);
+  lit.insert(lit.find("</body>"), lamp);
+  testing::put(path, lit);
+  EXPECT_THAT(message_of(spec_), HasSubstr("The model of a vehicle must not use <light>"));
+}
+
 // Throws, controller and IMU know of gravity, too.
 TEST_F(OwnModels, RoomsAndVehiclesMustNotChangeGravityAndAir) {
   write_object(object("<geom size='0.05'/>"));
@@ -291,7 +306,7 @@ TEST_F(OwnModels, AMeshAndATextureMayHaveTheNamesOfTheirFiles) {
   std::filesystem::create_directories(directory_ / "meshes");
   testing::put(directory_ / "meshes" / "rock.obj",
                "v 0.05 0 0\nv -0.05 0 0\nv 0 0.05 0\nv 0 0 0.05\n"
-               "f 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n");
+               "f 1 2 3\nf 1 3 4\nf 2 4 3\nf 1 4 2\n");
   write_object(object("<geom type='mesh' mesh='rock' material='grey'/>",
                       "<asset><mesh file='meshes/rock.obj'/>"
                       "<texture type='2d' file='textures/floor.png'/>"

@@ -128,6 +128,20 @@ TEST_F(ModelReaderTest, AnObjectIsAsLargeAsItsReferenceSizeSays) {
   EXPECT_THAT(with("<geom size='0.05' pos='1 0 0'/>"), HasSubstr("reach 2.1 m"));
 }
 
+TEST_F(ModelReaderTest, WhatIsSeenOfAnObjectIsAsLargeAsWhatCollides) {
+  const auto with = [&](const std::string& drawn) {
+    write_object(
+        object("<geom size='0.05' group='4'/><geom contype='0' conaffinity='0' " + drawn + "/>"));
+    return world_message();
+  };
+  EXPECT_EQ(with("type='box' size='0.03 0.03 0.03'"), "");
+  EXPECT_THAT(with("type='box' size='0.00003 0.00003 0.00003'"),
+              HasSubstr("its geoms that are seen reach 0.000104 m"));
+  EXPECT_THAT(with("type='box' size='30 30 30'"), HasSubstr("its geoms that are seen reach 104 m"));
+  EXPECT_EQ(with("type='box' size='30 30 30' group='4'"), "");
+  EXPECT_EQ(with("type='box' size='30 30 30' rgba='1 1 1 0'"), "");
+}
+
 // An object with such a cushion would turn round before the vehicle's hull: a miss of a throw that
 // hits.
 TEST_F(ModelReaderTest, NothingPushesBeforeItIsTouched) {
@@ -221,6 +235,58 @@ TEST_F(ModelReaderTest, NobodyHasMoreInertiaThanItsMassAndSizeAllow) {
   EXPECT_EQ(with("2e-3 2e-3 2e-3"), "");  // times 2^5; at most 8 kg at 0.1 m
   EXPECT_THAT(with("2e-3 2e-3 3e-3"),
               HasSubstr("own.xml: the body's inertia is 0.096 kg m^2, but must be at most 0.08"));
+  EXPECT_EQ(with("1e-5 1e-5 1e-5"), "");
+  EXPECT_THAT(
+      with("1e-6 1e-6 1e-6"),
+      HasSubstr("own.xml: the body's greatest moment of inertia is 3.2e-05 kg m^2, but must "
+                "be at least 0.00016"));
+}
+
+TEST_F(ModelReaderTest, NothingIsDenserThanOsmium) {
+  const auto with = [&](const std::string& inertial) {
+    return changed_message(object("<geom size='0.05' group='1'/>"),
+                           "mass='1' diaginertia='1e-3 1e-3 1e-3'", inertial);
+  };
+  EXPECT_EQ(with("mass='11' diaginertia='0.01 0.01 0.01'"), "");  // times 2^3, of 10 cm
+  EXPECT_THAT(with("mass='12' diaginertia='0.01 0.01 0.01'"),
+              HasSubstr("own.xml: the body's mass is 96 kg, but must be at most 94.6 kg"));
+}
+
+TEST_F(ModelReaderTest, AMeshThatIsInsideOutIsRefused) {
+  std::filesystem::create_directories(directory_ / "meshes");
+  write_object(object("<geom type='mesh' mesh='own' group='1'/>",
+                      "<asset><mesh file='meshes/own.obj'/></asset>"));
+  const auto with = [&](const std::string& faces) {
+    std::filesystem::remove(directory_ / "meshes" / "own.obj");
+    testing::put(directory_ / "meshes" / "own.obj",
+                 "v .05 0 0\nv -.05 0 0\nv 0 .05 0\nv 0 0 .05\n" + faces);
+    return world_message();
+  };
+  EXPECT_EQ(with("f 1 2 3\nf 1 3 4\nf 2 4 3\nf 1 4 2\n"), "");
+  EXPECT_THAT(with("f 1 3 2\nf 1 4 3\nf 2 3 4\nf 1 2 4\n"),
+              HasSubstr("own.xml: the mesh 'own' is inside out"));
+}
+
+TEST_F(ModelReaderTest, AVehicleIsAsSmallAsItsRotorsAndCamerasAreNear) {
+  spec_.objects.clear();
+  const auto file = directory_ / "vehicles" / "qav_rxl.xml";
+  const std::string good = testing::contents(file);
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    testing::put(file, text);
+    return world_message();
+  };
+  EXPECT_EQ(with("pos=\"0.12 0 0.075\"", "pos=\"0.12 0 0.6\""), "");
+  EXPECT_THAT(with("pos=\"0.12 0 0.075\"", "pos=\"0.12 0 75\""),
+              HasSubstr("a camera is 75 m from the vehicle's centre of mass, but must be within"));
+  EXPECT_THAT(with("pos=\" 0.085  0.10 0.020\"", "pos=\" 85  100 0.020\""),
+              HasSubstr("a rotor is 131 m from the vehicle's centre of mass"));
+  EXPECT_EQ(with("mass=\"1.0\"", "mass=\"0.6\""), "");
+  EXPECT_THAT(
+      with("mass=\"1.0\"", "mass=\"0.5\""),
+      HasSubstr("the vehicle's mass is 0.5 kg, but must be at least 0.599 kg for an inertia "
+                "of 0.004 kg m^2 about y and rotors 0.085 m from that axis"));
 }
 
 TEST_F(ModelReaderTest, PaintHidesWhatIsBehindItAndThrowsBackNoMoreThanThereIs) {

@@ -117,8 +117,7 @@ TEST(ThrowTest, BearingAndOffsetAreMeantFromTheVehicle) {
   const BodyState launch = solve_throw(toss, kBall20cm, vehicle_W, heading_rad);
   EXPECT_TRUE(launch.p_W.isApprox(Vector3d(0.8, 4, 1.5), 1e-12));
   toss.bearing_deg = 30 - 360;
-  EXPECT_TRUE(
-      solve_throw(toss, kBall20cm, vehicle_W, heading_rad).p_W.isApprox(launch.p_W, 1e-12));
+  EXPECT_TRUE(solve_throw(toss, kBall20cm, vehicle_W, heading_rad).p_W.isApprox(launch.p_W, 1e-12));
 }
 
 TEST(ThrowTest, LeftAndRightThrowsAreMirrorImages) {
