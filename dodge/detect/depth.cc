@@ -76,14 +76,17 @@ Eigen::Vector2d DepthEstimator::centre(const Cluster& cluster) const {
   return {cluster.rectangle.center.x, cluster.rectangle.center.y};
 }
 
-// What the border cuts off of one camera's picture the other camera may see: their centres are of
-// different parts then, and what both see of the object ends at the end away from the border.
+// Of what goes on above the image the bottom camera sees less, of what goes on below it the top
+// one: their centres are nearer to each other then than the object's are. What both see of it ends
+// at the end away from the border; but each may have seen another edge of it.
 double DepthEstimator::cluster_disparity_px(const Cluster& top, const Cluster& bottom) const {
   const Rows above(top.rectangle, camera_.height), below(bottom.rectangle, camera_.height);
   const bool cut_above = above.cut_above || below.cut_above;
   const bool cut_below = above.cut_below || below.cut_below;
-  if (cut_above == cut_below) return centre(top).y() - centre(bottom).y();
-  return cut_above ? above.last - below.last : above.first - below.first;
+  const double centres_px = centre(top).y() - centre(bottom).y();
+  if (cut_above == cut_below) return centres_px;
+  const double ends_px = cut_above ? above.last - below.last : above.first - below.first;
+  return std::max(centres_px, ends_px);
 }
 
 double DepthEstimator::matching_cost(const Cluster& top, const Cluster& bottom) const {

@@ -1,6 +1,9 @@
 #include "sim/tables/loaded_campaign.h"
 
+#include <cstdint>
 #include <utility>
+
+#include "sim/base/formatted.h"
 
 namespace dodgesim {
 
@@ -23,6 +26,23 @@ std::vector<Part> parts_of(const LoadedCampaign& campaign) {
   // The key stop excludes a sweep: there is one part.
   if (campaign.stop) parts.front().sequential = campaign.stop->interval();
   return parts;
+}
+
+std::string LoadedCampaign::losses() const {
+  constexpr double kWorthASentence = 0.01;
+  std::int64_t lost = 0, all = 0;
+  for (const ThrowResult& result : results) {
+    for (std::size_t camera = 0; camera < result.events.size(); ++camera) {
+      lost += result.events_lost[camera];
+      all += result.events[camera] + result.events_lost[camera];
+    }
+  }
+  const double share = all > 0 ? static_cast<double>(lost) / static_cast<double>(all) : 0;
+  if (share < kWorthASentence) return "";
+  return formatted(
+      "The readout of the event cameras lost %.0f %% of their events, which no pilot saw "
+      "(sensors.events.readout_max_hz).",
+      100 * share);
 }
 
 }  // namespace dodgesim

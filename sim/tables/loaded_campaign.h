@@ -23,6 +23,10 @@ struct LoadedCampaign {
   int wanted() const { return ended_early() ? *stop->end() : throw_count(scenario); }
   bool ended_early() const { return stop && stop->end(); }
   bool complete() const { return static_cast<int>(results.size()) == wanted(); }
+
+  // A sentence if the readout of the event cameras lost a good part of their events, of which no
+  // cause of a collision speaks; else empty.
+  std::string losses() const;
 };
 
 // Leaves out throws that were flown while the campaign came to its early end.

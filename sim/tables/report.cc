@@ -279,6 +279,7 @@ Json data_of(const LoadedCampaign& campaign, const std::string& directory) {
           {"program", "dodgesim " + campaign.program},
           {"wanted", campaign.wanted()},
           {"stop", campaign.stop ? campaign.stop->text() : ""},
+          {"losses", campaign.losses()},
           {"replay", replay_line(directory, scenario)},
           {"real_time_factor", computing_s > 0 ? simulated_s / computing_s : 0.0},
           {"heat", std::move(heat)},

@@ -254,7 +254,7 @@ std::string section(const std::string& title, const std::string& text) {
 std::string markdown_of(const Part& part, const TableAxes& axes, const StatisticsTable& table) {
   const ThrowStatistics& all = table.rows.back().statistics;
   std::string text;
-  if (!part.values.empty()) text += "# " + label(part.values) + "\n\n";
+  if (!part.values.empty()) text += "# " + markdown_escaped(label(part.values)) + "\n\n";
   const bool anything_thrown = std::ranges::any_of(part.results, &ThrowResult::thrown);
   if (anything_thrown) {
     text += "Dodged: " + rate_text(all.flown().tally.success()) + "\n\n";
@@ -295,6 +295,7 @@ std::string head_of(const LoadedCampaign& campaign) {
             ": a shard, or a campaign that was stopped.\n\n";
   }
   if (campaign.stop) text += campaign.stop->text() + "\n\n";
+  if (const std::string losses = campaign.losses(); !losses.empty()) text += losses + "\n\n";
   if (campaign.ended_early()) {
     text +=
         "The intervals of single rows are approximate: what was seen decided how many throws "

@@ -14,7 +14,7 @@ namespace dodgesim {
 namespace {
 
 // A ball has 0.4 times its mass and the square of its radius, the nominal vehicle 0.1.
-constexpr double kLeastInertia = 0.002;
+constexpr double kLeastInertia = 0.0005;
 
 constexpr double kOsmiumKgpm3 = 22590;
 

@@ -48,14 +48,20 @@ bool has_stop(const std::filesystem::path& directory) {
   return false;
 }
 
-// What was changed from one campaign to the other, if both have their scenarios.
+// What was changed from one campaign to the other, if both have their scenarios. First what stands
+// at the top, such as the pilot, on which much of the rest may depend.
 std::vector<ScenarioChange> changes_between(const std::filesystem::path& first,
                                             const std::filesystem::path& second) {
   if (!std::filesystem::exists(first / kScenarioFile) ||
       !std::filesystem::exists(second / kScenarioFile)) {
     return {};
   }
-  return scenario_changes(read_file(first / kScenarioFile), read_file(second / kScenarioFile));
+  std::vector<ScenarioChange> changes =
+      scenario_changes(read_file(first / kScenarioFile), read_file(second / kScenarioFile));
+  std::ranges::stable_partition(changes, [](const ScenarioChange& change) {
+    return change.key.find('.') == std::string::npos;
+  });
+  return changes;
 }
 
 void print(const std::vector<ScenarioChange>& changes) {

@@ -76,6 +76,7 @@ void Coverage::report(TimeUs begin_us, TimeUs end_us, TimeUs period_us) const {
   }
   const TimeUs covered_us =
       std::min(end_us, stamps_us_.back()) - std::max(begin_us, stamps_us_.front());
+  constexpr std::ptrdiff_t kMany = 10;  // readings; few may be of a camera that hardly moves
   TimeUs longest_gap_us = 0;
   for (std::size_t i = 1; i < stamps_us_.size(); ++i) {
     const TimeUs from_us = stamps_us_[i - 1], to_us = stamps_us_[i];
@@ -84,11 +85,12 @@ void Coverage::report(TimeUs begin_us, TimeUs end_us, TimeUs period_us) const {
     }
   }
   const bool little = 10 * covered_us < end_us - begin_us;
+  const bool sparse = std::ssize(stamps_us_) > kMany && 2 * longest_gap_us > end_us - begin_us;
   std::printf("%s: %s, covers %.3f of %.3f s, longest gap %.1f ms%s\n", name_,
               count_text(std::ssize(stamps_us_), "reading").c_str(),
               seconds(std::max<TimeUs>(covered_us, 0)), seconds(end_us - begin_us),
               1e-3 * static_cast<double>(longest_gap_us),
-              little ? ": are all times in microseconds, of one clock?" : "");
+              little || sparse ? ": are all times in microseconds, of one clock?" : "");
 }
 
 void report_rates(const char* log, const char* axes, const RateCheck::Fit& fit) {

@@ -140,6 +140,8 @@ function legendOf(names) {
 // Rates over a number, with the band of their intervals. series: [{name, points: [[x, rate]]}].
 // They stand a little apart, so that none hides behind another.
 function rateCurves({series, xLabel, label}) {
+  const drawn = (s) => s.points.some(([, rate]) => rate[1] > 0);
+  if (!series.some(drawn)) return empty('No such throws.');
   const xs = series.flatMap((s) => s.points.map(([x]) => x));
   const [least, most] = [Math.min(...xs), Math.max(...xs)];
   const margin = 0.06 * (most - least) || 0.5;
@@ -165,7 +167,6 @@ function rateCurves({series, xLabel, label}) {
     chart.append(group);
   });
   const figure = document.createElement('div');
-  const drawn = (s) => s.points.some(([, rate]) => rate[1] > 0);
   figure.append(chart, legendOf(series.map((s) => drawn(s) && s.name)));
   return figure;
 }

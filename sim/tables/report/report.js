@@ -5,6 +5,7 @@ function fillHead() {
   byId('title').textContent = data.title;
   byId('description').textContent = data.description;
   byId('stop').textContent = data.stop;
+  byId('losses').textContent = data.losses;
   const pilots = new Set(data.sections.map((s) => pilotOf(s, 'flown').name));
   const facts = [['Pilot', [...pilots].join(', ')], ['Throws', `${count} of ${data.wanted}`],
                  ['Seed', data.seed], ['Program', data.program]];
@@ -110,12 +111,13 @@ function fillErrors() {
 // The list of throws.
 
 const kPage = 15;
+const ofThrow = (i, value, digits) => number(has(i, 'thrown') ? value : NaN, digits);
 const kColumns = [
   ['throw', (i) => throws.number[i]],
   ['outcome', (i) => fateOf(i), 'text'],
-  ['size [m]', (i) => number(throws.size[i])],
-  ['distance [m]', (i) => number(throws.distance[i], 1)],
-  ['speed [m/s]', (i) => number(throws.speed[i], 1)],
+  ['size [m]', (i) => ofThrow(i, throws.size[i])],
+  ['distance [m]', (i) => ofThrow(i, throws.distance[i], 1)],
+  ['speed [m/s]', (i) => ofThrow(i, throws.speed[i], 1)],
   ['clearance [m]', (i) => number(throws.clearance[i])],
   ['cause', (i) => (throws.cause[i] === kNone ? '' : data.causes[throws.cause[i]]), 'text'],
 ];

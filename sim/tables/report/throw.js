@@ -38,7 +38,10 @@ function open(i, scroll) {
   stop();
   byId('throw-title').textContent = `Throw ${throws.number[i]}`;
   byId('throw-story').textContent = storyOf(i);
-  byId('replay').textContent = `${data.replay}${throws.number[i]} --video throw${throws.number[i]}.mp4`;
+  // Of a flight that failed there is no film.
+  const film = has(i, 'failed') ? '--mcap' : '--video', type = has(i, 'failed') ? 'mcap' : 'mp4';
+  byId('replay').textContent =
+      `${data.replay}${throws.number[i]} ${film} throw${throws.number[i]}.${type}`;
   byId('number').value = throws.number[i];
   history.replaceState(null, '', `#throw=${throws.number[i]}`);
   fillList();
