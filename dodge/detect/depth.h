@@ -31,11 +31,10 @@ struct StereoConfig {
     v("disparity", disparity, {"centres", "correlation"},
       "Disparity of a matched pair: the shift at which the rho images of the two cameras agree "
       "best, starting from the disparity of the clusters' centres, or the latter alone. (Of what "
-      "the "
-      "upper or lower border of an image cuts off, the disparity of the other end.) The two "
-      "cameras see different parts of an object's outline move: centres alone err by 10 cm at 1 m "
-      "and match noise with noise, the correlation errs by 2 to 4 cm. The paper says no more than "
-      "'the cluster's disparity' and 'the cluster's centers'.");
+      "the upper or lower border of an image cuts off, that of the other end if it is greater.) "
+      "The two cameras see different parts of an object's outline move: centres alone err by 10 cm "
+      "at 1 m and match noise with noise, the correlation errs by 2 to 4 cm. The paper says no "
+      "more than 'the cluster's disparity' and 'the cluster's centers'.");
     v("search_px", search_px, 0, 100,
       "How far from the centres' disparity the correlation looks, and on while it grows: about the "
       "size of an object.");

@@ -26,7 +26,7 @@ struct VehicleOverrides {
   template <class Visitor>
   void visit(Visitor& v) {
     v("mass_scale", mass_scale, 0.1, 10,
-      "Factor on the vehicle's mass; of the nominal one at least 0.6 of inertia_scale. Its air "
+      "Factor on the vehicle's mass; of the nominal vehicle at least 0.6 of inertia_scale. Its air "
       "drag, a force, stays "
       "what it is.");
     v("inertia_scale", inertia_scale, 0.1, 10,

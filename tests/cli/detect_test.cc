@@ -297,6 +297,19 @@ TEST_F(DetectTest, SaysHowLongTheImuWasSilentInTheRecording) {
       HasSubstr("IMU: 5 readings, covers 0.020 of 0.020 s, longest gap 25.0 ms"));
 }
 
+TEST_F(DetectTest, AsksForTheUnitOfAnImuWhoseClockRunsAThousandTimesTooFast) {
+  std::string events = "t_us,x,y,p\n", imu = "t_us,wx,wy,wz\n";
+  for (int i = 0; i < 100; ++i) events += std::to_string(200 * i) + ",5,5,1\n";
+  for (int i = 0; i < 20; ++i)
+    imu += std::to_string(1'000'000 * i) + ",0,0,0\n";  // of 1 kHz, in ns
+  write("e.csv", events);
+  write("i.csv", imu);
+  write("c.yaml", "{width: 64, height: 48}");
+  EXPECT_THAT(
+      detect(path("e.csv") + " --calibration " + path("c.yaml") + " --imu " + path("i.csv")).output,
+      HasSubstr("longest gap 1000.0 ms: are all times in microseconds, of one clock?"));
+}
+
 // A camera that turns to the right and back before upright stripes, and an IMU that says so, or the
 // opposite.
 TEST_F(DetectTest, SaysWhetherTheRatesFitTheEvents) {

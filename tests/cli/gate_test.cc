@@ -229,6 +229,16 @@ TEST_F(GateCommandTest, CompareSaysWhichThrowsItLeavesOut) {
   EXPECT_THAT(unfinished.output, HasSubstr(path("two") + " is not finished, "));
 }
 
+TEST_F(GateCommandTest, CompareBeginsWithThePilotOnWhichOtherKeysDepend) {
+  const std::string run = "run " + path("s.yaml") + " -j 1 --throws 1 --out ";
+  ASSERT_EQ(dodgesim(run + path("a") + " --set pilot=none").exit_code, 0);
+  ASSERT_EQ(
+      dodgesim(run + path("b") + " --set pilot=oracle --set delays.compute_us=2000").exit_code, 0);
+  const std::string text = dodgesim("compare " + path("a") + " " + path("b")).output;
+  const std::size_t pilot = text.find("  pilot: none, then oracle\n");
+  EXPECT_LT(pilot, text.find("  delays.compute_us: ")) << text;
+}
+
 TEST_F(GateCommandTest, ComparePairsTheThrowsOfASweepWhateverTheRepeats) {
   const std::string sweep =
       "sweep " + path("s.yaml") + " -j 1 --over delays.compute_us=0,3500 --out ";

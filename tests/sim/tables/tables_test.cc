@@ -288,5 +288,19 @@ TEST(Tables, AFlightOfThePilotNoneFailsOnceOnly) {
   EXPECT_EQ(made.csv.find(row), made.csv.rfind(row)) << "and has one row";
 }
 
+TEST(Tables, SayWhatTheReadoutLostOnceItMatters) {
+  std::vector<ThrowResult> results = {
+      throw_with(0, flown(true), flown(true), flown(false)),
+      throw_with(1, flown(true), flown(true), flown(false)),
+  };
+  results[0].events = {600, 0};
+  results[1].events = {0, 400};
+  results[1].events_lost = {4, 5};
+  EXPECT_THAT(tables(results).markdown, Not(HasSubstr("readout")));
+  results[1].events_lost = {800, 200};
+  EXPECT_THAT(tables(results).markdown,
+              HasSubstr("The readout of the event cameras lost 50 % of their events"));
+}
+
 }  // namespace
 }  // namespace dodgesim
