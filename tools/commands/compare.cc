@@ -58,7 +58,7 @@ std::vector<ScenarioChange> changes_between(const std::filesystem::path& first,
   }
   std::vector<ScenarioChange> changes =
       scenario_changes(read_file(first / kScenarioFile), read_file(second / kScenarioFile));
-  std::ranges::stable_partition(changes, [](const ScenarioChange& change) {
+  std::stable_partition(changes.begin(), changes.end(), [](const ScenarioChange& change) {
     return change.key.find('.') == std::string::npos;
   });
   return changes;
