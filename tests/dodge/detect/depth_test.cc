@@ -324,6 +324,15 @@ TEST_F(DepthTest, WhatABorderCutsOffInOneCameraHasTheDepthOfItsOtherEnd) {
   EXPECT_GT(cut, 20);
 }
 
+// The upper camera sees the object's middle alone, the lower one all of it that is in its image.
+TEST_F(DepthTest, AtTheBorderCamerasThatSeeDifferentEdgesMeasureNoLessThanTheirCentres) {
+  Cluster top = square(160, 60, 60), bottom = square(160, 29.5, 60);
+  top.rectangle.size.height = 40;
+  const auto detections = locate(centres(), {top}, {bottom});
+  ASSERT_EQ(detections.size(), 1U);
+  EXPECT_NEAR(detections[0].depth_m, 190.7 * 0.15 / 30.5, 1e-4);
+}
+
 // A horizontal bar that the bottom camera sees twice: its cluster is the worse of the two.
 TEST_F(DepthTest, AMatchThatHasABetterOneElsewhereIsNoneIfAskedFor) {
   const auto draw = [&](std::size_t camera, int y, float rho) {

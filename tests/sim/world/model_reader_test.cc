@@ -14,17 +14,25 @@ namespace {
 
 using ::testing::HasSubstr;
 
-class ModelReaderTest : public OwnModels {};
-
-TEST_F(ModelReaderTest, AVehicleThatTheMixerWouldTakeForAnotherIsRefused) {
-  spec_.objects.clear();
-  const auto file = directory_ / "vehicles" / "qav_rxl.xml";
-  const std::string good = testing::contents(file);
-  const auto with = [&](const std::string& from, const std::string& to) {
+class ModelReaderTest : public OwnModels {
+ protected:
+  // What is said of the nominal vehicle, alone, with `to` in place of the first `from`.
+  std::string changed_vehicle_message(const std::string& from, const std::string& to) {
+    spec_.objects.clear();
+    const auto file = directory_ / "vehicles" / "qav_rxl.xml";
+    const std::string good = testing::contents(file);
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
     testing::put(file, text);
-    return world_message();
+    const std::string message = world_message();
+    testing::put(file, good);
+    return message;
+  }
+};
+
+TEST_F(ModelReaderTest, AVehicleThatTheMixerWouldTakeForAnotherIsRefused) {
+  const auto with = [&](const std::string& from, const std::string& to) {
+    return changed_vehicle_message(from, to);
   };
   EXPECT_EQ(with("mujoco", "mujoco"), "");
   const auto a_rotor = HasSubstr("a rotor must be a motor at its site");
@@ -268,14 +276,8 @@ TEST_F(ModelReaderTest, AMeshThatIsInsideOutIsRefused) {
 }
 
 TEST_F(ModelReaderTest, AVehicleIsAsSmallAsItsRotorsAndCamerasAreNear) {
-  spec_.objects.clear();
-  const auto file = directory_ / "vehicles" / "qav_rxl.xml";
-  const std::string good = testing::contents(file);
   const auto with = [&](const std::string& from, const std::string& to) {
-    std::string text = good;
-    text.replace(text.find(from), from.size(), to);
-    testing::put(file, text);
-    return world_message();
+    return changed_vehicle_message(from, to);
   };
   EXPECT_EQ(with("pos=\"0.12 0 0.075\"", "pos=\"0.12 0 0.6\""), "");
   EXPECT_THAT(with("pos=\"0.12 0 0.075\"", "pos=\"0.12 0 75\""),
