@@ -1,7 +1,6 @@
 #include "sim/world/plausibility.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -23,11 +22,6 @@ constexpr double kMostMount = 3;  // times the vehicle's reach
 // Inertia per mass and distance of the rotors from the axis [m]; 0.047 of the nominal vehicle.
 constexpr double kMostTurningM = 0.0785;
 
-double greatest_inertia_kgm2(const mjModel& model, int body) {
-  const mjtNum* inertia = model.body_inertia + 3 * body;
-  return *std::max_element(inertia, inertia + 3);
-}
-
 }  // namespace
 
 double farthest_m(const mjModel& model, int body) {
@@ -43,7 +37,7 @@ double farthest_m(const mjModel& model, int body) {
 void check_inertia(const mjModel& model, int body, const std::string& file) {
   const double reach_m = farthest_m(model, body);
   const double most_kgm2 = model.body_mass[body] * reach_m * reach_m;
-  const double greatest_kgm2 = greatest_inertia_kgm2(model, body);
+  const double greatest_kgm2 = ConstMap3(model.body_inertia + 3 * body).maxCoeff();
   if (greatest_kgm2 > most_kgm2) {
     throw ScenarioError(file + formatted(": the body's inertia is %.3g kg m^2, but must be at most "
                                          "%.3g: its mass times the square of how far it reaches.",

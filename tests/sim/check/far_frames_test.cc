@@ -16,10 +16,10 @@ TEST(FarFramesCheck, FailsForOtherEventsThanThoseOfTheLightBetween) {
   broken[0].difference.count_ratio = 0.98;
   EXPECT_EQ(failures(judge(broken)), Names{"frames.1000us.count"});
   broken = good;
-  broken[0].difference.median_us = kSamplingStampLimitUs + 4;
+  broken[0].difference.median_us = kSamplingStampLimitUs + good[0].early_us + 1;
   EXPECT_EQ(failures(judge(broken)), Names{"frames.1000us.stamps"});
   broken = good;
-  broken[1].difference.median_us = kSamplingStampLimitUs + 93;
+  broken[1].difference.median_us = kSamplingStampLimitUs + good[1].early_us + 1;
   EXPECT_EQ(failures(judge(broken)), Names{"frames.33333us.stamps"});
 }
 
@@ -41,7 +41,7 @@ TEST(FarFramesCheck, KnowsHowEarlyAStepsCutOffMakesASlowLowPass) {
   std::vector<FarFrames> frames = measure_far_frames(slow, 1);
   EXPECT_GT(frames[1].difference.median_us, kSamplingStampLimitUs);
   EXPECT_TRUE(failures(judge(frames)).empty());
-  frames[1].difference.median_us = kSamplingStampLimitUs + 93;
+  frames[1].difference.median_us = kSamplingStampLimitUs + 93;  // 92.3 of 33 ms
   EXPECT_EQ(failures(judge(frames)), Names{"frames.33333us.stamps"});
 }
 
