@@ -124,5 +124,32 @@ TEST_F(DetectRefusalsTest, SaysThatThePilotLandsAndThatRangesAreOfNoUse) {
                     Not(HasSubstr("lands"))));
 }
 
+// What is said of a log beside events of 20 ms.
+class DetectImuTest : public DetectRefusalsTest {
+ protected:
+  std::string said_of(const std::string& readings, int begin_us) {
+    std::string events = "t_us,x,y,p\n";
+    for (int i = 0; i < 100; ++i) events += std::to_string(begin_us + 200 * i) + ",5,5,1\n";
+    write("e.csv", events);
+    write("i.csv", "t_us,wx,wy,wz\n" + readings);
+    return detect("e.csv", "--imu " + path("i.csv")).output;
+  }
+};
+
+// Not of the time before and after.
+TEST_F(DetectImuTest, SaysHowLongTheImuWasSilentInTheRecording) {
+  const std::string readings =
+      "0,0,0,0\n9990000,0,0,0\n10005000,0,0,0\n10030000,0,0,0\n20000000,0,0,0\n";
+  EXPECT_THAT(said_of(readings, 10'000'000),
+              HasSubstr("IMU: 5 readings, covers 0.020 of 0.020 s, longest gap 25.0 ms\n"));
+}
+
+TEST_F(DetectImuTest, AsksForTheUnitOfAClockThatRunsAThousandTimesTooFast) {
+  std::string readings;  // of 1 kHz, in ns
+  for (int i = 0; i < 20; ++i) readings += std::to_string(1'000'000 * i) + ",0,0,0\n";
+  EXPECT_THAT(said_of(readings, 0),
+              HasSubstr("longest gap 1000.0 ms: are all times in microseconds, of one clock?"));
+}
+
 }  // namespace
 }  // namespace dodgesim::testing
