@@ -263,6 +263,10 @@ void Clusterer::merge_groups(int label_count) {
     merged.velocity /= merged.pixels;
     merged.centroid /= merged.events;
     merged.rectangle = bounding_rectangle(merged_outline_);
+    const auto higher = [](const cv::Point2f& a, const cv::Point2f& b) { return a.y < b.y; };
+    const auto [top, bottom] = std::ranges::minmax_element(merged_outline_, higher);
+    merged.top_row = top->y - 0.5;
+    merged.bottom_row = bottom->y + 0.5;
     if (longer_side(merged.rectangle) > config_.max_aspect * shorter_side(merged.rectangle))
       continue;
     clusters_.push_back(merged);

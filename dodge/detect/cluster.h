@@ -56,7 +56,8 @@ struct ClusterConfig {
 
 // A group of pixels that move together, in compensated pixels.
 struct Cluster {
-  cv::RotatedRect rectangle;  // around the outer borders of its pixels with events [px]
+  cv::RotatedRect rectangle;           // around the outer borders of its pixels with events [px]
+  double top_row = 0, bottom_row = 0;  // the upper and lower ends of those borders [px]
   Eigen::Vector2d centroid = Eigen::Vector2d::Zero();  // of its events [px]
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // [px per event window]
   double rho = 0;                                      // mean over its pixels

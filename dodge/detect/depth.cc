@@ -14,21 +14,7 @@ namespace {
 
 // An object this near to the border of the image may go on beyond it: a turn by 1 rad/s moves the
 // compensated border by 2 px in a window of 10 ms.
-constexpr float kBorder_px = 3;
-
-// The rows from the uppermost to the lowermost corner of a rectangle in the image.
-struct Rows {
-  float first, last;
-  bool cut_above, cut_below;  // by the border, possibly
-
-  Rows(const cv::RotatedRect& rectangle, int image_rows) {
-    cv::Point2f corners[4];
-    rectangle.points(corners);
-    std::tie(first, last) = std::minmax({corners[0].y, corners[1].y, corners[2].y, corners[3].y});
-    cut_above = first < kBorder_px;
-    cut_below = last > static_cast<float>(image_rows - 1) - kBorder_px;
-  }
-};
+constexpr double kBorder_px = 3;
 
 // How much the greater of two positive numbers exceeds the smaller, as a ratio; 0 if equal.
 double excess_ratio(double a, double b) { return std::max(a / b, b / a) - 1; }
@@ -80,12 +66,13 @@ Eigen::Vector2d DepthEstimator::centre(const Cluster& cluster) const {
 // one: their centres are nearer to each other then than the object's are. What both see of it ends
 // at the end away from the border; but each may have seen another edge of it.
 double DepthEstimator::cluster_disparity_px(const Cluster& top, const Cluster& bottom) const {
-  const Rows above(top.rectangle, camera_.height), below(bottom.rectangle, camera_.height);
-  const bool cut_above = above.cut_above || below.cut_above;
-  const bool cut_below = above.cut_below || below.cut_below;
+  const double lowest_px = camera_.height - 1 - kBorder_px;
+  const bool cut_above = std::min(top.top_row, bottom.top_row) < kBorder_px;
+  const bool cut_below = std::max(top.bottom_row, bottom.bottom_row) > lowest_px;
   const double centres_px = centre(top).y() - centre(bottom).y();
   if (cut_above == cut_below) return centres_px;
-  const double ends_px = cut_above ? above.last - below.last : above.first - below.first;
+  const double ends_px =
+      cut_above ? top.bottom_row - bottom.bottom_row : top.top_row - bottom.top_row;
   return std::max(centres_px, ends_px);
 }
 

@@ -185,6 +185,8 @@ TEST(Clusterer, RectangleFollowsASlantedObject) {
   }
   EXPECT_NEAR(along_most - along_least, 41 / std::numbers::sqrt2 + 1, 0.5);
   EXPECT_NEAR(across_most - across_least, 3 / std::numbers::sqrt2 + 1, 0.5);
+  EXPECT_EQ(clusters[0].top_row, 19.5);  // the rectangle's corners go beyond
+  EXPECT_EQ(clusters[0].bottom_row, 42.5);
 }
 
 TEST(Clusterer, MergesNearGroupsOfLikeRhoOnly) {
@@ -193,7 +195,7 @@ TEST(Clusterer, MergesNearGroupsOfLikeRhoOnly) {
   config.weight_position_1ppx = 0.2;
   MaskImage image;
   image.add_block(20, 20, 5, 5, 10000);
-  image.add_block(34, 20, 5, 5, 10000);  // 9 px away: cost 0.2 * 9 = 1.8
+  image.add_block(34, 22, 5, 5, 10000);  // 9 px away: cost 0.2 * 9 = 1.8
   image.add_block(53, 20, 5, 5, 10000);  // 14 px away: 2.8
   image.add_block(76, 20, 5, 5, 10000);  // 18 px away: 3.6
   image.add_block(20, 34, 5, 5, 7500);   // 9 px away, but rho differs by 0.25: 5.5
@@ -201,6 +203,8 @@ TEST(Clusterer, MergesNearGroupsOfLikeRhoOnly) {
   ASSERT_EQ(clusters.size(), 3U);
   EXPECT_EQ(clusters[0].pixels, 75);
   EXPECT_NEAR(clusters[0].rectangle.center.x, 38.5, 1e-3);
+  EXPECT_EQ(clusters[0].top_row, 19.5);
+  EXPECT_EQ(clusters[0].bottom_row, 26.5);
   EXPECT_NEAR(clusters[0].centroid.x(), (22 + 36 + 55) / 3.0, 1e-6);
   EXPECT_EQ(clusters[1].pixels, 25);
   EXPECT_EQ(clusters[2].pixels, 25);

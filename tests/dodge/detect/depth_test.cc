@@ -16,6 +16,8 @@ class DepthTest : public ::testing::Test {
     cluster.rectangle =
         cv::RotatedRect(cv::Point2f(static_cast<float>(u), static_cast<float>(v)),
                         cv::Size2f(static_cast<float>(side_px), static_cast<float>(side_px)), 0);
+    cluster.top_row = v - side_px / 2;
+    cluster.bottom_row = v + side_px / 2;
     cluster.centroid = {u, v};
     cluster.pixels = static_cast<int>(side_px * side_px);
     cluster.events = 2 * cluster.pixels;
@@ -290,12 +292,14 @@ TEST_F(DepthTest, CorrelationMeasuresDepthThoughEachCameraSeesAnotherPart) {
 
 // What is left of a cluster of upright rectangle in the image.
 Cluster cut_off_at_border(Cluster cluster) {
-  const float side = cluster.rectangle.size.height, v = cluster.rectangle.center.y;
-  const float first = std::max(-0.5F, v - side / 2), last = std::min(239.5F, v + side / 2);
-  cluster.rectangle.center.y = (first + last) / 2;
-  cluster.rectangle.size.height = last - first;
-  cluster.centroid.y() = cluster.rectangle.center.y;
-  cluster.pixels = static_cast<int>(static_cast<float>(cluster.pixels) * (last - first) / side);
+  const double side_px = cluster.bottom_row - cluster.top_row;
+  cluster.top_row = std::max(-0.5, cluster.top_row);
+  cluster.bottom_row = std::min(239.5, cluster.bottom_row);
+  const double left_px = cluster.bottom_row - cluster.top_row;
+  cluster.centroid.y() = (cluster.top_row + cluster.bottom_row) / 2;
+  cluster.rectangle.center.y = static_cast<float>(cluster.centroid.y());
+  cluster.rectangle.size.height = static_cast<float>(left_px);
+  cluster.pixels = static_cast<int>(cluster.pixels * left_px / side_px);
   return cluster;
 }
 
@@ -328,9 +332,22 @@ TEST_F(DepthTest, WhatABorderCutsOffInOneCameraHasTheDepthOfItsOtherEnd) {
 TEST_F(DepthTest, AtTheBorderCamerasThatSeeDifferentEdgesMeasureNoLessThanTheirCentres) {
   Cluster top = square(160, 60, 60), bottom = square(160, 29.5, 60);
   top.rectangle.size.height = 40;
+  top.top_row = 40;
+  top.bottom_row = 80;
   const auto detections = locate(centres(), {top}, {bottom});
   ASSERT_EQ(detections.size(), 1U);
   EXPECT_NEAR(detections[0].depth_m, 190.7 * 0.15 / 30.5, 1e-4);
+}
+
+// The corners of an oblique rectangle lie beyond what it is around, by different amounts.
+TEST_F(DepthTest, TheEndOfAnObliqueObjectIsThatOfItsPixels) {
+  Cluster top = square(160, 100, 60), bottom = square(160, 20, 41);
+  top.rectangle.angle = 45;
+  bottom.rectangle.angle = 20;
+  bottom.bottom_row = top.bottom_row - 82;
+  const auto detections = locate(centres(), {top}, {bottom});
+  ASSERT_EQ(detections.size(), 1U);
+  EXPECT_NEAR(detections[0].depth_m, 190.7 * 0.15 / 82, 1e-4);
 }
 
 // A horizontal bar that the bottom camera sees twice: its cluster is the worse of the two.
@@ -341,6 +358,8 @@ TEST_F(DepthTest, AMatchThatHasABetterOneElsewhereIsNoneIfAskedFor) {
   const auto bar = [&](double y) {
     Cluster cluster = square(160, y, 20);
     cluster.rectangle.size.height = 3;
+    cluster.top_row = y - 1.5;
+    cluster.bottom_row = y + 1.5;
     return cluster;
   };
   draw(0, 130, 0.3F);
