@@ -13,7 +13,9 @@ inline constexpr double kMostTriedS = 240;
 
 struct TriedThrows {
   int solved = 0;
-  std::string crash;  // a sentence on the first whose vehicle crashes before it is thrown
+  // A sentence on the first whose vehicle, by itself, crashes or turns about where it is to hover,
+  // before it is thrown at; empty if there is none.
+  std::string trouble;
 };
 
 // Solves throws of the campaign and launches them at a vehicle without a pilot, as many as take

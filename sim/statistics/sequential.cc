@@ -25,6 +25,16 @@ double outcome_sd(std::int64_t successes, std::int64_t trials) {
   return std::sqrt(rate * (1 - rate));
 }
 
+// The shares of the orders of [first, last] successes in n throws, from those of [first, last - 1]
+// in n - 1. Counts are int, which any processor turns into several doubles at once.
+void add_throw(int n, int first, int last, const double* before, double* share) {
+  share[first] = before[first] * (n - first) / n;
+  for (int s = first + 1; s < last; ++s) {
+    share[s] = (before[s - 1] * s + before[s] * (n - s)) / n;
+  }
+  share[last] = before[last - 1] * last / n;
+}
+
 }  // namespace
 
 FixedWidthRule::FixedWidthRule(double half_width, double confidence, std::int64_t max_trials)
@@ -44,7 +54,7 @@ FixedWidthRule FixedWidthRule::run_out(std::int64_t trials) const {
   if (trials >= max_trials_) return rule;
   rule.max_trials_ = trials;
   rule.find_stop_points();
-  if (rule.least_coverage() >= confidence_) return rule;
+  if (rule.covers_every_rate()) return rule;
   // Campaigns that stop before miss the rate no more often than this rule's: some z is enough.
   rule.choose_z(z_, z_ * kGrowth, [&rule](double z) {
     rule.last_z_ = z;
@@ -59,7 +69,7 @@ void FixedWidthRule::choose_z(double too_small, double enough, Set set) {
   // Coverage need not rise steadily with z: `enough` always is a z whose coverage was found good.
   const auto covers = [&](double z) {
     set(z);
-    return least_coverage() >= confidence_;
+    return covers_every_rate();
   };
   while (!covers(enough)) {
     too_small = enough;
@@ -104,21 +114,18 @@ void FixedWidthRule::set_z(double z) {
 // campaign. It follows from the shares at n - 1 by the last throw's outcome.
 void FixedWidthRule::find_stop_points() {
   stop_points_.clear();
-  std::vector<double> share(static_cast<std::size_t>(max_trials_ + 1), 0.0);
+  std::vector<double> share(static_cast<std::size_t>(max_trials_ + 1), 0.0), before = share;
   share[0] = 1;
   std::int64_t first = 0, last = 0;  // the counts at which the campaign goes on
   for (std::int64_t n = 1; n <= max_trials_ && first <= last; ++n) {
-    const auto trials = static_cast<double>(n);
+    std::swap(share, before);
     ++last;
-    for (std::int64_t s = last; s >= first; --s) {
-      const auto i = static_cast<std::size_t>(s);
-      const double from_success = s > first ? share[i - 1] * static_cast<double>(s) : 0;
-      const double from_failure = s < last ? share[i] * static_cast<double>(n - s) : 0;
-      share[i] = (from_success + from_failure) / trials;
-    }
+    add_throw(static_cast<int>(n), static_cast<int>(first), static_cast<int>(last), before.data(),
+              share.data());
     const auto stop_at = [&](std::int64_t s) {
       if (!done(s, n)) return false;
-      const double log_orders = log_binomial_pmf(s, n, 0.5) + trials * std::numbers::ln2;
+      const double log_orders =
+          log_binomial_pmf(s, n, 0.5) + static_cast<double>(n) * std::numbers::ln2;
       stop_points_.push_back(
           {s, n, log_orders + std::log(share[static_cast<std::size_t>(s)]), interval(s, n)});
       return true;
@@ -158,14 +165,28 @@ double FixedWidthRule::coverage(double p) const {
 
 // Between two neighbouring ends of intervals the stop points that cover are the same, those between
 // two counts, and their probability rises and falls once: it is smallest next to an end.
-double FixedWidthRule::least_coverage() const {
-  double least = 1;
+template <class Visit>
+void FixedWidthRule::visit_least_covered(Visit visit) const {
   for (const StopPoint& point : stop_points_) {
     for (const double p : {point.interval.lo - kBeside, point.interval.hi + kBeside}) {
-      if (p > 0 && p <= 0.5) least = std::min(least, coverage(p));  // the rule is symmetric
+      if (p > 0 && p <= 0.5 && !visit(p)) return;  // the rule is symmetric
     }
   }
+}
+
+double FixedWidthRule::least_coverage() const {
+  double least = 1;
+  visit_least_covered([&](double p) {
+    least = std::min(least, coverage(p));
+    return true;
+  });
   return least;
+}
+
+bool FixedWidthRule::covers_every_rate() const {
+  bool covers = true;
+  visit_least_covered([&](double p) { return covers = coverage(p) >= confidence_; });
+  return covers;
 }
 
 Interval confidence_sequence(std::int64_t successes, std::int64_t trials, double confidence) {

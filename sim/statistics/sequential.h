@@ -66,6 +66,10 @@ class FixedWidthRule {
   template <class Set>
   void choose_z(double too_small, double enough, Set set);
   void set_z(double z);
+  bool covers_every_rate() const;
+  // Visits rates, the least covered among them, until visit(rate) is false.
+  template <class Visit>
+  void visit_least_covered(Visit visit) const;
   bool narrow(std::int64_t successes, std::int64_t trials) const;
   void find_stop_points();
 

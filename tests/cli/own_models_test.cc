@@ -211,6 +211,15 @@ TEST_F(OwnModelsCommandTest, AVehicleThatCrashesBeforeItIsThrownAtIsNamed) {
                                      "before it is thrown at\\."));
 }
 
+TEST_F(OwnModelsCommandTest, AVehicleThatItsGainsDoNotLetHoverIsNamed) {
+  const std::string gain =
+      "validate " + path("s.yaml") + " --set flight_controller.rate_gain_xy_1ps=";
+  EXPECT_THAT(dodgesim(gain + "160").output, testing::Not(HasSubstr("turns")));
+  EXPECT_THAT(dodgesim(gain + "1000").output,
+              testing::ContainsRegex("In throw [01] the vehicle, which is to hover, turns by "
+                                     "[0-9.]+ rad/s when it is thrown at, at [0-9.]+ s\\."));
+}
+
 TEST_F(OwnModelsCommandTest, ThrowsThroughWhatStopsThemAreFoundWhetherOrNotItIsSeen) {
   copy_models(root_);
   const std::string field = contents("models/rooms/field.xml");

@@ -36,7 +36,7 @@ void validate(const ValidateArguments& arguments) {
   for (const std::string& note : idle_keys(scenario)) std::cerr << note << "\n";
   for (const std::string& note : vehicle_notes(scenario)) std::cerr << note << "\n";
   const TriedThrows tried = try_throws(scenario);
-  if (!tried.crash.empty()) std::cerr << tried.crash << "\n";
+  if (!tried.trouble.empty()) std::cerr << tried.trouble << "\n";
   std::cout << arguments.scenario << ": a valid scenario";
   if (scenario.anyone_throws()) {
     std::cout << " of " << count_text(throw_count(scenario), "throw");
