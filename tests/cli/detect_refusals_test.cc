@@ -20,6 +20,7 @@ class DetectRefusalsTest : public CommandTest {
     std::string events = "t_us,x,y,p\n";
     for (int i = 0; i < 100; ++i) events += std::to_string(5000 * i) + ",5,5,1\n";
     write("e.csv", events);
+    write("e2.csv", events);
   }
 
   Outcome detect(const std::string& events, const std::string& options = "") const {
@@ -64,7 +65,7 @@ TEST_F(DetectRefusalsTest, NamesTheCalibrationsOfAPair) {
                     std::string(name == std::string("up.yaml") ? "0.1" : "0") + "]}");
   }
   const auto refusal = [this](const std::string& first, const std::string& second) {
-    return dodgesim("detect " + path("e.csv") + " " + path("e.csv") + " --calibration " +
+    return dodgesim("detect " + path("e.csv") + " " + path("e2.csv") + " --calibration " +
                     path(first) + " " + path(second) + " --out " + path("found"))
         .output;
   };
@@ -72,6 +73,16 @@ TEST_F(DetectRefusalsTest, NamesTheCalibrationsOfAPair) {
               AllOf(HasSubstr(path("down.yaml") + " and " + path("up.yaml") + ": Stereo needs"),
                     HasSubstr("give the upper camera first.")));
   EXPECT_THAT(refusal("up.yaml", "up.yaml"), HasSubstr("give both the same place"));
+}
+
+TEST_F(DetectRefusalsTest, TakesNoFileForBothCameras) {
+  fs::create_symlink(root_ / "e.csv", root_ / "same.csv");
+  const Outcome outcome =
+      dodgesim("detect " + path("e.csv") + " " + path("same.csv") + " --calibration " +
+               path("c.yaml") + " " + path("c.yaml") + " --out " + path("found"));
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(outcome.output,
+            path("same.csv") + ": is given for both cameras; each needs its own events.\n");
 }
 
 TEST_F(DetectRefusalsTest, NamesTheFileOfEvents) {
