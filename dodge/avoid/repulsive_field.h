@@ -27,8 +27,8 @@ struct RepulsiveConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v("field", field, {"falanga", "khosla"},
-      "Magnitude of the repulsive force: (28), or that of the classic field (27). With the "
-      "direction gradient khosla is the whole classic field.");
+      "Magnitude of the repulsive force: (28), or that of the classic field (27). As a whole the "
+      "classic field has direction gradient, too, and neither scale_by_speed nor upward.");
     v("k_r0", k_r0, 0.0, 1000.0,
       "Repulsive constant at a detection (33). With |v| of (32) the force is in units of (m/s) per "
       "(m/s). Not given by the paper; first value from the authors' group's open code.");

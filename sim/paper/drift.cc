@@ -37,10 +37,6 @@ struct Outcome {
   }
 };
 
-std::string of_all(const Rate& rate) {
-  return std::to_string(rate.count) + " / " + std::to_string(rate.of);
-}
-
 std::string spread_text(const Measured& sample) {
   if (sample.count() == 0) return "-";
   const auto at = [&](double share) { return fixed_text(sample.quantile(share)->value, 2); };
@@ -55,8 +51,9 @@ std::string monitor_text(const LoadedCampaign& campaign) {
 
 void add_row(const std::string& name, const std::string& drift_mps, const std::string& monitor,
              const Outcome& outcome, TextTable& table) {
-  table.rows.push_back({name, drift_mps, monitor, of_all(outcome.landed), of_all(outcome.crashed),
-                        spread_text(outcome.landing_s), short_rate_text(outcome.tally.success())});
+  table.rows.push_back({name, drift_mps, monitor, short_rate_text(outcome.landed),
+                        short_rate_text(outcome.crashed), spread_text(outcome.landing_s),
+                        short_rate_text(outcome.tally.success())});
 }
 
 // Nobody throws; the campaign may switch the monitor.

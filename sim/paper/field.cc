@@ -1,5 +1,8 @@
 // What each part of the paper's repulsive field is worth: (28) instead of (27), |v| in (32), |F_z|,
 // the decay (33).
+#include <algorithm>
+
+#include "sim/base/formatted.h"
 #include "sim/paper/experiment.h"
 #include "sim/paper/pair.h"
 #include "sim/paper/rate_grid.h"
@@ -13,7 +16,7 @@ const std::vector<PaperVariant>& variants() {
   static const std::vector<PaperVariant> all = {
       {"faithful", "as in the paper", {}},
       {"classic",
-       "the classic field (26), (27)",
+       "(27) instead of (28) and (29), with |v| and |F_z|",
        {set("dodger.repulsive.field", "khosla"), set("dodger.repulsive.direction", "gradient")}},
       {"classic_magnitude",
        "(27) instead of (28), the direction (29)",
@@ -24,6 +27,13 @@ const std::vector<PaperVariant>& variants() {
       {"no_speed",
        "without |v| of (32), the same k_r0 (4)",
        {set("dodger.repulsive.scale_by_speed", "false")}},
+      {"classic_no_speed",
+       "without |v| of (32), (27) instead of (28)",
+       {set("dodger.repulsive.scale_by_speed", "false"), set("dodger.repulsive.field", "khosla")}},
+      {"classic_whole",
+       "the whole classic field (26), (27): no |v|, no |F_z|",
+       {set("dodger.repulsive.scale_by_speed", "false"), set("dodger.repulsive.field", "khosla"),
+        set("dodger.repulsive.direction", "gradient"), set("dodger.repulsive.upward", "false")}},
       {"no_speed_24",
        "without |v| of (32), k_r0 24",
        {set("dodger.repulsive.scale_by_speed", "false"), set("dodger.repulsive.k_r0", "24")}},
@@ -48,10 +58,27 @@ constexpr const char* kFieldProtocol = R"(How to read it:
   exp(-lambda dt) while the object is not detected, that is, between its detections, too.
 )";
 
-std::string p_against(const LoadedCampaign& faithful, const LoadedCampaign& variant, int sweep) {
+PairedCounts paired(const LoadedCampaign& first, const LoadedCampaign& second, int sweep) {
   PilotPair pair;
-  pair.add(faithful, variant, [sweep](const ThrowResult& r) { return r.sweep == sweep; });
-  return p_text(mcnemar(pair.paired));
+  pair.add(first, second, [sweep](const ThrowResult& r) { return r.sweep == sweep; });
+  return pair.paired;
+}
+
+// Of the variants.
+const LoadedCampaign& flown_by(const std::string& variant,
+                               const std::vector<LoadedCampaign>& campaigns) {
+  const auto named = [&](const PaperVariant& v) { return v.file == variant; };
+  const auto at = std::ranges::find_if(variants(), named);
+  return campaigns[static_cast<std::size_t>(at - variants().begin())];
+}
+
+// With |v| either magnitude asks for more than the vehicle's speed.
+std::string without_speed_text(const std::vector<LoadedCampaign>& campaigns, int sweep) {
+  const PairedCounts counts =
+      paired(flown_by("no_speed", campaigns), flown_by("classic_no_speed", campaigns), sweep);
+  return formatted("(27) instead of (28), both without |v|: %lld lost, %lld gained, p %s.\n\n",
+                   static_cast<long long>(counts.only_first),
+                   static_cast<long long>(counts.only_second), p_text(mcnemar(counts)).c_str());
 }
 
 // Success of every variant at one of the ranges, by speed.
@@ -85,10 +112,12 @@ PaperTables analyse_field(const std::vector<LoadedCampaign>& campaigns) {
     TextTable table = grids.back().table();
     table.head.push_back("p");
     for (std::size_t v = 0; v < variants().size(); ++v) {
-      table.rows[v].push_back(
-          v == 0 ? "" : p_against(campaigns[0], campaigns[v], static_cast<int>(range)));
+      const auto sweep = static_cast<int>(range);
+      table.rows[v].push_back(v == 0 ? ""
+                                     : p_text(mcnemar(paired(campaigns[0], campaigns[v], sweep))));
     }
-    tables.markdown += table.to_markdown() + "\n";
+    tables.markdown +=
+        table.to_markdown() + "\n" + without_speed_text(campaigns, static_cast<int>(range));
   }
   tables.markdown += decay_table(campaigns.back()).to_markdown() + "\n" + kFieldProtocol;
   tables.csv = rates_csv(grids);

@@ -1,5 +1,8 @@
 // What the paper's pilot can dodge, by the speed of the object and by the distance from which on it
 // is believed.
+#include <cstddef>
+#include <utility>
+
 #include "sim/base/error.h"
 #include "sim/config/pilot.h"
 #include "sim/paper/avoidance_bound.h"
@@ -46,6 +49,7 @@ struct SpeedCurve {
   std::vector<double> speed_mps;
   std::vector<std::string> columns;
   std::vector<Rate> rates;
+  std::size_t slow = 0;  // so many of them are of slow balls, which come from less far
 
   void add(const Results& results, const LoadedCampaign& campaign) {
     const Axis speeds("speed_mps", campaign.results);
@@ -61,6 +65,7 @@ struct SpeedCurve {
 // Of the slow balls, then of the others.
 SpeedCurve curve(std::size_t part, const LoadedCampaign& slow, const LoadedCampaign& fast) {
   SpeedCurve curve;
+  curve.slow = Axis("speed_mps", slow.results).values().size();
   for (const LoadedCampaign* campaign : {&slow, &fast}) {
     const std::vector<Part> parts = parts_of(*campaign);
     if (part >= parts.size()) {
@@ -69,6 +74,18 @@ SpeedCurve curve(std::size_t part, const LoadedCampaign& slow, const LoadedCampa
     curve.add(parts[part].results, *campaign);
   }
   return curve;
+}
+
+// Without a line from the slow balls to the others, which come from elsewhere.
+void add_in_two(const std::string& name, int colour, const SpeedCurve& curve, Plot& plot) {
+  const auto split = [&curve](const auto& all) {
+    const auto at = all.begin() + static_cast<std::ptrdiff_t>(curve.slow);
+    return std::pair(std::vector(all.begin(), at), std::vector(at, all.end()));
+  };
+  const auto [slow_mps, fast_mps] = split(curve.speed_mps);
+  const auto [slow_rates, fast_rates] = split(curve.rates);
+  add_curve(name, colour, slow_mps, slow_rates, plot);
+  add_curve("", colour, fast_mps, fast_rates, plot);
 }
 
 PaperTables analyse_speed(const std::vector<LoadedCampaign>& campaigns) {
@@ -83,7 +100,7 @@ PaperTables analyse_speed(const std::vector<LoadedCampaign>& campaigns) {
   plot.y = dodged_axis();
   for (std::size_t i = 0; i < std::size(curves); ++i) {
     grid.add_row(names[i], curves[i].rates);
-    add_curve(names[i], static_cast<int>(i), curves[i].speed_mps, curves[i].rates, plot);
+    add_in_two(names[i], static_cast<int>(i), curves[i], plot);
   }
   const Scenario& scenario = campaigns[1].scenario;
   const double tau_s = latency_s(scenario);

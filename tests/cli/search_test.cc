@@ -41,10 +41,22 @@ TEST_F(SearchTest, PrintsWhatCompareSaysOfEachValue) {
   EXPECT_THAT(said, HasSubstr("p = " + found.str(5) + ","));
 }
 
+// Stopped by the option before it flies; the first thing that it looks at are its present values.
+TEST_F(SearchTest, StartsFromTheValuesOfTheProgram) {
+  for (const char* what :
+       {"falanga2020", "falanga2020_mono", "dodgesim", "dodgesim_slow", "dodgesim_thin"}) {
+    const Outcome outcome = search(std::string(what) + " " + path("out") + " --no-such-option");
+    EXPECT_EQ(outcome.exit_code, 1) << what;
+    EXPECT_THAT(outcome.output, HasSubstr("--no-such-option"));
+    EXPECT_THAT(outcome.output, ::testing::Not(HasSubstr("present values"))) << what;
+  }
+}
+
 TEST_F(SearchTest, SaysWhatItCanLookFor) {
   const Outcome outcome = search("nothing " + path("out"));
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("falanga2020, oracle, dodgesim, dodgesim_slow"));
+  EXPECT_THAT(outcome.output,
+              HasSubstr("falanga2020, falanga2020_mono, oracle, dodgesim, dodgesim_slow"));
 }
 
 }  // namespace

@@ -37,12 +37,19 @@ TEST(Drift, TellsTheMonitorsLandingsFromCrashesWithoutIt) {
   failed.flown.status = "error";
   balls.results.push_back(failed);
   const std::string table = drift_experiment().analyse({none, up, up, balls}).markdown;
-  EXPECT_THAT(table, HasSubstr("\n| hover | 0 | on | 0 / 1 | 0 / 1 | - |"));
   EXPECT_THAT(table,
-              HasSubstr("\n| hover | 0.2 | on | 2 / 2 | 0 / 2 | 3.75 (3.70 to 3.80) | - |\n"));
-  EXPECT_THAT(table, HasSubstr("\n| hover | 0.2 | off | 0 / 1 | 1 / 1 | - |"));
-  EXPECT_THAT(table, HasSubstr("\n| balls | 0 | on | 0 / 1 | 0 / 1 | - | 1 / 2 ("));
-  EXPECT_THAT(table, HasSubstr("\n| balls | 0.5 | on | 1 / 1 | 0 / 1 | 1.90 ("));
+              HasSubstr("\n| hover | 0 | on | 0 / 1 (0.00 to 0.79) | 0 / 1 (0.00 to 0.79) | - |"));
+  EXPECT_THAT(table, HasSubstr("\n| hover | 0.2 | on | 2 / 2 (0.34 to 1.00) | 0 / 2 (0.00 to 0.66) "
+                               "| 3.75 (3.70 to 3.80) | - |\n"));
+  EXPECT_THAT(
+      table,
+      HasSubstr("\n| hover | 0.2 | off | 0 / 1 (0.00 to 0.79) | 1 / 1 (0.21 to 1.00) | - |"));
+  EXPECT_THAT(
+      table,
+      HasSubstr("\n| balls | 0 | on | 0 / 1 (0.00 to 0.79) | 0 / 1 (0.00 to 0.79) | - | 1 / 2 ("));
+  EXPECT_THAT(
+      table,
+      HasSubstr("\n| balls | 0.5 | on | 1 / 1 (0.21 to 1.00) | 0 / 1 (0.00 to 0.79) | 1.90 ("));
 }
 
 }  // namespace
