@@ -49,7 +49,7 @@ std::vector<float> random_frame(int number, std::uint64_t seed) {
 std::vector<Event> film(const EventCameraSpec& spec, TimeUs interval_us, std::int64_t fine_steps,
                         std::uint64_t seed) {
   EventCamera camera(spec, kFrameWidth, kFrameHeight, seed, 0, "check");
-  const LightBetween light(spec);
+  LightBetween light(spec);
   std::vector<float> before = random_frame(0, seed);
   std::vector<Event> events;
   camera.reset(0, before.data());

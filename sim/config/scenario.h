@@ -41,7 +41,8 @@ struct CameraSpec {
     v("width", width, 16, 2048, "Columns of each event camera (320 as the paper's SEES1).");
     v("height", height, 16, 2048, "Rows of each event camera (240 as the paper's SEES1).");
     v("horizontal_fov_deg", horizontal_fov_deg, 10, 150,
-      "Horizontal field of view; 80 degrees over 320 columns is a focal length of 190.7 px.");
+      "Horizontal field of view; 80 degrees (about that of the SEES1) over 320 columns is a focal "
+      "length of 190.7 px.");
   }
 };
 

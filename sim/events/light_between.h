@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/base/branchless.h"
 #include "sim/base/time.h"
-#include "sim/events/noise.h"
 #include "sim/events/response.h"
 #include "sim/events/spec.h"
 
@@ -25,6 +25,15 @@ class LightBetween {
   static constexpr TimeUs kLongestStepUs = 50000;
   static constexpr double kChange = 1.2, kMostChanges = 100;
 
+  // What depends on the light as base + slope * min(luminance, bright).
+  struct Rate {
+    float base, slope, bright;
+
+    [[gnu::always_inline]] float at(float luminance) const {
+      return larger(base + slope * smaller(luminance, bright), 0.0F);
+    }
+  };
+
   explicit LightBetween(const EventCameraSpec& spec);
 
   // Steps of the time from one picture to the next, of about the same length, at least 1 us.
@@ -39,11 +48,10 @@ class LightBetween {
   // Calls show(t_us, luminance) for each picture between two, in that many steps.
   template <class Show>
   void show_between(std::int64_t steps, TimeUs before_us, const std::vector<float>& before,
-                    TimeUs after_us, const std::vector<float>& after, const Show& show) const {
-    std::vector<float> between;
+                    TimeUs after_us, const std::vector<float>& after, const Show& show) {
     for (std::int64_t k = 1; k < steps; ++k) {
-      at(static_cast<double>(k) / static_cast<double>(steps), before, after, between);
-      show(before_us + (after_us - before_us) * k / steps, between);
+      at(static_cast<double>(k) / static_cast<double>(steps), before, after, between_);
+      show(before_us + (after_us - before_us) * k / steps, between_);
     }
   }
 
@@ -52,9 +60,8 @@ class LightBetween {
 
   Response response_;
   bool noisy_;
-  bool bandwidth_changes_, shot_noise_changes_;
-  float dark_luminance_;  // which would give the bandwidth that there is in the dark
-  ShotNoiseShare shot_noise_share_;
+  std::vector<float> between_;
+  std::vector<Rate> rates_;  // bandwidth and shot noise, in any units, if they depend on the light
 };
 
 }  // namespace dodgesim

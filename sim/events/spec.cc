@@ -27,7 +27,7 @@ EventCameraSpec noisy() {
   EventCameraSpec spec;
   spec.mismatch_sigma = 0.05;       // assumed
   spec.photoreceptor_hz = 300;      // assumed
-  spec.photoreceptor_dark_hz = 30;  // the cut-off of v2e's noisy camera
+  spec.photoreceptor_dark_hz = 30;  // assumed: that of white in v2e's noisy camera
   spec.refractory_us = 500;         // v2e's default
   spec.leak_hz = 0.2;               // assumed
   spec.shot_noise_on_hz = 2.5;      // v2e: 5 Hz of both polarities

@@ -51,7 +51,7 @@ struct EventCameraSpec {
 //   sees1      the paper's camera, as far as it is known (the descriptions mark what is assumed)
 //   ideal      events are exactly the crossings of log luminance: no mismatch, no bandwidth, no
 //              refractory period, no noise, no latency, no limit of the readout
-//   noisy      a worn or badly biased camera (v2e's "noisy": 5 Hz of shot noise, slow pixels)
+//   noisy      a worn or badly biased camera: shot noise of v2e's "noisy", slow pixels
 //   low_light  the sees1 at 5 lux instead of 500
 EventCameraSpec event_camera_preset(const std::string& name);
 
@@ -66,11 +66,12 @@ void EventCameraSpec::visit(Visitor& v) {
     "dead_pixel_fraction 0, latency_us 0, jitter_us 0 and readout_max_hz 0. low_light: "
     "illuminance_lux 5 (a street at night; assumed), which makes slow pixels, about as slow as "
     "photoreceptor_dark_hz, and hardly more noise. noisy, a worn or badly biased camera: "
-    "photoreceptor_hz 300 (assumed), photoreceptor_dark_hz 30 (v2e's noisy camera has that "
-    "cut-off), refractory_us 500, shot_noise_on_hz 2.5 and shot_noise_off_hz 2.5 (v2e), "
-    "hot_pixel_fraction 0.0012 (measured on a VGA-lite sensor), mismatch_sigma 0.05, leak_hz 0.2 "
-    "(which so much shot noise hardly lets happen), "
-    "dead_pixel_fraction 0.001 and jitter_us 50 (assumed).");
+    "photoreceptor_hz 300 and photoreceptor_dark_hz 30 (assumed: of v2e's noisy camera white has a "
+    "cut-off of 30 Hz and black one of 2), refractory_us 500 (v2e's default, not that of its noisy "
+    "camera), shot_noise_on_hz 2.5 and shot_noise_off_hz 2.5 (v2e's noisy camera), "
+    "hot_pixel_fraction 0.0012 (measured on a VGA-lite sensor), and mismatch_sigma 0.05, leak_hz "
+    "0.2 (which so much shot noise hardly lets happen), dead_pixel_fraction 0.001 and jitter_us 50 "
+    "(assumed).");
   if (preset != before) *this = event_camera_preset(preset);
   v("contrast_threshold_on", contrast_threshold_on, 0.01, 10,
     "Change of log luminance that makes an ON event (v2e and vid2e: 0.2).");
@@ -156,7 +157,8 @@ void EventCameraSpec::visit(Visitor& v) {
     "waits makes no other event, which is counted as lost. 0: no limit.");
   v("stamp_resolution_us", stamp_resolution_us, 1, 100000,
     "Time stamps are multiples of this since the first frame, rounded up from the nearest "
-    "microsecond (from the next one for what happens within 0.5 us after a frame).");
+    "microsecond (from the next one for what happens within 0.5 us after a frame). 1: as event "
+    "cameras give them.");
 }
 
 struct SamplingSpec {

@@ -140,7 +140,7 @@ void warn_of_times(const FrameReader& video) {
 }
 
 void emulate(FrameReader& video, const EventCameraSpec& spec, Emulation& emulation) {
-  const LightBetween light(spec);
+  LightBetween light(spec);
   Progress progress(video.frame_count(), "frames");
   TimeUs before_us = 0, t_us = 0;
   std::vector<float> before, luminance;

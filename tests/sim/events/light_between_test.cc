@@ -93,7 +93,7 @@ std::vector<std::pair<double, int>> low_passed_light(const EventCameraSpec& spec
 
 TEST(LightBetween, LetsBandwidthFollowTheLight) {
   const EventCameraSpec spec = bandwidth_alone();
-  const LightBetween light(spec);
+  LightBetween light(spec);
   for (const auto& [from, to] : {std::pair{1.0F, 0.01F}, std::pair{0.05F, 0.8F}}) {
     EventCamera camera(spec, 1, 1, 1, 0, "test");
     const std::vector<float> before = {from}, after = {to};
@@ -127,6 +127,26 @@ TEST(LightBetween, MovesTheLogarithmOfEveryPixelLinearly) {
       EXPECT_NEAR(between[i], std::exp(l) - 1e-3, 1e-6) << share << " " << i;
     }
     EXPECT_EQ(between[2], 2);
+  }
+}
+
+// A picture is compared and mixed in pieces, each for the processor's vectors.
+TEST(LightBetween, LooksAtEveryPixelOfAPicture) {
+  const LightBetween light(bandwidth_alone());
+  const std::vector<float> before(1000, 0.1F);
+  std::vector<float> between;
+  for (std::size_t i = 0; i < before.size(); i += 37) {
+    std::vector<float> after = before;
+    after[i] = 0.6F;
+    EXPECT_EQ(light.steps(10000, before, after), 8) << i;
+    light.at(0.5, before, after, between);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      if (k == i) {
+        EXPECT_NEAR(between[k], std::sqrt(0.101 * 0.601) - 0.001, 1e-6) << k;
+      } else {
+        EXPECT_EQ(between[k], 0.1F) << k;
+      }
+    }
   }
 }
 
