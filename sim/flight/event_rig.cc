@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
-#include "sim/base/random.h"
 #include "sim/base/wall_clock.h"
 #include "sim/events/event_hash.h"
 #include "sim/render/flicker.h"
@@ -64,8 +62,7 @@ EventRig::EventRig(const World& world, const EventRigSetup& setup)
     : world_(world),
       setup_(setup),
       renderer_(world, setup.intrinsics, setup.render),
-      flicker_phase_rad_(2 * std::numbers::pi *
-                         RandomStream(setup.seed, setup.throw_index, "flicker").uniform()) {
+      flicker_phase_rad_(flicker_phase_rad(setup.seed, setup.throw_index)) {
   for (int i = 0; i < setup.cameras; ++i) {
     eyes_.push_back(std::make_unique<Eye>(world, setup, i));
   }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/base/random.h"
+
 namespace dodgesim {
 
 namespace {
@@ -17,6 +19,10 @@ constexpr double kLogError = 0.003;
 constexpr double kLeastLight = 0.02;
 
 }  // namespace
+
+double flicker_phase_rad(std::uint64_t seed, std::uint64_t throw_index) {
+  return 2 * std::numbers::pi * RandomStream(seed, throw_index, "flicker").uniform();
+}
 
 double flicker_factor(const FlickerSpec& spec, double phase_rad, TimeUs t_us) {
   if (spec.flicker_hz <= 0) return 1;

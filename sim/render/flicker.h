@@ -2,10 +2,15 @@
 // mains' frequency.
 #pragma once
 
+#include <cstdint>
+
 #include "sim/base/time.h"
 #include "sim/render/spec.h"
 
 namespace dodgesim {
+
+// Of the lamps in a throw.
+double flicker_phase_rad(std::uint64_t seed, std::uint64_t throw_index);
 
 // By what the mean luminance is multiplied at t_us: 1 + depth sin(2 pi f t + phase), at least 0.
 double flicker_factor(const FlickerSpec& spec, double phase_rad, TimeUs t_us);

@@ -2,13 +2,10 @@
 #include <filesystem>
 #include <initializer_list>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "sim/base/error.h"
-#include "sim/base/formatted.h"
-#include "sim/base/progress.h"
 #include "sim/campaign/campaign_directory.h"
 #include "sim/campaign/campaign_files.h"
 #include "sim/campaign/journal.h"
@@ -18,58 +15,17 @@
 #include "sim/config/yaml_tree.h"
 #include "sim/files/csv.h"
 #include "sim/files/csv_table.h"
-#include "sim/files/output_file.h"
 #include "sim/flight/fly_throw.h"
 #include "sim/flight/setup.h"
-#include "sim/observers/event_recorder.h"
-#include "sim/observers/event_truth.h"
-#include "sim/observers/film.h"
-#include "sim/observers/mcap_recorder.h"
-#include "sim/observers/observers.h"
-#include "sim/observers/poster.h"
-#include "sim/observers/stage_panels.h"
-#include "sim/observers/vehicle_log.h"
-#include "sim/outcome/fate.h"
 #include "sim/preflight/try_models.h"
 #include "sim/preflight/try_plugin.h"
-#include "sim/recordings/event_writer.h"
 #include "tools/commands/command.h"
+#include "tools/commands/replay_onlookers.h"
 #include "tools/commands/stop_signal.h"
 
 namespace dodgesim {
 
 namespace {
-
-struct ReplayArguments {
-  std::string directory;
-  std::string models_dir;
-  std::string plugin;
-  int throw_index = 0;
-  std::string video, stages, picture, mcap, events, record;  // where they go; empty: none
-  double slow = 10;                                          // of the video
-  std::string camera = kCameraNames[0];
-};
-
-// Ends the flight when the user asks for it.
-class Stopper : public FlightObserver {
- public:
-  void on_tick(const World& /*world*/) override { end_if_asked_to_stop(); }
-};
-
-// Says on a terminal how far the flight is.
-class FlightProgress : public FlightObserver {
- public:
-  explicit FlightProgress(TimeUs duration_us) : progress_(duration_us / kUsPerMs, "ms of flight") {}
-  void on_tick(const World& world) override {
-    // Before, the cost of the first pictures would spoil the estimate of the time that is left.
-    if (world.snapshot().t_us >= kFirstUs) progress_.show(world.snapshot().t_us / kUsPerMs);
-  }
-  void finish() { progress_.finish(); }
-
- private:
-  static constexpr TimeUs kUsPerMs = 1000, kFirstUs = 50 * kUsPerMs;
-  Progress progress_;
-};
 
 // Somebody may have changed the file since: what it says now, nobody has flown.
 void expect_scenario(const std::string& directory, const JournalIndex& index) {
@@ -122,127 +78,6 @@ std::string differences(const std::string& header, const std::string& recorded,
   return text;
 }
 
-std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
-                                                   const ReplayArguments& arguments) {
-  const CameraSpec& camera = scenario.sensors.camera;
-  return std::make_unique<EventRecorder>(
-      arguments.events, Recording{camera.width, camera.height, 0, kLongestFlightUs, true},
-      arguments.camera == kCameraNames[0] ? 0 : 1);
-}
-
-// "dodged, at least 0.23 m between the surfaces"
-std::string verdict_text(const ThrowResult& result) {
-  const std::optional<double>& clearance_m = result.flown.clearance_m;
-  std::string fate = to_text(fate_of(result));
-  if (!clearance_m || result.flown.hit) return fate;
-  return fate + formatted(", at least %.2f m between the surfaces", *clearance_m);
-}
-
-// Everything that looks on, as the arguments ask for.
-class Onlookers {
- public:
-  // `duration_us`: how long the flight is, if known.
-  Onlookers(const Scenario& scenario, const ReplayArguments& arguments,
-            std::optional<TimeUs> duration_us)
-      : arguments_(arguments),
-        tells_truth_(scenario.pilot != kPluginPilot),
-        poster_(intrinsics(scenario.sensors.camera), scenario.sensors.render) {
-    observers_.add(&stopper_);
-    if (duration_us) observers_.add(&progress_.emplace(*duration_us));
-    const Intrinsics camera = intrinsics(scenario.sensors.camera);
-    const int cameras = cameras_in_use(scenario);
-    if (!arguments.video.empty()) {
-      film_ = std::make_unique<Film>(arguments.video, camera, cameras, arguments.slow);
-      observers_.add(film_.get());
-    }
-    if (!arguments.stages.empty()) {
-      stages_ = std::make_unique<StageFilm>(arguments.stages);
-      observers_.add(stages_.get());
-    }
-    if (!arguments.mcap.empty()) {
-      mcap_ = std::make_unique<McapRecorder>(arguments.mcap, camera, cameras,
-                                             scenario.delays.pilot_us());
-      observers_.add(mcap_.get());
-    }
-    if (!arguments.picture.empty()) {
-      picture_.emplace(arguments.picture);
-      observers_.add(&poster_);
-    }
-    if (!arguments.record.empty()) {
-      log_ = std::make_unique<VehicleLog>(arguments.record, scenario);
-      observers_.add(log_.get());
-    }
-    if (!arguments.events.empty()) {
-      events_ = make_event_recorder(scenario, arguments);
-      observers_.add(events_.get());
-      observers_.add(&truth_);
-    }
-  }
-
-  FlightObserver* observer() { return &observers_; }
-
-  // Before anything else is written to the terminal.
-  void end_progress() {
-    if (progress_) progress_->finish();
-  }
-
-  // Completes the files and says what they are; false if something cannot be shown. Of a flight
-  // that failed there is only the recording, which shows how.
-  bool finish(const ThrowResult& result) {
-    if (mcap_) {
-      mcap_->finish(result);
-      std::cout << "Recording for Foxglove or Lichtblick: " << arguments_.mcap << "\n";
-    }
-    if (result.flown.failed()) {
-      const bool more = film_ || stages_ || events_ || log_ || picture_;
-      if (more) std::cerr << "Of a flight that fails --mcap alone shows something.\n";
-      return !more;
-    }
-    if (events_) {
-      events_->commit();
-      EventTruthSums sums;
-      sums.add(truth_.rows());
-      std::cout << events_->count() << " events of the " << arguments_.camera
-                << " camera: " << arguments_.events << "\n";
-      if (tells_truth_) std::cout << truth_text(sums) << "\n";
-    }
-    if (log_) {
-      log_->finish();
-      std::cout << "Recorded as the vehicle would: " << arguments_.record << "\n";
-    }
-    if (film_) {
-      film_->finish(verdict_text(result));
-      std::cout << "Video: " << arguments_.video << "\n";
-    }
-    if (stages_) {
-      std::cout << stages_->pictures() << " pictures of the pilot's stages: " << arguments_.stages
-                << "\n";
-    }
-    if (!picture_) return true;
-    if (!poster_.save(*picture_)) {
-      std::cerr << "There is no picture to make: the flight ended before anything was thrown.\n";
-      return false;
-    }
-    std::cout << "Picture: " << arguments_.picture << "\n";
-    return true;
-  }
-
- private:
-  const ReplayArguments& arguments_;
-  bool tells_truth_;  // of its windows, which of a plug-in nobody knows
-  Observers observers_;
-  Stopper stopper_;
-  std::optional<FlightProgress> progress_;
-  std::unique_ptr<Film> film_;
-  std::unique_ptr<StageFilm> stages_;
-  std::unique_ptr<McapRecorder> mcap_;
-  std::unique_ptr<VehicleLog> log_;
-  Poster poster_;
-  std::optional<OutputFile> picture_;  // the poster's
-  EventTruth truth_;
-  std::unique_ptr<EventRecorder> events_;
-};
-
 struct OutputOption {
   const char* name;
   const std::string& file;
@@ -257,6 +92,9 @@ void refuse(std::initializer_list<OutputOption> options, const std::string& why)
 }
 
 void expect_showable(const Scenario& scenario, const ReplayArguments& arguments) {
+  if (!arguments.frames.empty() && arguments.frames == arguments.timestamps) {
+    throw ScenarioError("--timestamps " + arguments.timestamps + ": is the file of the frames.");
+  }
   const std::string number = std::to_string(arguments.throw_index);
   const OutputOption events = {"--events", arguments.events};
   const OutputOption stages = {"--stages", arguments.stages};
@@ -325,18 +163,37 @@ int replay(const ReplayArguments& arguments) {
 }
 
 void add_event_options(CLI::App& command, ReplayArguments& arguments) {
-  CLI::Option* events =
+  command
+      .add_option(
+          "--events", arguments.events,
+          "Write a camera's events with their causes (t, x, y, p, cause), as far as they\n"
+          "reach the computer before the flight ends, and print how well the pilot finds\n"
+          "an object's events. Causes: 0 the static scene, moved by ego-motion; 1 + i\n"
+          "object i; 253 leak; 254 shot noise; 255 a hot pixel. In .raw (Prophesee) without")
+      ->type_name("FILE.h5|.npy|.txt|.raw");
+  CLI::Option* frames =
       command
           .add_option(
-              "--events", arguments.events,
-              "Write a camera's events with their causes (t, x, y, p, cause), as far as they\n"
-              "reach the computer before the flight ends, and print how well the pilot finds\n"
-              "an object's events. Causes: 0 the static scene, moved by ego-motion; 1 + i\n"
-              "object i; 253 leak; 254 shot noise; 255 a hot pixel. In .raw (Prophesee) without")
-          ->type_name("FILE.h5|.npy|.txt|.raw");
-  command.add_option("--camera", arguments.camera, "Whose events: top or bottom")
+              "--frames", arguments.frames,
+              "Write what a camera sees as pictures (N, H, W) of float32 linear luminance,\n"
+              "in which 1 is white, without blur and noise: as `emulate` and other event\n"
+              "simulators read them. 300 MB a second of flight at 1000 Hz")
+          ->check(file_ending(".npy"))
+          ->type_name("FRAMES.npy");
+  CLI::Option* timestamps =
+      command
+          .add_option("--timestamps", arguments.timestamps,
+                      "Their instants (N) in int64 microseconds, multiples of 250")
+          ->check(file_ending(".npy"))
+          ->needs(frames)
+          ->type_name("T.npy");
+  frames->needs(timestamps);
+  command.add_option("--frames-hz", arguments.frames_hz, "How many a second")
+      ->check(number_between(1, 4000))
+      ->needs(frames)
+      ->capture_default_str();
+  command.add_option("--camera", arguments.camera, "Whose events and frames: top or bottom")
       ->check(CLI::IsMember(std::vector<std::string>(kCameraNames.begin(), kCameraNames.end())))
-      ->needs(events)
       ->capture_default_str();
 }
 
@@ -390,7 +247,8 @@ void add_replay_command(CLI::App& program, int& exit_code) {
       "Examples:\n"
       "  dodgesim replay out/demo --throw 3 --video throw3.mp4 --slow 5\n"
       "  dodgesim replay out/demo --throw 3 --mcap throw3.mcap       look around in Foxglove\n"
-      "  dodgesim replay out/demo --throw 3 --events top.h5          every event and its cause");
+      "  dodgesim replay out/demo --throw 3 --events top.h5          every event and its cause\n"
+      "  dodgesim replay out/demo --throw 3 --frames top.npy --timestamps t.npy");
   command->callback([arguments, &exit_code] { exit_code = replay(*arguments); });
 }
 
