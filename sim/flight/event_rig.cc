@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 
 #include "sim/base/wall_clock.h"
 #include "sim/events/event_hash.h"
@@ -41,7 +39,7 @@ struct EventRig::Eye {
                setup.throw_index, kCameraNames.at(static_cast<std::size_t>(camera)),
                setup.keep_causes),
         packets(setup.packet_us),
-        key(setup.intrinsics, setup.keys),
+        view(setup.intrinsics, setup.keys),
         luminance(static_cast<std::size_t>(setup.intrinsics.width) *
                   static_cast<std::size_t>(setup.intrinsics.height)) {}
 
@@ -50,7 +48,7 @@ struct EventRig::Eye {
   Sampler sampler;
   EventCamera pixels;
   Packetizer packets;
-  KeyPicture key;                                         // of the static scene
+  KeyedView view;                                         // of the static scene
   StaticDistances distances{0};                           // as in the last whole picture
   Eigen::Vector3d seen_from_W = Eigen::Vector3d::Zero();  // by that picture
   std::vector<float> luminance;
@@ -71,31 +69,16 @@ EventRig::EventRig(const World& world, const EventRigSetup& setup)
     object_ids_.resize(region_luminance_.size());
     cause_.resize(region_luminance_.size());
   }
-  const Intrinsics& key = eyes_.front()->key.intrinsics();
-  key_luminance_.resize(static_cast<std::size_t>(key.width) * static_cast<std::size_t>(key.height));
-  key_inverse_depth_.resize(key_luminance_.size());
 }
 
 EventRig::~EventRig() = default;
-
-void EventRig::draw_key(Eye& eye, const Eigen::Isometry3d& X_WC) {
-  renderer_.render_static(eye.key.intrinsics(), X_WC, eye.key.lod_bias(), key_luminance_.data(),
-                          key_inverse_depth_.data());
-  eye.key.set(X_WC, key_luminance_, key_inverse_depth_);
-  ++keys_;
-}
 
 // A region of what the camera sees.
 void EventRig::show(Eye& eye, const Snapshot& snapshot, const Rect& region,
                     std::vector<float>& luminance) {
   const auto start = WallClock::now();
   const Eigen::Isometry3d X_WC = snapshot.vehicle.pose() * eye.X_BC;
-  if (!eye.key.show(X_WC, region, luminance.data())) {
-    draw_key(eye, X_WC);
-    if (!eye.key.show(X_WC, region, luminance.data())) {
-      throw std::logic_error("A picture must serve the pose from which it was drawn.");
-    }
-  }
+  eye.view.show(renderer_, X_WC, region, luminance.data());
   if (setup_.keep_causes) clear_causes(region);
   draw_objects(eye, snapshot, X_WC, region, luminance);
   flicker(snapshot.t_us, region, luminance);
@@ -127,7 +110,7 @@ void EventRig::draw_objects(Eye& eye, const Snapshot& snapshot, const Eigen::Iso
     farthest_m = std::max(farthest_m, distance_m + radius_m);
   }
   if (part.empty()) return;
-  const bool behind_static = farthest_m > eye.key.nearest_m(part);
+  const bool behind_static = farthest_m > eye.view.nearest_m(part);
   renderer_.draw_objects(snapshot, X_WC, part, behind_static, luminance.data(),
                          setup_.keep_causes ? object_ids_.data() : nullptr);
   if (setup_.keep_causes) mark_objects(part, snapshot, X_WC.translation());
@@ -232,7 +215,7 @@ void EventRig::show_whole(Eye& eye, const Snapshot& snapshot) {
   for (int row = 0; row < StaticDistances::kRows; ++row) {
     for (int column = 0; column < StaticDistances::kColumns; ++column) {
       const Rect part = StaticDistances::part(setup_.intrinsics, column, row);
-      eye.distances.at(column, row) = eye.key.nearest_m(part);
+      eye.distances.at(column, row) = eye.view.nearest_m(part);
     }
   }
   eye.seen_from_W = snapshot.vehicle.pose() * eye.X_BC.translation();
@@ -256,6 +239,12 @@ void EventRig::take_picture(Eye& eye, const Snapshot& snapshot) {
   eye.count += static_cast<std::int64_t>(events_.size());
   eye.packets.push(events_, snapshot.t_us, eye.pixels.causes());
   emulate_s_ += seconds_since(start);
+}
+
+std::int64_t EventRig::keys() const {
+  std::int64_t drawn = 0;
+  for (const auto& eye : eyes_) drawn += eye->view.drawn();
+  return drawn;
 }
 
 std::int64_t EventRig::event_count(int camera) const {

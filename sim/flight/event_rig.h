@@ -10,7 +10,7 @@
 #include "sim/events/event_camera.h"
 #include "sim/events/packetizer.h"
 #include "sim/events/sampler.h"
-#include "sim/render/key_picture.h"
+#include "sim/render/keyed_view.h"
 #include "sim/render/luminance_renderer.h"
 #include "sim/world/world.h"
 
@@ -55,7 +55,7 @@ class EventRig {
   std::int64_t event_count(int camera) const;
   std::int64_t lost_count(int camera) const;           // events that the saturated readout lost
   std::uint64_t events_hash() const;                   // of all events of all cameras
-  std::int64_t keys() const { return keys_; }          // pictures of the room that were drawn
+  std::int64_t keys() const;                           // pictures of the room that were drawn
   std::int64_t pictures() const { return pictures_; }  // whole pictures that were shown
   std::int64_t regions() const { return regions_; }    // pictures of an object's region only
   double render_s() const { return render_s_; }        // wall clock, for reports only
@@ -67,7 +67,6 @@ class EventRig {
  private:
   struct Eye;
 
-  void draw_key(Eye& eye, const Eigen::Isometry3d& X_WC);
   void show(Eye& eye, const Snapshot& snapshot, const Rect& region, std::vector<float>& luminance);
   void show_whole(Eye& eye, const Snapshot& snapshot);
   StaticDistances distances_until(const Eye& eye, const Snapshot& a, const Snapshot& b) const;
@@ -86,13 +85,11 @@ class EventRig {
   LuminanceRenderer renderer_;
   std::vector<std::unique_ptr<Eye>> eyes_;
   std::vector<Sample> samples_;
-  std::vector<float> key_luminance_, key_inverse_depth_;  // as the renderer draws a key
-  std::vector<float> region_luminance_;                   // width x height
-  std::vector<std::int32_t> object_ids_;                  // of the last picture, width x height
-  std::vector<Cause> cause_;                              // of the last picture, width x height
+  std::vector<float> region_luminance_;   // width x height
+  std::vector<std::int32_t> object_ids_;  // of the last picture, width x height
+  std::vector<Cause> cause_;              // of the last picture, width x height
   std::vector<Event> events_;
   double flicker_phase_rad_;
-  std::int64_t keys_ = 0;
   std::int64_t pictures_ = 0;
   std::int64_t regions_ = 0;
   double render_s_ = 0;

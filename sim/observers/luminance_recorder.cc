@@ -17,6 +17,7 @@ LuminanceRecorder::LuminanceRecorder(const std::filesystem::path& frames,
       flicker_phase_rad_(flicker_phase_rad(scenario.seed, static_cast<std::uint64_t>(throw_index))),
       camera_(static_cast<std::size_t>(camera)),
       rate_hz_(rate_hz),
+      view_(intrinsics_, scenario.sensors.keys),
       luminance_(static_cast<std::size_t>(intrinsics_.width) *
                  static_cast<std::size_t>(intrinsics_.height)),
       writer_(frames, times, intrinsics_.width, intrinsics_.height) {}
@@ -31,8 +32,9 @@ void LuminanceRecorder::on_tick(const World& world) {
     throw ScenarioError(std::string("The vehicle has no camera ") + kCameraNames.at(camera_) + ".");
   }
   const Eigen::Isometry3d X_WC = now.vehicle.pose() * X_BC[camera_];
-  renderer_->render(now, X_WC, {0, 0, intrinsics_.width, intrinsics_.height}, luminance_.data(),
-                    nullptr);
+  const Rect whole = {0, 0, intrinsics_.width, intrinsics_.height};
+  view_.show(*renderer_, X_WC, whole, luminance_.data());
+  renderer_->draw_objects(now, X_WC, whole, true, luminance_.data(), nullptr);
   const auto factor =
       static_cast<float>(flicker_factor(render_.flicker, flicker_phase_rad_, now.t_us));
   std::ranges::for_each(luminance_, [factor](float& light) { light *= factor; });

@@ -1,4 +1,5 @@
-// Writes what a camera of the vehicle sees at a steady rate, as linear luminance.
+// Writes what a camera of the vehicle sees at a steady rate, as linear luminance: as the event
+// camera is shown it, at instants of its own.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include "sim/config/scenario.h"
 #include "sim/flight/flight_observer.h"
 #include "sim/recordings/frame_writer.h"
+#include "sim/render/keyed_view.h"
 #include "sim/render/luminance_renderer.h"
 
 namespace dodgesim {
@@ -29,6 +31,7 @@ class LuminanceRecorder : public FlightObserver {
   double flicker_phase_rad_;
   std::size_t camera_;
   double rate_hz_;
+  KeyedView view_;                               // of the static scene
   std::unique_ptr<LuminanceRenderer> renderer_;  // of the flight's world
   std::vector<float> luminance_;
   FrameWriter writer_;

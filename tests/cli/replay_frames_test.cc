@@ -16,7 +16,7 @@ class ReplayFramesTest : public CommandTest {
  protected:
   ReplayFramesTest() {
     write("s.yaml",
-          "seed: 3\nfly_oracle: false\nafter_s: 0.05\nmission: {start_m: [-2, 0, 2]}\n"
+          "seed: 3\nfly_oracle: false\nafter_s: 0.1\nmission: {start_m: [-2, 0, 2]}\n"
           "sensors: {camera: {width: 64, height: 48}, events: {preset: ideal}}\n"
           "throw: {distance_m: 1.5, speed_mps: 8, size_m: 0.2, launch_s: 0.1}\n");
     const Outcome run =
