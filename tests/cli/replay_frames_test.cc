@@ -57,11 +57,13 @@ TEST_F(ReplayFramesTest, FramesOfAFlightGiveItsEventsAgain) {
   const Outcome emulated = dodgesim("emulate " + path("f.npy") + " --timestamps " + path("t.npy") +
                                     " --camera ideal --out " + path("emulated.txt"));
   ASSERT_EQ(emulated.exit_code, 0) << emulated.output;
-  const auto expected = count("flown.txt", 10000, 200000);
-  const auto found = count("emulated.txt", 10000, 200000);
-  EXPECT_GT(expected.first, 300);
-  EXPECT_NEAR(found.first / expected.first, 1, 0.03);
-  EXPECT_NEAR(found.second / expected.second, 1, 0.03);
+  // Of the ball that comes into existence at 0.1 s the flight's cameras make no events.
+  EXPECT_GT(count("emulated.txt", 100000, 100250).second, 20);
+  const auto expected = count("flown.txt", 110000, 245000);
+  const auto found = count("emulated.txt", 110000, 245000);
+  EXPECT_GT(expected.first, 1000);
+  EXPECT_NEAR(found.first / expected.first, 1, 0.04);
+  EXPECT_NEAR(found.second / expected.second, 1, 0.04);
 }
 
 TEST_F(ReplayFramesTest, HaveTheRateAndTheShapeThatWereAskedFor) {
