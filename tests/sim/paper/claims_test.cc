@@ -173,7 +173,7 @@ TEST(FieldClaim, ComparesEachVariantWithTheFirstAtItsRange) {
   campaigns[5] = swept(ranges, [](std::size_t part, double) { return part == 0; });
   campaigns.push_back(swept(lambdas, none));
   const PaperTables tables = field_experiment().analyse(campaigns);
-  const std::string second = "| (27) instead of (28) and (29), with |v| and |F_z| | ";
+  const std::string second = "| (27) instead of (28) and (29), with \\|v\\| and \\|F_z\\| | ";
   EXPECT_THAT(tables.markdown,
               HasSubstr(second + "1 / 1 (0.21 to 1.00) | 1 / 1 (0.21 to 1.00) | 1.0000 |"));
   EXPECT_THAT(tables.markdown,
