@@ -40,7 +40,7 @@ TEST(SamplingStudy, FindsNoDifferenceBetweenTheReferenceAndItself) {
 
 // A few throws of what `dodgesim check-sensor --sampling 50` measures.
 TEST(SamplingStudy, FindsTheDefaultsWithinTheirLimits) {
-  const SamplingOptions options{kModels, 2, 1, EventCameraSpec(), 5000};
+  const SamplingOptions options{kModels, 3, 1, EventCameraSpec(), 5000};
   const auto results = study_sampling(options, {sampling_variants().front()}, [](int) {});
   EXPECT_GT(results[0].object.reference_events, 1000);
   EXPECT_GT(results[0].scene.reference_events, 10000);
