@@ -26,11 +26,11 @@ void LuminanceRecorder::on_tick(const World& world) {
   const Snapshot& now = world.snapshot();
   const double next_s = static_cast<double>(writer_.count() + 1) / rate_hz_;
   if (seconds(now.t_us) < next_s - 1e-9) return;
-  if (!renderer_) renderer_ = std::make_unique<LuminanceRenderer>(world, intrinsics_, render_);
   const std::vector<Eigen::Isometry3d>& X_BC = world.vehicle().X_BC;
   if (camera_ >= X_BC.size()) {
     throw ScenarioError(std::string("The vehicle has no camera ") + kCameraNames.at(camera_) + ".");
   }
+  if (!renderer_) renderer_ = std::make_unique<LuminanceRenderer>(world, intrinsics_, render_);
   const Eigen::Isometry3d X_WC = now.vehicle.pose() * X_BC[camera_];
   const Rect whole = {0, 0, intrinsics_.width, intrinsics_.height};
   view_.show(*renderer_, X_WC, whole, luminance_.data());

@@ -2,6 +2,7 @@
 // camera is shown it, at instants of its own.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -17,7 +18,8 @@ namespace dodgesim {
 class LuminanceRecorder : public FlightObserver {
  public:
   // `camera`: index into kCameraNames; rate_hz > 0: pictures are of the first tick of the
-  // simulation at or after their instants. Throws IoError.
+  // simulation at or after their instants, from 1 / rate_hz on. Throws IoError; on_tick(), too, and
+  // ScenarioError if the vehicle has no such camera.
   LuminanceRecorder(const std::filesystem::path& frames, const std::filesystem::path& times,
                     const Scenario& scenario, int throw_index, int camera, double rate_hz);
 

@@ -1,6 +1,7 @@
 // What each part of the paper's repulsive field is worth: (28) instead of (27), |v| in (32), |F_z|,
 // the decay (33).
 #include <algorithm>
+#include <stdexcept>
 
 #include "sim/base/formatted.h"
 #include "sim/paper/experiment.h"
@@ -53,6 +54,7 @@ constexpr const char* kFieldProtocol = R"(How to read it:
   meet the same throws. Dodged / would have hit (95 %, Wilson).
 - *p*: exact McNemar test against the first row, over all speeds, of each row by itself: it is not
   corrected for how many rows there are.
+- *Lost, gained*: throws that (28) alone dodges, and that (27) alone does; exact McNemar test.
 - Over the open field, so that no wall ends an escape, and until 0.6 s after the ball's arrival.
 - *Decay*: falanga2020 with its cameras, believing from 3 m on. The repulsive constant falls by
   exp(-lambda dt) while the object is not detected, that is, between its detections, too.
@@ -64,11 +66,12 @@ PairedCounts paired(const LoadedCampaign& first, const LoadedCampaign& second, i
   return pair.paired;
 }
 
-// Of the variants.
+// The campaign of a variant, by its file's name.
 const LoadedCampaign& flown_by(const std::string& variant,
                                const std::vector<LoadedCampaign>& campaigns) {
   const auto named = [&](const PaperVariant& v) { return v.file == variant; };
   const auto at = std::ranges::find_if(variants(), named);
+  if (at == variants().end()) throw std::logic_error("There is no variant " + variant + ".");
   return campaigns[static_cast<std::size_t>(at - variants().begin())];
 }
 

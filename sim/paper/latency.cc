@@ -23,7 +23,8 @@ constexpr const char* kLatencyProtocol = R"(How the claim is read:
   the flight controller, then the motors.
 - *Lost at*: the greatest latency that was flown with at least half of the throws dodged, and the
   next one. In brackets, where that is not all that the throws can tell apart: the greatest up to
-  which all intervals lie above one half, and the least with one below it.
+  which all intervals lie above one half, and the least with one below it; > or < if there is only
+  one of the two, *not told* if there is none.
 - *Bound*: "How fast is too fast" (Falanga et al. 2019), s / v - t_a, less the delays that are not
   perception's; s the range from which on the object is known, a ball of 20 cm that comes at the
   vehicle's centre. *point*: t_a = sqrt(2 r / u) of a vehicle that accelerates to the side at once

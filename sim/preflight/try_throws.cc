@@ -102,15 +102,17 @@ std::string try_throw(const ThrowCase& thrown, Budget& budget) {
   for (const FlightPlan::Launch& launch : plan.launches) {
     launches_us.insert(launch.drawn.launch_us);
   }
+  std::string trouble;
   for (const TimeUs launch_us : launches_us) {
     budget.take_fastest_turn_radps();
     const FlightRecord record = fly(thrown.scenario, launches_at(launch_us, plan), &budget);
-    std::string trouble = trouble_before_launch(thrown, record, budget.take_fastest_turn_radps());
-    if (!trouble.empty()) return trouble;
+    const double fastest_turn_radps = budget.take_fastest_turn_radps();
+    if (trouble.empty()) trouble = trouble_before_launch(thrown, record, fastest_turn_radps);
+    if (record.verdict.crashed) return trouble;
   }
-  if (launches_us.size() < 2) return {};
+  if (launches_us.size() < 2) return trouble;
   fly(thrown.scenario, all_launches_until(*launches_us.rbegin(), plan), &budget);
-  return {};
+  return trouble;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "sim/recordings/frame_writer.h"
 
 #include <cstdint>
+#include <string_view>
 
 #include "sim/files/npy_header.h"
 

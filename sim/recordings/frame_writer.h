@@ -1,6 +1,7 @@
 // Pictures and their instants as two NumPy files, which FrameReader reads (frame_reader.h).
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>

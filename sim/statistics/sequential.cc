@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "sim/base/normal_distribution.h"
 #include "sim/statistics/binomial.h"

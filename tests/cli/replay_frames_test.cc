@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
 #include <sstream>
+#include <utility>
 
 #include "tests/cli/command_test.h"
 
@@ -69,6 +72,8 @@ TEST_F(ReplayFramesTest, FramesOfAFlightGiveItsEventsAgain) {
 TEST_F(ReplayFramesTest, HaveTheRateAndTheShapeThatWereAskedFor) {
   ASSERT_EQ(replay(frames() + "--frames-hz 100").exit_code, 0);
   const std::string times = contents("t.npy");
+  ASSERT_GE(times.size(), 128U + 80);
+  EXPECT_EQ(contents("f.npy").size(), 128 + (times.size() - 128) / 8 * 48 * 64 * 4);
   EXPECT_THAT(contents("f.npy").substr(0, 128), HasSubstr(", 48, 64)"));
   const auto stamp_us = [&](std::size_t i) {
     std::int64_t t_us = 0;
@@ -83,6 +88,10 @@ TEST_F(ReplayFramesTest, HaveTheRateAndTheShapeThatWereAskedFor) {
 TEST_F(ReplayFramesTest, NeedTheirInstants) {
   EXPECT_EQ(replay("--frames " + path("f.npy")).exit_code, 2);
   EXPECT_EQ(replay("--frames-hz 100").exit_code, 2);
+  EXPECT_THAT(replay("--camera bottom").output, HasSubstr("neither is given"));
+  const Outcome rare = replay(frames() + "--frames-hz 4");
+  EXPECT_EQ(rare.exit_code, 3);
+  EXPECT_THAT(rare.output, HasSubstr("too short for two frames at --frames-hz 4."));
   EXPECT_THAT(replay("--frames " + path("f.npy") + " --timestamps " + path("f.npy")).output,
               HasSubstr("--timestamps " + path("f.npy") + ": is the file of the frames."));
   EXPECT_FALSE(std::filesystem::exists(root_ / "f.npy"));

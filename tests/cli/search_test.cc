@@ -43,8 +43,8 @@ TEST_F(SearchTest, PrintsWhatCompareSaysOfEachValue) {
 
 // Stopped by the option before it flies; the first thing that it looks at are its present values.
 TEST_F(SearchTest, StartsFromTheValuesOfTheProgram) {
-  for (const char* what :
-       {"falanga2020", "falanga2020_mono", "dodgesim", "dodgesim_slow", "dodgesim_thin"}) {
+  for (const char* what : {"falanga2020", "falanga2020_mono", "oracle", "dodgesim", "dodgesim_slow",
+                           "dodgesim_thin"}) {
     const Outcome outcome = search(std::string(what) + " " + path("out") + " --no-such-option");
     EXPECT_EQ(outcome.exit_code, 1) << what;
     EXPECT_THAT(outcome.output, HasSubstr("--no-such-option"));

@@ -24,15 +24,15 @@ struct DetectArguments {
   double slow = 10;   // of the video
 };
 
-// All of these throw ScenarioError for inputs that cannot be used, and say on standard output what
-// is missing and what is taken in its place.
+// All of these throw ScenarioError for inputs that cannot be used, and IoError.
 
-// Whether no result would overwrite an input.
+// No result may overwrite an input.
 void expect_inputs_stay(const DetectArguments& arguments);
 
-// Whether each camera has events and a calibration of its own.
+// Each camera has events and a calibration of its own.
 void check_files(const DetectArguments& arguments);
 
+// These say on standard output what is missing and what is taken in its place.
 // By camera; of two, for stereo, rectified.
 std::vector<CameraCalibration> load_calibrations(const DetectArguments& arguments, bool stereo);
 

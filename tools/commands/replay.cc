@@ -92,6 +92,9 @@ void refuse(std::initializer_list<OutputOption> options, const std::string& why)
 }
 
 void expect_showable(const Scenario& scenario, const ReplayArguments& arguments) {
+  if (!arguments.camera.empty() && arguments.events.empty() && arguments.frames.empty()) {
+    throw ScenarioError("--camera says whose --events or --frames are written; neither is given.");
+  }
   if (!arguments.frames.empty() && arguments.frames == arguments.timestamps) {
     throw ScenarioError("--timestamps " + arguments.timestamps + ": is the file of the frames.");
   }
@@ -103,9 +106,9 @@ void expect_showable(const Scenario& scenario, const ReplayArguments& arguments)
     refuse({events, stages}, "the pilot of throw " + number + " is " + scenario.pilot +
                                  ", which flies without cameras.");
   }
-  if (!scenario.dodger.position.stereo_depth() && arguments.camera != kCameraNames[0]) {
+  if (!scenario.dodger.position.stereo_depth() && arguments.camera_name() != kCameraNames[0]) {
     refuse({events}, "with dodger.position.depth mono there are no events of the camera " +
-                         arguments.camera + ".");
+                         arguments.camera_name() + ".");
   }
   if (scenario.pilot == kPluginPilot) {
     refuse({stages}, "the pilot of throw " + number + " is a plug-in, whose stages nobody knows.");
@@ -192,9 +195,10 @@ void add_event_options(CLI::App& command, ReplayArguments& arguments) {
       ->check(number_between(1, 4000))
       ->needs(frames)
       ->capture_default_str();
-  command.add_option("--camera", arguments.camera, "Whose events and frames: top or bottom")
-      ->check(CLI::IsMember(std::vector<std::string>(kCameraNames.begin(), kCameraNames.end())))
-      ->capture_default_str();
+  command
+      .add_option("--camera", arguments.camera,
+                  "Whose events and frames: top (the default) or bottom")
+      ->check(CLI::IsMember(std::vector<std::string>(kCameraNames.begin(), kCameraNames.end())));
 }
 
 }  // namespace

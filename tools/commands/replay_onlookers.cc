@@ -1,9 +1,9 @@
 #include "tools/commands/replay_onlookers.h"
 
-#include <algorithm>
 #include <iostream>
 
 #include "sim/base/formatted.h"
+#include "sim/base/numbers.h"
 #include "sim/config/pilot.h"
 #include "sim/flight/setup.h"
 #include "sim/outcome/fate.h"
@@ -18,7 +18,7 @@ namespace {
 constexpr TimeUs kUsPerMs = 1000;
 
 int camera_index(const ReplayArguments& arguments) {
-  return arguments.camera == kCameraNames[0] ? 0 : 1;
+  return arguments.camera_name() == kCameraNames[0] ? 0 : 1;
 }
 
 std::unique_ptr<EventRecorder> make_event_recorder(const Scenario& scenario,
@@ -108,11 +108,7 @@ bool Onlookers::finish(const ThrowResult& result) {
     return !more;
   }
   if (events_) finish_events();
-  if (frames_) {
-    frames_->commit();
-    std::cout << frames_->count() << " frames of the " << arguments_.camera
-              << " camera: " << arguments_.frames << "\n";
-  }
+  const bool framed = !frames_ || finish_frames();
   if (log_) {
     log_->finish();
     std::cout << "Recorded as the vehicle would: " << arguments_.record << "\n";
@@ -125,14 +121,26 @@ bool Onlookers::finish(const ThrowResult& result) {
     std::cout << stages_->pictures() << " pictures of the pilot's stages: " << arguments_.stages
               << "\n";
   }
-  return finish_picture();
+  return finish_picture() && framed;
+}
+
+bool Onlookers::finish_frames() {
+  if (frames_->count() < 2) {
+    std::cerr << "The flight is too short for two frames at --frames-hz "
+              << to_text(arguments_.frames_hz) << ".\n";
+    return false;
+  }
+  frames_->commit();
+  std::cout << frames_->count() << " frames of the " << arguments_.camera_name()
+            << " camera: " << arguments_.frames << "\n";
+  return true;
 }
 
 void Onlookers::finish_events() {
   events_->commit();
   EventTruthSums sums;
   sums.add(truth_.rows());
-  std::cout << events_->count() << " events of the " << arguments_.camera
+  std::cout << events_->count() << " events of the " << arguments_.camera_name()
             << " camera: " << arguments_.events << "\n";
   if (tells_truth_) std::cout << truth_text(sums) << "\n";
 }

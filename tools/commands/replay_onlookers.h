@@ -29,8 +29,10 @@ struct ReplayArguments {
   std::string video, stages, picture, mcap, events, record;  // where they go; empty: none
   std::string frames, timestamps;                            // both or none
   double frames_hz = 1000;
-  double slow = 10;  // of the video
-  std::string camera = kCameraNames[0];
+  double slow = 10;    // of the video
+  std::string camera;  // empty: top
+
+  std::string camera_name() const { return camera.empty() ? kCameraNames[0] : camera; }
 };
 
 // Ends the flight when the user asks for it.
@@ -68,6 +70,7 @@ class Onlookers {
 
  private:
   void finish_events();
+  bool finish_frames();
   bool finish_picture();
 
   const ReplayArguments& arguments_;
