@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sim/base/vector_level.h"
+#include "sim/events/noise.h"
 
 namespace dodgesim {
 
@@ -49,8 +50,10 @@ LightBetween::LightBetween(const EventCameraSpec& spec)
                       std::numeric_limits<float>::infinity()});
   }
   if (shot_noise && spec.shot_noise_bright_share < 1) {  // in units of the dark's
-    const auto falls = static_cast<float>(1 - spec.shot_noise_bright_share);
-    rates_.push_back({1, -falls / bright, bright});
+    const ShotNoiseShare share(spec);
+    const auto dark_share = static_cast<float>(share.at(0)),
+               bright_share = static_cast<float>(share.at(bright));
+    rates_.push_back({dark_share, (bright_share - dark_share) / bright, bright});
   }
 }
 

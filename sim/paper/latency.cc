@@ -43,6 +43,7 @@ constexpr double kPaperRangeM = 1.5, kFarRangeM = 3;
 // Success of a pilot at each speed (rows) and latency (columns).
 struct LatencyCurves {
   std::string pilot, file;
+  double range_m;  // of the bound in its plot
   RateGrid grid = {};
   std::vector<double> latency_ms = {};  // of perception
 };
@@ -51,10 +52,10 @@ double perception_ms(const Part& part, const DelaySpec& delays) {
   return 1e-3 * (delays.compute_us + sweep_number(part, "delays.perception_us"));
 }
 
-LatencyCurves curves_of(const std::string& pilot, const std::string& file,
+LatencyCurves curves_of(const std::string& pilot, const std::string& file, double range_m,
                         const std::vector<Part>& parts, const LoadedCampaign& campaign) {
   const Axis speeds("speed_mps", campaign.results);
-  LatencyCurves curves{pilot, file};
+  LatencyCurves curves{pilot, file, range_m};
   RateGrid by_latency{"", speed_columns(speeds)};
   for (const Part& part : parts) {
     curves.latency_ms.push_back(perception_ms(part, campaign.scenario.delays));
@@ -88,8 +89,9 @@ std::vector<double> bounds_ms(const AvoidanceBound& bound, const LoadedCampaign&
 }
 
 // The bound of the fastest objects is always within the plot.
-PaperPlot plot_of(const LatencyCurves& curves, double range_m, const LoadedCampaign& campaign) {
-  const std::vector<double> bounds = bounds_ms(rotors_bound(campaign.scenario, range_m), campaign);
+PaperPlot plot_of(const LatencyCurves& curves, const LoadedCampaign& campaign) {
+  const std::vector<double> bounds =
+      bounds_ms(rotors_bound(campaign.scenario, curves.range_m), campaign);
   const double least_ms = *std::ranges::min_element(bounds);
   Plot plot;
   plot.title = curves.pilot + ": throws dodged by latency of perception";
@@ -100,7 +102,7 @@ PaperPlot plot_of(const LatencyCurves& curves, double range_m, const LoadedCampa
     add_curve(curves.grid.rows[i], static_cast<int>(i), curves.latency_ms, curves.grid.rates[i],
               plot);
   }
-  add_bounds(formatted("ticks: bound, %g m", range_m), bounds, plot);
+  add_bounds(formatted("ticks: bound, %g m", curves.range_m), bounds, plot);
   add_mark("3.5 ms and 60 ms", kPaperLatencyMs, plot);
   add_mark("", kFrameLatencyMs, plot);
   return {curves.file, plot};
@@ -167,17 +169,15 @@ std::string rest_text(const Scenario& scenario) {
 PaperTables analyse_latency(const std::vector<LoadedCampaign>& campaigns) {
   const LoadedCampaign &oracle = campaigns[0], &faithful = campaigns[1], &own = campaigns[2];
   const std::vector<LatencyCurves> all = {
-      curves_of("oracle, 1.5 m", "oracle_1_5m", within("1.5", oracle), oracle),
-      curves_of("oracle, 3 m", "oracle_3m", within("3", oracle), oracle),
-      curves_of("falanga2020, 1.5 m", kPaperPilot, parts_of(faithful), faithful),
-      curves_of(kOwnPilot, kOwnPilot, parts_of(own), own)};
+      curves_of("oracle, 1.5 m", "oracle_1_5m", kPaperRangeM, within("1.5", oracle), oracle),
+      curves_of("oracle, 3 m", "oracle_3m", kFarRangeM, within("3", oracle), oracle),
+      curves_of("falanga2020, 1.5 m", kPaperPilot, kPaperRangeM, parts_of(faithful), faithful),
+      curves_of(kOwnPilot, kOwnPilot, kFarRangeM, parts_of(own), own)};
   PaperTables tables;
   std::vector<RateGrid> grids;
   tables.markdown = lost_table(all, oracle).to_markdown() + "\n" + rest_text(oracle.scenario);
   for (const LatencyCurves& curves : all) {
-    const bool near = &curves == &all[0] || &curves == &all[2];
-    const double range_m = near ? kPaperRangeM : kFarRangeM;
-    tables.plots.push_back(plot_of(curves, range_m, oracle));
+    tables.plots.push_back(plot_of(curves, oracle));
     tables.markdown += curves.grid.table().to_markdown() + "\n";
     grids.push_back(curves.grid);
   }

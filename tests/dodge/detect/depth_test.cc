@@ -9,20 +9,25 @@
 namespace dodge {
 namespace {
 
+// Around (u, v), full of events.
+Cluster upright(double u, double v, double width_px, double height_px) {
+  Cluster cluster;
+  cluster.rectangle =
+      cv::RotatedRect(cv::Point2f(static_cast<float>(u), static_cast<float>(v)),
+                      cv::Size2f(static_cast<float>(width_px), static_cast<float>(height_px)), 0);
+  cluster.top_row = v - height_px / 2;
+  cluster.bottom_row = v + height_px / 2;
+  cluster.centroid = {u, v};
+  cluster.pixels = static_cast<int>(width_px * height_px);
+  cluster.events = 2 * cluster.pixels;
+  cluster.time = 1;
+  return cluster;
+}
+
 class DepthTest : public ::testing::Test {
  protected:
   static Cluster square(double u, double v, double side_px) {
-    Cluster cluster;
-    cluster.rectangle =
-        cv::RotatedRect(cv::Point2f(static_cast<float>(u), static_cast<float>(v)),
-                        cv::Size2f(static_cast<float>(side_px), static_cast<float>(side_px)), 0);
-    cluster.top_row = v - side_px / 2;
-    cluster.bottom_row = v + side_px / 2;
-    cluster.centroid = {u, v};
-    cluster.pixels = static_cast<int>(side_px * side_px);
-    cluster.events = 2 * cluster.pixels;
-    cluster.time = 1;
-    return cluster;
+    return upright(u, v, side_px, side_px);
   }
 
   // Disparity of the centres: most tests have clusters but no images.
@@ -291,16 +296,10 @@ TEST_F(DepthTest, CorrelationMeasuresDepthThoughEachCameraSeesAnotherPart) {
 }
 
 // What is left of a cluster of upright rectangle in the image.
-Cluster cut_off_at_border(Cluster cluster) {
-  const double side_px = cluster.bottom_row - cluster.top_row;
-  cluster.top_row = std::max(-0.5, cluster.top_row);
-  cluster.bottom_row = std::min(239.5, cluster.bottom_row);
-  const double left_px = cluster.bottom_row - cluster.top_row;
-  cluster.centroid.y() = (cluster.top_row + cluster.bottom_row) / 2;
-  cluster.rectangle.center.y = static_cast<float>(cluster.centroid.y());
-  cluster.rectangle.size.height = static_cast<float>(left_px);
-  cluster.pixels = static_cast<int>(cluster.pixels * left_px / side_px);
-  return cluster;
+Cluster cut_off_at_border(const Cluster& cluster) {
+  const double first = std::max(-0.5, cluster.top_row), last = std::min(239.5, cluster.bottom_row);
+  return upright(cluster.centroid.x(), (first + last) / 2, cluster.rectangle.size.width,
+                 last - first);
 }
 
 // From where the bottom camera has lost the upper half of it to where the top one has lost the
@@ -330,10 +329,7 @@ TEST_F(DepthTest, WhatABorderCutsOffInOneCameraHasTheDepthOfItsOtherEnd) {
 
 // The upper camera sees the object's middle alone, the lower one all of it that is in its image.
 TEST_F(DepthTest, AtTheBorderCamerasThatSeeDifferentEdgesMeasureNoLessThanTheirCentres) {
-  Cluster top = square(160, 60, 60), bottom = square(160, 29.5, 60);
-  top.rectangle.size.height = 40;
-  top.top_row = 40;
-  top.bottom_row = 80;
+  const Cluster top = upright(160, 60, 60, 40), bottom = square(160, 29.5, 60);
   const auto detections = locate(centres(), {top}, {bottom});
   ASSERT_EQ(detections.size(), 1U);
   EXPECT_NEAR(detections[0].depth_m, 190.7 * 0.15 / 30.5, 1e-4);
@@ -355,13 +351,7 @@ TEST_F(DepthTest, AMatchThatHasABetterOneElsewhereIsNoneIfAskedFor) {
   const auto draw = [&](std::size_t camera, int y, float rho) {
     rho_[camera](cv::Rect(150, y - 1, 20, 3)) = rho;
   };
-  const auto bar = [&](double y) {
-    Cluster cluster = square(160, y, 20);
-    cluster.rectangle.size.height = 3;
-    cluster.top_row = y - 1.5;
-    cluster.bottom_row = y + 1.5;
-    return cluster;
-  };
+  const auto bar = [&](double y) { return upright(160, y, 20, 3); };
   draw(0, 130, 0.3F);
   draw(1, 105, 0.3F);
   rho_[1](cv::Rect(150, 104, 6, 3)) = 0.0F;  // a part of it is hidden
