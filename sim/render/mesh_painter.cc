@@ -1,15 +1,76 @@
 #include "sim/render/mesh_painter.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
 #include "sim/render/gl.h"
 
 namespace dodgesim {
 namespace {
 
-// Samples along a pixel's side. Odd, so that one of them is at its centre.
-constexpr int kSamples = 5;
+// OpenGL draws a picture of samples that is turned against the image, by the angle of the triangle
+// with the sides 3, 4 and 5: a pixel to the right is the sample (4, -3) further on, a pixel down
+// (3, 4). So a pixel has 25 samples 1/5 px apart, no two of them in the same row or column of the
+// image: of edges along the image's axes, too, each sample shows another 1/25 px.
+constexpr int kAlong = 4, kAcross = 3;
+constexpr int kSamples = kAlong * kAlong + kAcross * kAcross;
+// How far a sample can be from that at its pixel's centre, along either axis.
+constexpr int kReach = 3;
+
 // OpenGL draws one tile of the image after the other, each always alike, whatever the region.
 constexpr int kTilePx = 128;
-constexpr int kTileSamples = kTilePx * kSamples;
+constexpr int kTileSamples = (kAlong + kAcross) * (kTilePx - 1) + 2 * kReach + 1;
+
+struct Sample {
+  int column, row;
+};
+
+// That at the centre of a pixel, counted from its tile's first one.
+Sample sample_at(int x, int y) {
+  return {kAlong * x + kAcross * y + kReach, kAlong * y + kAcross * (kTilePx - 1 - x) + kReach};
+}
+
+// All that pixels of a tile need.
+Rect samples_of(const Rect& pixels, const Rect& tile) {
+  const int x0 = pixels.x0 - tile.x0, x1 = pixels.x1 - 1 - tile.x0;
+  const int y0 = pixels.y0 - tile.y0, y1 = pixels.y1 - 1 - tile.y0;
+  return {sample_at(x0, y0).column - kReach, sample_at(x1, y0).row - kReach,
+          sample_at(x1, y1).column + kReach + 1, sample_at(x0, y1).row + kReach + 1};
+}
+
+// Of a pixel, counted from that at its centre.
+std::array<Sample, kSamples> samples_of_a_pixel() {
+  std::array<Sample, kSamples> samples;
+  std::size_t size = 0;
+  for (int row = -kReach; row <= kReach; ++row) {
+    for (int column = -kReach; column <= kReach; ++column) {
+      // Where it is in the image, in 1/25 px.
+      const int x = kAlong * column - kAcross * row, y = kAcross * column + kAlong * row;
+      if (std::max(std::abs(x), std::abs(y)) <= kSamples / 2) samples.at(size++) = {column, row};
+    }
+  }
+  return samples;
+}
+
+// Of clip coordinates: from those of the whole image to those of a tile's samples.
+Eigen::Matrix4d samples_from_image(const Intrinsics& image, const Rect& tile) {
+  const Eigen::Affine2d image_from_clip =
+      Eigen::Scaling(0.5 * image.width, 0.5 * image.height) * Eigen::Translation2d(1, 1);
+  const Sample first = sample_at(0, 0);
+  Eigen::Affine2d samples_from_image;
+  samples_from_image.linear() << kAlong, kAcross, -kAcross, kAlong;
+  samples_from_image.translation() =
+      Eigen::Vector2d(first.column + 0.5, first.row + 0.5) -
+      samples_from_image.linear() * Eigen::Vector2d(tile.x0 + 0.5, tile.y0 + 0.5);
+  const Eigen::Affine2d clip_from_samples =
+      Eigen::Translation2d(-1, -1) * Eigen::Scaling(2.0 / kTileSamples);
+  const Eigen::Affine2d turned = clip_from_samples * samples_from_image * image_from_clip;
+  Eigen::Matrix4d result = Eigen::Matrix4d::Identity();
+  result.topLeftCorner<2, 2>() = turned.linear();
+  result.topRightCorner<2, 1>() = turned.translation();
+  return result;
+}
 
 }  // namespace
 
@@ -26,48 +87,44 @@ void MeshPainter::paint(const Shot& shot, const Snapshot& snapshot, const Painte
     for (int x0 = region.x0 - region.x0 % kTilePx; x0 < region.x1; x0 += kTilePx) {
       const Rect tile = {x0, y0, x0 + kTilePx, y0 + kTilePx};
       const Rect pixels = intersection(tile, region);
-      draw(shot, snapshot, tile, pixels);
-      blend(shot, pixels, picture);
+      const Rect samples = samples_of(pixels, tile);
+      draw(shot, snapshot, tile, samples);
+      const std::ptrdiff_t pitch = samples.x1 - samples.x0;
+      for (int y = pixels.y0; y < pixels.y1; ++y) {
+        for (int x = pixels.x0; x < pixels.x1; ++x) {
+          const Sample center = sample_at(x - x0, y - y0);
+          blend_pixel((center.row - samples.y0) * pitch + center.column - samples.x0, pitch,
+                      std::ptrdiff_t{y} * shot.intrinsics.width + x, picture);
+        }
+      }
     }
   }
 }
 
-// The samples of `pixels`, which are of a tile.
 void MeshPainter::draw(const Shot& shot, const Snapshot& snapshot, const Rect& tile,
-                       const Rect& pixels) {
+                       const Rect& samples) {
   // llvmpipe rounds otherwise where it writes depth and no ids; who asks for ids must not matter.
   gl::BindFramebuffer(GL_FRAMEBUFFER, target_.with_ids.name());
-  gl::Viewport(-tile.x0 * kSamples, -tile.y0 * kSamples, shot.intrinsics.width * kSamples,
-               shot.intrinsics.height * kSamples);
-  const int left = (pixels.x0 - tile.x0) * kSamples, top = (pixels.y0 - tile.y0) * kSamples;
-  const int width = (pixels.x1 - pixels.x0) * kSamples;
-  const int height = (pixels.y1 - pixels.y0) * kSamples;
-  gl::Scissor(left, top, width, height);
+  gl::Viewport(0, 0, kTileSamples, kTileSamples);
+  const int width = samples.x1 - samples.x0, height = samples.y1 - samples.y0;
+  gl::Scissor(samples.x0, samples.y0, width, height);
   gl::Clear(GL_DEPTH_BUFFER_BIT);
   constexpr GLint kNothing[4] = {0, 0, 0, 0};
   gl::ClearBufferiv(GL_COLOR, 1, kNothing);
-  triangles_.draw_objects(shot, snapshot);
+  triangles_.draw_objects(shot, snapshot, samples_from_image(shot.intrinsics, tile));
   gl::PixelStorei(GL_PACK_ROW_LENGTH, width);
   gl::ReadBuffer(GL_COLOR_ATTACHMENT0);
-  gl::ReadPixels(left, top, width, height, GL_RED, GL_FLOAT, luminance_.data());
-  gl::ReadPixels(left, top, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depth_.data());
+  gl::ReadPixels(samples.x0, samples.y0, width, height, GL_RED, GL_FLOAT, luminance_.data());
+  gl::ReadPixels(samples.x0, samples.y0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT,
+                 depth_.data());
   gl::ReadBuffer(GL_COLOR_ATTACHMENT1);
-  gl::ReadPixels(left, top, width, height, GL_RED_INTEGER, GL_INT, id_.data());
+  gl::ReadPixels(samples.x0, samples.y0, width, height, GL_RED_INTEGER, GL_INT, id_.data());
 }
 
-void MeshPainter::blend(const Shot& shot, const Rect& pixels, const PaintedPicture& picture) const {
-  const std::ptrdiff_t width = pixels.x1 - pixels.x0;
-  for (int y = pixels.y0; y < pixels.y1; ++y) {
-    std::ptrdiff_t sample = (y - pixels.y0) * kSamples * width * kSamples;
-    std::ptrdiff_t pixel = std::ptrdiff_t{y} * shot.intrinsics.width + pixels.x0;
-    for (int x = pixels.x0; x < pixels.x1; ++x, ++pixel, sample += kSamples)
-      blend_pixel(sample, width * kSamples, pixel, picture);
-  }
-}
-
-// Its samples begin at `sample`, and in each row below `pitch` further on.
-void MeshPainter::blend_pixel(std::ptrdiff_t sample, std::ptrdiff_t pitch, std::ptrdiff_t pixel,
+// `center`: the sample at the pixel's centre; in each row below the samples are `pitch` further on.
+void MeshPainter::blend_pixel(std::ptrdiff_t center, std::ptrdiff_t pitch, std::ptrdiff_t pixel,
                               const PaintedPicture& picture) const {
+  static const std::array<Sample, kSamples> samples = samples_of_a_pixel();
   const float hidden_from = picture.depth[pixel];
   const auto shows = [&](std::ptrdiff_t i) {
     const auto index = static_cast<std::size_t>(i);
@@ -75,22 +132,18 @@ void MeshPainter::blend_pixel(std::ptrdiff_t sample, std::ptrdiff_t pitch, std::
   };
   int covered = 0;
   float sum = 0;
-  for (int row = 0; row < kSamples; ++row) {
-    for (int column = 0; column < kSamples; ++column) {
-      const std::ptrdiff_t i = sample + row * pitch + column;
-      if (!shows(i)) continue;
-      ++covered;
-      sum += luminance_[static_cast<std::size_t>(i)];
-    }
+  for (const Sample& sample : samples) {
+    const std::ptrdiff_t i = center + sample.row * pitch + sample.column;
+    if (!shows(i)) continue;
+    ++covered;
+    sum += luminance_[static_cast<std::size_t>(i)];
   }
   if (covered == 0) return;
-  constexpr int kAll = kSamples * kSamples;
   float& luminance = picture.luminance[pixel];
-  luminance = (luminance * static_cast<float>(kAll - covered) + sum) / kAll;
-  const std::ptrdiff_t centre = sample + kSamples / 2 * (pitch + 1);
-  if (!shows(centre)) return;
-  picture.depth[pixel] = depth_[static_cast<std::size_t>(centre)];
-  if (picture.id) picture.id[pixel] = id_[static_cast<std::size_t>(centre)];
+  luminance = (luminance * static_cast<float>(kSamples - covered) + sum) / kSamples;
+  if (!shows(center)) return;
+  picture.depth[pixel] = depth_[static_cast<std::size_t>(center)];
+  if (picture.id) picture.id[pixel] = id_[static_cast<std::size_t>(center)];
 }
 
 }  // namespace dodgesim

@@ -24,14 +24,13 @@ class MeshPainter {
   void paint(const Shot& shot, const Snapshot& snapshot, const PaintedPicture& picture);
 
  private:
-  void draw(const Shot& shot, const Snapshot& snapshot, const Rect& tile, const Rect& pixels);
-  void blend(const Shot& shot, const Rect& pixels, const PaintedPicture& picture) const;
-  void blend_pixel(std::ptrdiff_t sample, std::ptrdiff_t pitch, std::ptrdiff_t pixel,
+  void draw(const Shot& shot, const Snapshot& snapshot, const Rect& tile, const Rect& samples);
+  void blend_pixel(std::ptrdiff_t center, std::ptrdiff_t pitch, std::ptrdiff_t pixel,
                    const PaintedPicture& picture) const;
 
   TrianglePainter& triangles_;
   GlTarget target_;
-  // Of the pixels that were drawn last.
+  // Of the samples that were drawn last.
   std::vector<float> luminance_, depth_;
   std::vector<std::int32_t> id_;
 };

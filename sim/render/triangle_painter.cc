@@ -54,14 +54,17 @@ std::vector<Vertex> tessellate_unbounded(const InfinitePlane& plane, double far_
 }
 
 // Clip y grows downwards like the image's rows: window row 0 is the top of the image.
-Eigen::Matrix4d clip_from_camera(const Intrinsics& intrinsics, const DepthRange& depth) {
+// X_WG: where the vertices' frame is.
+Eigen::Matrix4d clip_from(const Shot& shot, const Eigen::Isometry3d& X_WG,
+                          const DepthRange& depth) {
+  const Intrinsics& intrinsics = shot.intrinsics;
   Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
   clip(0, 0) = 2.0 * intrinsics.f / intrinsics.width;
   clip(1, 1) = 2.0 * intrinsics.f / intrinsics.height;
   clip(2, 2) = 2.0 * depth.offset() - 1.0;
   clip(2, 3) = 2.0 * depth.slope();
   clip(3, 2) = 1.0;
-  return clip;
+  return clip * (shot.X_WC.inverse() * X_WG).matrix();
 }
 
 }  // namespace
@@ -101,12 +104,11 @@ void TrianglePainter::make_program_for(ProgramCache& programs, int texture) {
 }
 
 // What draw() needs besides vertices and texture. G: the frame of the vertices.
-void TrianglePainter::use(const Shot& shot, int texture, const Eigen::Isometry3d& X_WG,
-                          const Eigen::Vector3d& texture_shift, int id) const {
+void TrianglePainter::use(const Shot& shot, int texture, const Eigen::Matrix4d& clip_from_G,
+                          const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& texture_shift,
+                          int id) const {
   const GlProgram& program = program_for(texture);
   gl::UseProgram(program.name);
-  const Eigen::Matrix4d clip_from_G =
-      clip_from_camera(shot.intrinsics, depth_) * (shot.X_WC.inverse() * X_WG).matrix();
   set_matrix(program.clip_from_G, clip_from_G);
   set_matrix(program.X_WG, X_WG.matrix());
   set_vector(program.texture_shift, texture_shift);
@@ -136,7 +138,8 @@ void TrianglePainter::draw_static(const Shot& shot) {
   for (std::size_t i = 0; i < static_buffers_.size(); ++i) {
     const int texture = scene_.static_triangles[i].texture;
     choosers_[i].choose(shot, choice_);
-    use(shot, texture, Eigen::Isometry3d::Identity(), Eigen::Vector3d::Zero(), 0);
+    const Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
+    use(shot, texture, clip_from(shot, X_WG, depth_), X_WG, Eigen::Vector3d::Zero(), 0);
     draw(static_buffers_[i], choice_.finest, texture, true);
     draw(static_buffers_[i], choice_.mipmapped, texture, false);
   }
@@ -144,13 +147,15 @@ void TrianglePainter::draw_static(const Shot& shot) {
   draw_sky(shot);
 }
 
-void TrianglePainter::draw_objects(const Shot& shot, const Snapshot& snapshot) {
+void TrianglePainter::draw_objects(const Shot& shot, const Snapshot& snapshot,
+                                   const Eigen::Matrix4d& window_from_image) {
   for (std::size_t i = 0; i < moving_buffers_.size(); ++i) {
     const MovingTriangles& moving = scene_.moving_triangles[i];
     const auto object = static_cast<std::size_t>(moving.object);
     if (!snapshot.launched[object]) continue;
-    use(shot, moving.batch.texture, snapshot.objects[object].pose(), Eigen::Vector3d::Zero(),
-        moving.object + 1);
+    const Eigen::Isometry3d X_WG = snapshot.objects[object].pose();
+    use(shot, moving.batch.texture, window_from_image * clip_from(shot, X_WG, depth_), X_WG,
+        Eigen::Vector3d::Zero(), moving.object + 1);
     draw(moving_buffers_[i], moving.batch.texture);
   }
 }
@@ -167,7 +172,8 @@ void TrianglePainter::draw_unbounded(const Shot& shot) {
     const int texture = plane.surface.texture;
     const bool cube = texture >= 0 && scene_.textures[static_cast<std::size_t>(texture)].cube;
     if (!cube) shift -= shift.array().floor().matrix();
-    use(shot, plane.surface.texture, plane.pose * Eigen::Translation3d(foot), shift, 0);
+    const Eigen::Isometry3d X_WG = plane.pose * Eigen::Translation3d(foot);
+    use(shot, texture, clip_from(shot, X_WG, depth_), X_WG, shift, 0);
     draw(unbounded_buffers_[i], plane.surface.texture);
   }
 }

@@ -21,17 +21,19 @@ class TrianglePainter {
   TrianglePainter(const SceneGeometry& scene, const SceneTextures& textures, ProgramCache& programs,
                   const DepthRange& depth, double far_m, double sky_luminance);
 
-  // Into the framebuffer that is bound, within the scissor.
+  // Into the framebuffer that is bound, within the scissor. `window_from_image` is applied to clip
+  // coordinates, of which the identity shows the shot's whole image in the viewport.
   void draw_static(const Shot& shot);
-  void draw_objects(const Shot& shot, const Snapshot& snapshot);
+  void draw_objects(const Shot& shot, const Snapshot& snapshot,
+                    const Eigen::Matrix4d& window_from_image);
 
  private:
   static constexpr std::size_t kTextureKinds = 3;
 
   const GlProgram& program_for(int texture) const;
   void make_program_for(ProgramCache& programs, int texture);
-  void use(const Shot& shot, int texture, const Eigen::Isometry3d& X_WG,
-           const Eigen::Vector3d& texture_shift, int id) const;
+  void use(const Shot& shot, int texture, const Eigen::Matrix4d& clip_from_G,
+           const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& texture_shift, int id) const;
   void draw(const VertexBuffer& buffer, int texture) const;
   void draw(const VertexBuffer& buffer, const std::vector<std::uint32_t>& vertices, int texture,
             bool finest_only) const;
