@@ -222,6 +222,30 @@ TEST(Coverage, OfAThrownMeshMatchesBruteForce) {
   expect_coverage(scene.draw_objects(X_WC, scene.full(), false), hits, 0.21, 0.04);
 }
 
+// An edge that jumped from one row or column of samples to the next would fire its events in bursts.
+TEST(Coverage, OfAMeshFollowsEdgesAlongTheImagesAxes) {
+  Scene scene(std::string(kWhiteLight) +
+                  "<asset><mesh name='plate' vertex='0 .2 .2  0 .2 -.2  0 -.2 .2  0 -.2 -.2  "
+                  ".01 0 0'/></asset><worldbody>" +
+                  thrown(0, "<geom type='mesh' mesh='plate' rgba='1 1 1 1'/>") + "</worldbody>",
+              black_sky());
+  const Intrinsics& camera = scene.camera();
+  Vector3d& p_W = scene.snapshot().objects[0].p_W;
+  for (int axis : {1, 2}) {  // left, up
+    const double center_px = axis == 1 ? camera.cx() : camera.cy();
+    for (double moved_px = -1; moved_px < 1; moved_px += 0.03) {
+      p_W = {1, 0, 0};
+      p_W[axis] = moved_px / camera.f;
+      const double edge_px = center_px - 0.2 * camera.f - moved_px;
+      const Image image = scene.render(forward_camera());
+      for (int i = 0; i < center_px; ++i) {
+        const double seen = axis == 1 ? image.at(i, 120) : image.at(160, i);
+        EXPECT_NEAR(seen, std::clamp(i + 0.5 - edge_px, 0.0, 1.0), 0.025) << i << ", " << moved_px;
+      }
+    }
+  }
+}
+
 // Convex hull of points, counter-clockwise in image coordinates (gift wrapping).
 std::vector<Vector2d> hull(std::vector<Vector2d> points) {
   const auto cross = [](const Vector2d& a, const Vector2d& b) {
