@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
-#include "tests/sim/render/render_fixture.h"
+#include "tests/sim/render/coverage.h"
 
 namespace dodgesim {
 namespace {
@@ -15,18 +14,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kTolerancePx = 0.1;
-
-RenderSpec black_sky() {
-  RenderSpec spec;
-  spec.sky_luminance = 0.0;
-  return spec;
-}
-
-// White object on black: luminance is coverage.
-Scene white_object(const std::string& geom) {
-  return Scene(std::string(kWhiteLight) + "<worldbody>" + thrown(0, geom) + "</worldbody>",
-               black_sky());
-}
 
 // x of the left and right end of a sphere's outline in image row y, in closed form.
 bool sphere_row(const Intrinsics& camera, const Vector3d& c, double r, double y, double& left,
@@ -83,36 +70,6 @@ INSTANTIATE_TEST_SUITE_P(Positions, SphereOutline,
                                            Vector3d(-0.75, -0.55, 1.05), Vector3d(0.7, -0.5, 1),
                                            Vector3d(-0.7, 0.5, 1), Vector3d(1.4, 1.05, 2),
                                            Vector3d(0.2, 0.1, 6)));
-
-// Compares every pixel with brute-force ray casting: mean absolute error of partly covered pixels
-// and the largest error.
-void expect_coverage(const Image& image, const std::function<bool(const Vector3d&)>& hits,
-                     double largest, double mean) {
-  double worst = 0, sum = 0;
-  int edges = 0, covered = 0;
-  const auto inside = [&](double x, double y) {
-    return hits(
-        {(x - image.camera.cx()) / image.camera.f, (y - image.camera.cy()) / image.camera.f, 1.0});
-  };
-  for (int y = 0; y < image.camera.height; ++y) {
-    for (int x = 0; x < image.camera.width; ++x) {
-      const double truth = sampled_coverage(x, y, 4, inside);
-      if (truth == 0 || truth == 1) {
-        // Nothing but a sliver between the samples can differ.
-        EXPECT_NEAR(image.at(x, y), truth, std::max(0.1, largest)) << x << ", " << y;
-        covered += truth == 1;
-        continue;
-      }
-      const double error = std::abs(image.at(x, y) - sampled_coverage(x, y, 16, inside));
-      worst = std::max(worst, error);
-      sum += error;
-      ++edges;
-    }
-  }
-  EXPECT_GT(edges, 4);
-  EXPECT_LT(worst, largest);
-  EXPECT_LT(sum / edges, mean);
-}
 
 TEST(Coverage, OfASmallSphereIsItsAreaInEveryPixel) {
   for (const double z : {1.0, 4.0, 8.0}) {
@@ -188,62 +145,6 @@ TEST(Coverage, OfATurnedCylinderMatchesBruteForce) {
                std::min((-b + std::sqrt(root)) / a, std::max(z1, z2));
       },
       0.05, 0.01);
-}
-
-// Whether the ray meets a triangle.
-bool meets(const Vector3d& ray, const std::array<Vector3d, 3>& corners) {
-  const auto& [a, b, c] = corners;
-  const double u = ray.dot(a.cross(b)), v = ray.dot(b.cross(c)), w = ray.dot(c.cross(a));
-  return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-}
-
-// Across the border of two tiles, too (x = 128).
-TEST(Coverage, OfAThrownMeshMatchesBruteForce) {
-  Scene scene(std::string(kWhiteLight) +
-                  "<asset><mesh name='wedge' vertex='0 0 0  .1 0 0  0 .15 0  0 0 .2'/></asset>"
-                  "<worldbody>" +
-                  thrown(0, "<geom type='mesh' mesh='wedge' rgba='1 1 1 1'/>") + "</worldbody>",
-              black_sky());
-  BodyState& state = scene.snapshot().objects[0];
-  state.p_W = {1, 0.15, 0.05};
-  state.q_W = Eigen::Quaterniond(0.5, 0.3, -0.7, 0.4).normalized();
-  const Eigen::Isometry3d X_WC = forward_camera(), X_CG = X_WC.inverse() * state.pose();
-  std::array<Vector3d, 4> corners = {Vector3d(0, 0, 0), Vector3d(0.1, 0, 0), Vector3d(0, 0.15, 0),
-                                     Vector3d(0, 0, 0.2)};
-  for (Vector3d& corner : corners) corner = X_CG * corner;
-  const auto hits = [&](const Vector3d& ray) {
-    for (std::size_t out = 0; out < 4; ++out) {
-      if (meets(ray, {corners[(out + 1) % 4], corners[(out + 2) % 4], corners[(out + 3) % 4]}))
-        return true;
-    }
-    return false;
-  };
-  expect_coverage(scene.render(X_WC), hits, 0.21, 0.04);
-  expect_coverage(scene.draw_objects(X_WC, scene.full(), false), hits, 0.21, 0.04);
-}
-
-// An edge that jumped from one row or column of samples to the next would fire its events in bursts.
-TEST(Coverage, OfAMeshFollowsEdgesAlongTheImagesAxes) {
-  Scene scene(std::string(kWhiteLight) +
-                  "<asset><mesh name='plate' vertex='0 .2 .2  0 .2 -.2  0 -.2 .2  0 -.2 -.2  "
-                  ".01 0 0'/></asset><worldbody>" +
-                  thrown(0, "<geom type='mesh' mesh='plate' rgba='1 1 1 1'/>") + "</worldbody>",
-              black_sky());
-  const Intrinsics& camera = scene.camera();
-  Vector3d& p_W = scene.snapshot().objects[0].p_W;
-  for (int axis : {1, 2}) {  // left, up
-    const double center_px = axis == 1 ? camera.cx() : camera.cy();
-    for (double moved_px = -1; moved_px < 1; moved_px += 0.03) {
-      p_W = {1, 0, 0};
-      p_W[axis] = moved_px / camera.f;
-      const double edge_px = center_px - 0.2 * camera.f - moved_px;
-      const Image image = scene.render(forward_camera());
-      for (int i = 0; i < center_px; ++i) {
-        const double seen = axis == 1 ? image.at(i, 120) : image.at(160, i);
-        EXPECT_NEAR(seen, std::clamp(i + 0.5 - edge_px, 0.0, 1.0), 0.025) << i << ", " << moved_px;
-      }
-    }
-  }
 }
 
 // Convex hull of points, counter-clockwise in image coordinates (gift wrapping).
