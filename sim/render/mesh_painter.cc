@@ -13,7 +13,7 @@ namespace {
 // with the sides 3, 4 and 5: a pixel to the right is the sample (4, -3) further on, a pixel down
 // (3, 4). So a pixel has 25 samples 1/5 px apart, no two of them in the same row or column of the
 // image: of edges along the image's axes, too, each sample shows another 1/25 px.
-constexpr int kAlong = 4, kAcross = 3;
+constexpr int kAlong = 4, kAcross = 1;
 constexpr int kSamples = kAlong * kAlong + kAcross * kAcross;
 // How far a sample can be from that at its pixel's centre, along either axis.
 constexpr int kReach = 3;
