@@ -25,10 +25,10 @@ BodyState moved(const BodyState& start, TimeUs t_us) {
   return state;
 }
 
-// In the camera's frame: place and velocity of a ball that is in view and comes nearer, or that is
-// beside the view and crosses it.
-void place_ball(RandomStream& random, bool from_the_side, Eigen::Vector3d& p_C,
-                Eigen::Vector3d& v_C) {
+// In the camera's frame: place and velocity of an object that is in view and comes nearer, or that
+// is beside the view and crosses it.
+void place_object(RandomStream& random, bool from_the_side, Eigen::Vector3d& p_C,
+                  Eigen::Vector3d& v_C) {
   const double depth = random.uniform(1.2, 3);
   const double speed = random.uniform(4, 8);
   if (from_the_side) {
@@ -58,11 +58,11 @@ PrescribedThrow PrescribedThrow::random(std::uint64_t seed, int number,
   const double turn = number % 2 == 0 ? kFastTurnRps : random.uniform(0, kSlowTurnRps);
   vehicle.w_W = turn * random_direction(random);
   Eigen::Vector3d p_C, v_C;
-  place_ball(random, number % 4 < 2, p_C, v_C);
+  place_object(random, number % 4 < 2, p_C, v_C);
   const Eigen::Isometry3d X_WC = vehicle.pose() * X_BC;
-  toss.ball.p_W = X_WC * p_C;
-  toss.ball.v_W = X_WC.linear() * v_C;
-  toss.ball.w_W = kSpinRps * random_direction(random);
+  toss.object.p_W = X_WC * p_C;
+  toss.object.v_W = X_WC.linear() * v_C;
+  toss.object.w_W = kSpinRps * random_direction(random);
   return toss;
 }
 
@@ -70,7 +70,7 @@ Snapshot PrescribedThrow::at(TimeUs t_us) const {
   Snapshot snapshot;
   snapshot.t_us = t_us;
   snapshot.vehicle = moved(vehicle, t_us);
-  snapshot.objects = {moved(ball, t_us)};
+  snapshot.objects = {moved(object, t_us)};
   snapshot.launched = {true};
   return snapshot;
 }

@@ -11,12 +11,12 @@ namespace dodgesim {
 struct PrescribedThrow {
   double size_m = 0.2;
   double yaw_rad = 0;  // of the vehicle at first, which is level
-  BodyState vehicle, ball;
+  BodyState vehicle, object;
 
-  // Half of them turn at 5 rad/s, half of the balls come into view from the side.
+  // Half of them turn at 5 rad/s, half of the objects come into view from the side.
   static PrescribedThrow random(std::uint64_t seed, int number, const Eigen::Isometry3d& X_BC);
 
-  // Vehicle and ball at t_us.
+  // Vehicle and object at t_us.
   Snapshot at(TimeUs t_us) const;
 };
 

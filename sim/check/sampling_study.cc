@@ -9,7 +9,6 @@
 #include "sim/check/prescribed_throw.h"
 #include "sim/check/quantile.h"
 #include "sim/files/text_table.h"
-#include "sim/flight/setup.h"
 #include "sim/world/world.h"
 
 namespace dodgesim {
@@ -21,7 +20,6 @@ constexpr double kLeastEvents = 300;  // of a throw, to be judged by itself
 
 constexpr const char* kRoom = "room";
 constexpr const char* kVehicle = "qav_rxl";
-constexpr const char* kBall = "ball";
 
 // The events of one throw, and what they took.
 struct StudyFilm {
@@ -32,7 +30,8 @@ struct StudyFilm {
 StudyFilm film(const World& world, const PrescribedThrow& toss, const SamplingVariant& variant,
                const SamplingOptions& options) {
   EventRigSetup setup;
-  setup.intrinsics = intrinsics(CameraSpec{});
+  setup.intrinsics = options.intrinsics;
+  setup.render = options.render;
   setup.keys = variant.keys;
   setup.sampling = variant.sampling;
   setup.events = without_noise(options.camera);
@@ -85,15 +84,14 @@ class Accuracy {
   std::vector<double> medians_us_;
 };
 
-SamplingVariant changed(const std::string& name, const std::function<void(SamplingVariant&)>& f) {
-  SamplingVariant variant{name};
-  f(variant);
-  return variant;
-}
-
 }  // namespace
 
-std::vector<SamplingVariant> sampling_variants() {
+std::vector<SamplingVariant> sampling_variants(const SamplingSpec& sampling, const KeySpec& keys) {
+  const auto changed = [&](const std::string& name, const auto& change) {
+    SamplingVariant variant{name, sampling, keys};
+    change(variant);
+    return variant;
+  };
   const auto displacement = [](double px) {
     return changed("max_displacement_px " + formatted("%g", px),
                    [px](SamplingVariant& v) { v.sampling.max_displacement_px = px; });
@@ -106,7 +104,7 @@ std::vector<SamplingVariant> sampling_variants() {
     return changed("max_misplacement_px " + formatted("%g", px),
                    [px](SamplingVariant& v) { v.keys.max_misplacement_px = px; });
   };
-  return {changed("defaults", [](SamplingVariant&) {}),
+  return {changed("as set", [](SamplingVariant&) {}),
           changed("whole pictures", [](SamplingVariant& v) { v.whole_pictures = true; }),
           changed("coarse: max_displacement_px 1, supersampling 2",
                   [](SamplingVariant& v) {
@@ -150,9 +148,9 @@ std::vector<SamplingResult> study_sampling(const SamplingOptions& options,
     // The camera's place is the vehicle's, whatever is thrown.
     const World bare({options.models_dir, kRoom, kVehicle, {}});
     const auto toss = PrescribedThrow::random(options.seed, k, bare.vehicle().X_BC.front());
-    World world({options.models_dir, kRoom, kVehicle, {{kBall, toss.size_m}}});
+    World world({options.models_dir, kRoom, kVehicle, {{options.object, toss.size_m}}});
     world.reset(toss.vehicle.p_W, toss.yaw_rad, toss.vehicle.v_W);
-    world.launch(0, toss.ball);
+    world.launch(0, toss.object);
     const StudyFilm reference = film(world, toss, sampling_reference(), options);
     for (std::size_t i = 0; i < variants.size(); ++i) {
       const StudyFilm found = film(world, toss, variants[i], options);
@@ -202,7 +200,7 @@ Check judge(const std::vector<SamplingResult>& results) {
   Check check{
       "Sampling of the rendered scene",
       "Random throws in the room with a vehicle that moves and turns as it is told, half of "
-      "them at 5 rad/s, half of the balls entering the view from the side. Events against "
+      "them at 5 rad/s, half of the objects entering the view from the side. Events against "
       "those of a camera that is sampled eight times finer and for which every picture is "
       "drawn anew. Noise and jitter are off."};
   const auto judge_part = [&check](const std::string& part, const SamplingAccuracy& accuracy) {

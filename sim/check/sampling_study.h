@@ -21,11 +21,12 @@ struct SamplingVariant {
   bool whole_pictures = false;  // objects' regions are taken as whole pictures
 };
 
-// The defaults, the same with whole pictures, a coarser and a finer sampling, and the defaults with
-// one parameter changed.
-std::vector<SamplingVariant> sampling_variants();
+// What is given, the same with whole pictures, a coarser and a finer sampling, and what is given
+// with one parameter changed.
+std::vector<SamplingVariant> sampling_variants(const SamplingSpec& sampling = {},
+                                               const KeySpec& keys = {});
 
-// Eight times finer, every picture drawn anew and as finely as can be.
+// Eight times finer than the defaults, every picture drawn anew and as finely as can be.
 SamplingVariant sampling_reference();
 
 struct SamplingOptions {
@@ -33,7 +34,10 @@ struct SamplingOptions {
   int throws = 50;
   std::uint64_t seed = 1;
   EventCameraSpec camera;  // its noise is left out
-  TimeUs film_us = 30000;  // of each throw; whole ticks
+  Intrinsics intrinsics;
+  RenderSpec render;
+  std::string object = "ball";  // what is thrown: a file of the models' objects
+  TimeUs film_us = 30000;       // of each throw; whole ticks
 };
 
 // Events of an object or of the static scene, over all throws.
@@ -61,7 +65,7 @@ std::vector<SamplingResult> study_sampling(const SamplingOptions& options,
 // A Markdown table of the results.
 std::string sampling_table(const std::vector<SamplingResult>& results);
 
-// The limits hold for the first variant, the defaults.
+// The limits hold for the first variant.
 Check judge(const std::vector<SamplingResult>& results);
 
 }  // namespace dodgesim

@@ -10,7 +10,6 @@
 #include "sim/config/expand.h"
 #include "sim/config/parameter_docs.h"
 #include "sim/config/reader.h"
-#include "sim/config/scenario.h"
 #include "sim/config/yaml_tree.h"
 
 namespace dodgesim {
@@ -43,42 +42,57 @@ bool is_scenario(const YamlNode& root) {
   });
 }
 
-EventCameraSpec camera_of_scenario(const std::string& path) {
+// `group`: of the keys that must not vary.
+SensorsSpec sensors_of_scenario(const std::string& path, const char* group) {
   const Scenario scenario = load_scenario(path, "");
-  if (const VariedKey* const varied = find_varied(scenario, {"sensors.events"})) {
-    throw ScenarioError(path + " has several event cameras (" + varied->key +
-                        "): name one of them in a file of its own.");
+  if (const VariedKey* const varied = find_varied(scenario, {group})) {
+    throw ScenarioError(path + " varies " + varied->key +
+                        ": write a file with one event camera only.");
   }
-  return case_of(scenario, 0).scenario.sensors.events;
+  return case_of(scenario, 0).scenario.sensors;
 }
 
-EventCameraSpec load(const std::string& path) {
+SensorsSpec with_events(const EventCameraSpec& events) {
+  SensorsSpec sensors;
+  sensors.events = events;
+  return sensors;
+}
+
+SensorsSpec load(const std::string& path, const char* group) {
   ReadContext context(path);
   EventCameraSpec spec;
   Documenter documenter;
   spec.visit(documenter);
   for (const ParameterDoc& doc : documenter.take()) context.all_keys.push_back(doc.path);
   const YamlNode root = parse_yaml(read_scenario_text(path), context.problems);
-  if (is_scenario(root)) return camera_of_scenario(path);
+  if (is_scenario(root)) return sensors_of_scenario(path, group);
   Reader reader(root, "", context);
   spec.visit(reader);
   reader.finish();
   context.problems.raise_if_any();
-  return spec;
+  return with_events(spec);
+}
+
+SensorsSpec sensors_by_name(const std::string& name_or_file, const char* group) {
+  const std::string end = std::filesystem::path(name_or_file).extension().string();
+  if (end == ".yaml" || end == ".yml") return load(name_or_file, group);
+  const std::vector<std::string> names = preset_names();
+  if (contains(names, name_or_file)) {
+    return with_events(event_camera_preset(name_or_file));
+  }
+  throw ScenarioError("There is no event camera \"" + name_or_file + "\"; known are " +
+                      joined(names) + ", and files that end in .yaml" +
+                      did_you_mean(closest_name(name_or_file, names)));
 }
 
 }  // namespace
 
 EventCameraSpec named_event_camera(const std::string& name_or_file) {
-  const std::string end = std::filesystem::path(name_or_file).extension().string();
-  if (end == ".yaml" || end == ".yml") return load(name_or_file);
-  const std::vector<std::string> names = preset_names();
-  if (contains(names, name_or_file)) {
-    return event_camera_preset(name_or_file);
-  }
-  throw ScenarioError("There is no event camera \"" + name_or_file + "\"; known are " +
-                      joined(names) + ", and files that end in .yaml" +
-                      did_you_mean(closest_name(name_or_file, names)));
+  return sensors_by_name(name_or_file, "sensors.events").events;
+}
+
+SensorsSpec named_sensors(const std::string& name_or_file) {
+  return sensors_by_name(name_or_file, "sensors");
 }
 
 }  // namespace dodgesim

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sim/events/spec.h"
+#include "sim/config/scenario.h"
 
 namespace dodgesim {
 
@@ -12,5 +12,9 @@ namespace dodgesim {
 // among them, each with the same default, or it is a scenario itself. Throws ScenarioError like
 // load_scenario() and for any other name, IoError when reading fails.
 EventCameraSpec named_event_camera(const std::string& name_or_file);
+
+// All sensors: those of a scenario, none of which may vary within it, else the defaults with that
+// event camera.
+SensorsSpec named_sensors(const std::string& name_or_file);
 
 }  // namespace dodgesim

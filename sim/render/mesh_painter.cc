@@ -9,14 +9,14 @@
 namespace dodgesim {
 namespace {
 
-// OpenGL draws a picture of samples that is turned against the image, by the angle of the triangle
-// with the sides 3, 4 and 5: a pixel to the right is the sample (4, -3) further on, a pixel down
-// (3, 4). So a pixel has 25 samples 1/5 px apart, no two of them in the same row or column of the
-// image: of edges along the image's axes, too, each sample shows another 1/25 px.
+// OpenGL draws a picture of samples that is turned against the image: a pixel to the right is the
+// sample (4, -1) further on, a pixel down (1, 4). So a pixel has 17 samples, no two of them in the
+// same row or column of the image, and an edge along one of its axes, too, does not jump: each
+// sample shows another 1/17 px. 25 that were not turned took as long (results/sensor/README.md).
 constexpr int kAlong = 4, kAcross = 1;
 constexpr int kSamples = kAlong * kAlong + kAcross * kAcross;
 // How far a sample can be from that at its pixel's centre, along either axis.
-constexpr int kReach = 3;
+constexpr int kReach = 2;
 
 // OpenGL draws one tile of the image after the other, each always alike, whatever the region.
 constexpr int kTilePx = 128;
@@ -45,7 +45,7 @@ std::array<Sample, kSamples> samples_of_a_pixel() {
   std::size_t size = 0;
   for (int row = -kReach; row <= kReach; ++row) {
     for (int column = -kReach; column <= kReach; ++column) {
-      // Where it is in the image, in 1/25 px.
+      // Where it is in the image, in 1/17 px.
       const int x = kAlong * column - kAcross * row, y = kAcross * column + kAlong * row;
       if (std::max(std::abs(x), std::abs(y)) <= kSamples / 2) samples.at(size++) = {column, row};
     }

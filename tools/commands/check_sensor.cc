@@ -13,6 +13,7 @@
 #include "sim/config/event_camera_file.h"
 #include "sim/files/directory.h"
 #include "sim/files/output_file.h"
+#include "sim/flight/setup.h"
 #include "tools/commands/command.h"
 #include "tools/commands/stop_signal.h"
 
@@ -37,16 +38,24 @@ struct CheckSensorArguments {
   std::string out;  // empty: no report
   std::uint64_t seed = 1;
   int sampling = 0;  // throws of the study; 0: none
+  std::string object = "ball";
   std::string models_dir;
 };
 
 // The study of the sampling instead of the checks.
 int study(const CheckSensorArguments& arguments) {
-  const SamplingOptions options{arguments.models_dir, arguments.sampling, arguments.seed,
-                                named_event_camera(arguments.camera)};
+  const SensorsSpec sensors = named_sensors(arguments.camera);
+  SamplingOptions options;
+  options.models_dir = arguments.models_dir;
+  options.throws = arguments.sampling;
+  options.seed = arguments.seed;
+  options.camera = sensors.events;
+  options.intrinsics = intrinsics(sensors.camera);
+  options.render = sensors.render;
+  options.object = arguments.object;
   Progress progress(arguments.sampling, "throws");
-  const auto results =
-      study_sampling(options, sampling_variants(), [&](int finished) { progress.show(finished); });
+  const auto results = study_sampling(options, sampling_variants(sensors.sampling, sensors.keys),
+                                      [&](int finished) { progress.show(finished); });
   progress.finish();
   std::cout << sampling_table(results) << "\n";
   const Check check = judge(results);
@@ -104,13 +113,23 @@ void add_check_sensor_command(CLI::App& program, const std::string& command_line
   command->add_option("--seed", arguments->seed, "Of the camera and of the scenes")
       ->check(whole_number_between(0, UINT64_MAX))
       ->capture_default_str();
+  CLI::Option* sampling =
+      command
+          ->add_option(
+              "--sampling", arguments->sampling,
+              "Instead: what the sampling of the rendered scene costs in accuracy, over this\n"
+              "many random throws, for several settings; some 30 s a throw. Of a scenario with "
+              "its\n"
+              "camera, render, sampling and keys")
+          ->check(whole_number_between(1, 10000))
+          ->excludes(out)
+          ->type_name("THROWS");
   command
-      ->add_option("--sampling", arguments->sampling,
-                   "Instead: what the sampling of the rendered scene costs in accuracy, over this\n"
-                   "many random throws, for several settings; some 30 s a throw")
-      ->check(whole_number_between(1, 10000))
-      ->excludes(out)
-      ->type_name("THROWS");
+      ->add_option("--object", arguments->object,
+                   "What is thrown for that: an object of the models")
+      ->needs(sampling)
+      ->capture_default_str()
+      ->type_name("NAME");
   add_models_option(*command, arguments->models_dir);
   command->footer(kFooter);
   command->callback([arguments, command_line, &exit_code] {

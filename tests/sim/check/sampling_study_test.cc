@@ -16,8 +16,17 @@ namespace {
 
 constexpr const char* kModels = DODGESIM_SOURCE_DIR "/models";
 
+SamplingOptions options_of(int throws, std::uint64_t seed, TimeUs film_us) {
+  SamplingOptions options;
+  options.models_dir = kModels;
+  options.throws = throws;
+  options.seed = seed;
+  options.film_us = film_us;
+  return options;
+}
+
 TEST(SamplingStudy, FindsNoDifferenceBetweenTheReferenceAndItself) {
-  SamplingOptions options{kModels, 1, 5, EventCameraSpec(), 2500};
+  const SamplingOptions options = options_of(1, 5, 2500);
   SamplingVariant coarse{"coarse"};
   coarse.sampling.max_displacement_px = 4;
   int reported = 0;
@@ -40,11 +49,31 @@ TEST(SamplingStudy, FindsNoDifferenceBetweenTheReferenceAndItself) {
 
 // A few throws of what `dodgesim check-sensor --sampling 50` measures.
 TEST(SamplingStudy, FindsTheDefaultsWithinTheirLimits) {
-  const SamplingOptions options{kModels, 3, 1, EventCameraSpec(), 5000};
+  const SamplingOptions options = options_of(3, 1, 5000);
   const auto results = study_sampling(options, {sampling_variants().front()}, [](int) {});
   EXPECT_GT(results[0].object.reference_events, 1000);
   EXPECT_GT(results[0].scene.reference_events, 10000);
   EXPECT_FALSE(judge(results).failed()) << sampling_table(results);
+}
+
+TEST(SamplingStudy, ThrowsWhatItIsTold) {
+  SamplingOptions options = options_of(1, 5, 1000);
+  const auto events = [&](const char* object) {
+    options.object = object;
+    return study_sampling(options, {SamplingVariant{}}, [](int) {})[0].object.reference_events;
+  };
+  EXPECT_NE(events("ball"), events("box"));
+}
+
+TEST(SamplingStudy, VariesWhatItIsGiven) {
+  SamplingSpec sampling;
+  sampling.max_displacement_px = 3;
+  KeySpec keys;
+  keys.supersampling = 1;
+  const auto variants = sampling_variants(sampling, keys);
+  EXPECT_EQ(variants.front().sampling.max_displacement_px, 3);
+  EXPECT_EQ(variants.front().keys.supersampling, 1);
+  EXPECT_EQ(variants.back().keys.supersampling, 1);
 }
 
 SamplingResult good_result() {

@@ -42,11 +42,27 @@ TEST_F(EventCameraFileTest, OfAScenarioWithSeveralCamerasIsNone) {
     EXPECT_EQ(testing::complaint<ScenarioError>(
                   [&] { written(keys + ": {sensors.events.preset: [ideal, noisy]}\n"); }),
               (own_.path() / "mine.yaml").string() +
-                  " has several event cameras (sensors.events.preset): name one of them in a file "
-                  "of its own.");
+                  " varies sensors.events.preset: write a file with one event camera only.");
   }
   EXPECT_EQ(written("sweep: {delays.compute_us: [0, 3500]}\n").preset, "sees1");
   EXPECT_EQ(written("sweep: {sensors.events.preset: [noisy]}\n").preset, "noisy");
+}
+
+TEST_F(EventCameraFileTest, GivesAllSensorsOfAScenario) {
+  const auto sensors = [&](const std::string& yaml) {
+    testing::put(own_.path() / "mine.yaml", yaml);
+    return named_sensors((own_.path() / "mine.yaml").string());
+  };
+  const SensorsSpec found = sensors("sensors: {sampling: {max_displacement_px: 2}}\n");
+  EXPECT_EQ(found.sampling.max_displacement_px, 2);
+  EXPECT_EQ(found.events.preset, "sees1");
+  EXPECT_EQ(sensors("preset: ideal\n").events.preset, "ideal");
+  EXPECT_EQ(sensors("preset: ideal\n").sampling.max_displacement_px,
+            SamplingSpec{}.max_displacement_px);
+  EXPECT_NE(testing::complaint<ScenarioError>([&] {
+              sensors("sweep: {sensors.sampling.max_displacement_px: [1, 2]}\n");
+            }).find("sensors.sampling.max_displacement_px"),
+            std::string::npos);
 }
 
 TEST_F(EventCameraFileTest, OfAScenarioIsReadAsOne) {
