@@ -92,15 +92,15 @@ std::vector<SamplingVariant> sampling_variants(const SamplingSpec& sampling, con
     change(variant);
     return variant;
   };
-  const auto displacement = [](double px) {
+  const auto displacement = [&](double px) {
     return changed("max_displacement_px " + formatted("%g", px),
                    [px](SamplingVariant& v) { v.sampling.max_displacement_px = px; });
   };
-  const auto supersampling = [](std::int64_t n) {
+  const auto supersampling = [&](std::int64_t n) {
     return changed("supersampling " + std::to_string(n),
                    [n](SamplingVariant& v) { v.keys.supersampling = n; });
   };
-  const auto misplacement = [](double px) {
+  const auto misplacement = [&](double px) {
     return changed("max_misplacement_px " + formatted("%g", px),
                    [px](SamplingVariant& v) { v.keys.max_misplacement_px = px; });
   };
