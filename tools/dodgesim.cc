@@ -76,6 +76,11 @@ int no_such_command(CLI::App& program, const std::string& name) {
   return kUsageError;
 }
 
+// Says what is wrong with the command line, or gives the help that was asked for.
+int exit_of(const CLI::App& program, const CLI::ParseError& error) {
+  return program.exit(error) == 0 ? kOk : kUsageError;
+}
+
 int run_program(int argc, char** argv) {
   CLI::App program(
       "dodgesim throws objects at a simulated quadrotor that sees them with event cameras, and\n"
@@ -125,8 +130,13 @@ int run_program(int argc, char** argv) {
   }
   try {
     program.parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    // What is missing may be what was misspelt.
+    const std::vector<std::string> unknown = program.remaining(true);
+    if (unknown.empty()) return exit_of(program, error);
+    return exit_of(program, CLI::ExtrasError(program.get_name(), unknown));
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? kOk : kUsageError;
+    return exit_of(program, error);
   }
   return exit_code;
 }

@@ -89,6 +89,8 @@ TEST_F(DodgesimTest, SaysWhatIsWrongWithACommandLine) {
       {"run s.yaml --out= --force", "--out: nothing was given"},
       {"merge '' --out d", "merge: nothing was given"},
       {"sweep s.yaml --over ''", "--over: nothing was given"},
+      {"run --bogus", "not expected: --bogus"},
+      {"replay d --trow 3", "not expected: --trow"},
       {"explain throw --markdown", "key excludes --markdown"},
       {"replay d --throw 0 --video v.avi", "v.avi must be the name of a file that ends in .mp4"},
       {"replay d --throw 0 --mcap v.bag", "v.bag must be the name of a file that ends in .mcap"},
