@@ -5,7 +5,7 @@
 //
 // Edges. At outlines a pixel's luminance is the mean over its square aperture, so that an edge that
 // moves slowly changes it smoothly: analytically for ray-cast ellipsoids and the sides of cylinders
-// and capsules, by 64 rays a pixel for their ends and for thrown boxes, by 25 samples a pixel for
+// and capsules, by 64 rays a pixel for their ends and for thrown boxes, by 17 samples a pixel for
 // thrown meshes (mesh_painter.h), and by edge_smoother.h for what is static and made of triangles
 // (planes, boxes, cylinders, meshes). Not smoothed: the horizon and borders of an unbounded plane
 // and where something cuts into one, where a solid that is ray-cast, a cylinder or a mesh cuts into
