@@ -58,14 +58,13 @@ Eigen::Matrix4d samples_from_image(const Intrinsics& image, const Rect& tile) {
   const Eigen::Affine2d image_from_clip =
       Eigen::Scaling(0.5 * image.width, 0.5 * image.height) * Eigen::Translation2d(1, 1);
   const Sample first = sample_at(0, 0);
-  Eigen::Affine2d samples_from_image;
-  samples_from_image.linear() << kAlong, kAcross, -kAcross, kAlong;
-  samples_from_image.translation() =
-      Eigen::Vector2d(first.column + 0.5, first.row + 0.5) -
-      samples_from_image.linear() * Eigen::Vector2d(tile.x0 + 0.5, tile.y0 + 0.5);
+  Eigen::Affine2d from_image;
+  from_image.linear() << kAlong, kAcross, -kAcross, kAlong;
+  from_image.translation() = Eigen::Vector2d(first.column + 0.5, first.row + 0.5) -
+                             from_image.linear() * Eigen::Vector2d(tile.x0 + 0.5, tile.y0 + 0.5);
   const Eigen::Affine2d clip_from_samples =
       Eigen::Translation2d(-1, -1) * Eigen::Scaling(2.0 / kTileSamples);
-  const Eigen::Affine2d turned = clip_from_samples * samples_from_image * image_from_clip;
+  const Eigen::Affine2d turned = clip_from_samples * from_image * image_from_clip;
   Eigen::Matrix4d result = Eigen::Matrix4d::Identity();
   result.topLeftCorner<2, 2>() = turned.linear();
   result.topRightCorner<2, 1>() = turned.translation();

@@ -118,9 +118,8 @@ void add_check_sensor_command(CLI::App& program, const std::string& command_line
           ->add_option(
               "--sampling", arguments->sampling,
               "Instead: what the sampling of the rendered scene costs in accuracy, over this\n"
-              "many random throws, for several settings; some 30 s a throw. Of a scenario with "
-              "its\n"
-              "camera, render, sampling and keys")
+              "many random throws, for several settings; some 30 s a throw. If CAMERA is a\n"
+              "scenario: with its camera, render, sampling and keys")
           ->check(whole_number_between(1, 10000))
           ->excludes(out)
           ->type_name("THROWS");
