@@ -12,6 +12,14 @@ namespace {
 
 using Eigen::Vector3d;
 
+// The convex hull of the vertices "x y z  x y z ..." [m].
+Scene white_mesh(const std::string& vertices) {
+  return Scene(std::string(kWhiteLight) + "<asset><mesh name='mesh' vertex='" + vertices +
+                   "'/></asset><worldbody>" +
+                   thrown(0, "<geom type='mesh' mesh='mesh' rgba='1 1 1 1'/>") + "</worldbody>",
+               black_sky());
+}
+
 // Whether the ray meets a triangle.
 bool meets(const Vector3d& ray, const std::array<Vector3d, 3>& corners) {
   const auto& [a, b, c] = corners;
@@ -21,11 +29,7 @@ bool meets(const Vector3d& ray, const std::array<Vector3d, 3>& corners) {
 
 // Across the border of two tiles, too (x = 128).
 TEST(MeshPainter, CoversWhatBruteForceSays) {
-  Scene scene(std::string(kWhiteLight) +
-                  "<asset><mesh name='wedge' vertex='0 0 0  .1 0 0  0 .15 0  0 0 .2'/></asset>"
-                  "<worldbody>" +
-                  thrown(0, "<geom type='mesh' mesh='wedge' rgba='1 1 1 1'/>") + "</worldbody>",
-              black_sky());
+  Scene scene = white_mesh("0 0 0  .1 0 0  0 .15 0  0 0 .2");
   BodyState& state = scene.snapshot().objects[0];
   state.p_W = {1, 0.15, 0.05};
   state.q_W = Eigen::Quaterniond(0.5, 0.3, -0.7, 0.4).normalized();
@@ -46,11 +50,7 @@ TEST(MeshPainter, CoversWhatBruteForceSays) {
 
 // An edge that jumped from one row of samples to the next would fire its events in bursts.
 TEST(MeshPainter, FollowsEdgesAlongTheImagesAxes) {
-  Scene scene(std::string(kWhiteLight) +
-                  "<asset><mesh name='plate' vertex='0 .2 .2  0 .2 -.2  0 -.2 .2  0 -.2 -.2  "
-                  ".01 0 0'/></asset><worldbody>" +
-                  thrown(0, "<geom type='mesh' mesh='plate' rgba='1 1 1 1'/>") + "</worldbody>",
-              black_sky());
+  Scene scene = white_mesh("0 .2 .2  0 .2 -.2  0 -.2 .2  0 -.2 -.2  .01 0 0");  // a plate
   const Intrinsics& camera = scene.camera();
   Vector3d& p_W = scene.snapshot().objects[0].p_W;
   for (int axis : {1, 2}) {  // left, up
