@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "sim/base/contains.h"
@@ -10,6 +11,7 @@
 #include "sim/base/names.h"
 #include "sim/base/numbers.h"
 #include "sim/base/time.h"
+#include "sim/world/asset.h"
 #include "sim/world/mjcf.h"
 
 namespace dodgesim {
@@ -151,20 +153,22 @@ std::vector<MjcfTag> scaled_object(const WorldSpec& world, std::size_t i) {
 // One of the files that make up the world.
 struct Part {
   std::string label;
-  std::string xml;
+  std::vector<MjcfTag> tags;
 };
 
 // The models that were asked for last. To compile one takes ten times as long as to copy it, and
 // each throw needs its own several times.
 class CompiledModels {
  public:
-  MjModelPtr get(const std::string& xml, const std::string& directory, const std::string& label) {
+  MjModelPtr get(const std::string& xml, std::span<const Part> parts, const std::string& directory,
+                 const std::string& label) {
     const std::string key = directory + '\n' + xml;
     const auto same = [&](const Entry& entry) { return entry.first == key; };
     const auto found = std::ranges::find_if(entries_, same);
     if (found != entries_.end()) {
       std::rotate(entries_.begin(), found, found + 1);
     } else {
+      for (const Part& part : parts) check_assets(part.tags, directory, part.label);
       if (entries_.size() == kMost) entries_.pop_back();
       entries_.emplace(entries_.begin(), key, compile_model(xml, directory, label));
     }
@@ -193,9 +197,11 @@ std::size_t most_contacts(const std::vector<MjcfTag>& object) {
 // Air drag is computed by World: MuJoCo's own fluid model stays off (density 0). The buffers hold
 // the vehicle's contacts and those of the objects, and no more: the defaults cost 14 MB each world.
 // Of several <size>s the last one holds, which is this one, whatever the models say.
-MjModelPtr compile(const std::string& inner_xml, const std::string& models_dir,
+MjModelPtr compile(std::span<const Part> parts, const std::string& models_dir,
                    const std::string& label, std::size_t object_contacts) {
   thread_local CompiledModels models;
+  std::string inner_xml;
+  for (const Part& part : parts) inner_xml += print_mjcf(part.tags);
   const std::size_t contacts = 30 + std::max(object_contacts, kFewContacts);
   return models.get(
       "<mujoco model=\"dodgesim\"><compiler angle=\"degree\"/>"
@@ -203,7 +209,7 @@ MjModelPtr compile(const std::string& inner_xml, const std::string& models_dir,
           std::to_string(-kGravityMps2) + "\" density=\"0\" viscosity=\"0\" timestep=\"" +
           std::to_string(seconds(kTickUs)) + "\"/>" + inner_xml + "<size nconmax=\"" +
           std::to_string(contacts) + "\" njmax=\"" + std::to_string(5 * contacts) + "\"/></mujoco>",
-      models_dir, label);
+      parts, models_dir, label);
 }
 
 }  // namespace
@@ -230,21 +236,19 @@ MjModelPtr compose_model(const WorldSpec& spec) {
       expect_no_place(tags, label);
     }
     refuse_root_default(tags, what, label);
-    parts.push_back({label, print_mjcf(tags)});
+    parts.push_back({label, tags});
   }
   std::size_t contacts = 0;
   for (std::size_t i = 0; i < spec.objects.size(); ++i) {
     const std::vector<MjcfTag> tags = scaled_object(spec, i);
     contacts += most_contacts(tags);
-    parts.push_back({spec.path(spec.objects[i].file()), print_mjcf(tags)});
+    parts.push_back({spec.path(spec.objects[i].file()), tags});
   }
-  std::string xml;
-  for (const Part& part : parts) xml += part.xml;
   try {
-    return compile(xml, spec.models_dir, parts[0].label + " with " + parts[1].label, contacts);
+    return compile(parts, spec.models_dir, parts[0].label + " with " + parts[1].label, contacts);
   } catch (const ScenarioError&) {
     // Which file is it? Each compiles on its own unless it is the culprit.
-    for (const Part& part : parts) compile(part.xml, spec.models_dir, part.label, contacts);
+    for (const Part& part : parts) compile({&part, 1}, spec.models_dir, part.label, contacts);
     throw;
   }
 }

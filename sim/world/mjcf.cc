@@ -23,7 +23,6 @@ namespace {
 
 constexpr std::uintmax_t kMaxModelBytes = 1 << 20;
 constexpr std::uintmax_t kMaxAssetBytes = 32 << 20;
-constexpr std::uint32_t kMaxTexturePx = 4096;
 constexpr std::ptrdiff_t kMaxAttributes = 20000;  // tinyxml2 compares those of an element pairwise
 
 [[noreturn]] void fail(const std::string& label, int line, const std::string& what) {
@@ -63,40 +62,6 @@ void add_tags(const tinyxml2::XMLNode& parent, const std::string& label,
   }
 }
 
-// Width and height of a PNG file; nothing for any other file.
-std::optional<std::array<std::uint32_t, 2>> png_size(const std::string& path) {
-  constexpr std::array<unsigned char, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  std::array<unsigned char, 24> head{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
-  if (!file || !std::equal(kSignature.begin(), kSignature.end(), head.begin())) {
-    return std::nullopt;
-  }
-  const auto number = [&](std::size_t at) {
-    std::uint32_t value = 0;
-    for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | head[i];
-    return value;
-  };
-  return std::array<std::uint32_t, 2>{number(16), number(20)};
-}
-
-// What would take MuJoCo and the renderer more memory than any model needs.
-void check_asset(const std::string& path, const std::string& where) {
-  std::error_code error;
-  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-  if (error) throw ScenarioError(where + "The file " + path + " cannot be read.");
-  if (bytes > kMaxAssetBytes) {
-    throw ScenarioError(where + "The file " + path + " is larger than 32 MB.");
-  }
-  const auto size = png_size(path);
-  if (size && std::max((*size)[0], (*size)[1]) > kMaxTexturePx) {
-    throw ScenarioError(where + "The texture " + path + " has " + std::to_string((*size)[0]) +
-                        " x " + std::to_string((*size)[1]) + " pixels; at most " +
-                        std::to_string(kMaxTexturePx) + " x " + std::to_string(kMaxTexturePx) +
-                        " are allowed.");
-  }
-}
-
 // A path stays inside the models folder if it is relative and never goes up.
 bool leaves_folder(const std::string& path) {
   const std::filesystem::path p(path);
@@ -121,13 +86,6 @@ void check_paths(const std::vector<MjcfTag>& tags, const std::string& directory,
       throw ScenarioError(where + "A model file must not use <" + tag.name + ">.");
     }
     for (const auto& [name, value] : tag.attributes) {
-      if (tag.name == "texture" && (name == "width" || name == "height")) {
-        for (const double pixels : parse_numbers(value, label)) {
-          if (pixels <= kMaxTexturePx) continue;
-          throw ScenarioError(where + "A texture has at most " + std::to_string(kMaxTexturePx) +
-                              " x " + std::to_string(kMaxTexturePx) + " pixels.");
-        }
-      }
       if (name.compare(0, 4, "file") != 0) continue;
       if (leaves_folder(value)) {
         throw ScenarioError(where + "The path '" + value + "' leaves the models folder.");
@@ -139,7 +97,10 @@ void check_paths(const std::vector<MjcfTag>& tags, const std::string& directory,
       if (!is_inside(directory + "/" + value, directory)) {
         throw ScenarioError(where + "The path '" + value + "' leaves the models folder.");
       }
-      check_asset(directory + "/" + value, where);
+      if (std::filesystem::file_size(directory + "/" + value, error) > kMaxAssetBytes && !error) {
+        throw ScenarioError(where + "The file " + directory + "/" + value +
+                            " is larger than 32 MB.");
+      }
     }
   }
 }

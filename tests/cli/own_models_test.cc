@@ -31,12 +31,12 @@ class OwnModelsCommandTest : public dodgesim::testing::CommandTest {
 
 TEST_F(OwnModelsCommandTest, AMeshThatCrashesMujocoCostsASentenceAndExitCodeTwo) {
   copy_models(root_);
-  write("models/mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 4000000\n");
   write("models/objects/evil.xml",
         "<mujoco><custom><numeric name='reference_size_m' data='0.1'/>"
         "<numeric name='mass_exponent' data='3'/><numeric name='drag_coefficient' data='1'/>"
         "<numeric name='frontal_area_m2' data='0.01'/></custom>"
-        "<asset><mesh name='m' file='mesh.obj'/></asset><worldbody><body name='body'><freejoint/>"
+        "<asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1' face='0 1 "
+        "400000000'/></asset><worldbody><body name='body'><freejoint/>"
         "<inertial pos='0 0 0' mass='1' diaginertia='1e-3 1e-3 1e-3'/>"
         "<geom type='mesh' mesh='m' contype='4' conaffinity='7'/></body></worldbody></mujoco>");
   for (const char* command : {"validate", "run --out x"}) {

@@ -106,8 +106,16 @@ TEST_F(ModelTrial, APlaceInsideOrOutsideOfWhatStandsThereCostsASentence) {
 }
 
 TEST_F(ModelTrial, AMeshThatCrashesMujocoCostsASentence) {
-  write_mesh(std::string(kTetrahedron) + "f 1 2 4000000\n");
+  write_object(std::string(kBall) + "<geom type='mesh' mesh='m' group='1'/>",
+               "<mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1' face='0 1 400000000'/>");
   EXPECT_THAT(complaint(), AllOf(HasSubstr("objects/own.xml"), ::testing::EndsWith(".")));
+}
+
+TEST_F(ModelTrial, AMeshThatMujocoWouldMisreadIsNamedWithItsLine) {
+  write_mesh(std::string(kTetrahedron) + "f 1 2 5\n");
+  EXPECT_THAT(complaint(), ::testing::MatchesRegex(
+                               ".*objects/own.xml:1: The mesh .*/meshes/own.obj, line 9: the "
+                               "face's corner '5' names a vertex that does not exist: .*\\."));
 }
 
 TEST_F(ModelTrial, BrokenMeshesCostASentence) {
@@ -149,9 +157,18 @@ TEST_F(ModelTrial, HugeAndBrokenTexturesCostASentence) {
   write("textures/own.png", png_head(0));
   EXPECT_THAT(with_texture("type='2d' file='textures/own.png'"),
               AllOf(HasSubstr("own"), ::testing::EndsWith(".")));
+  // MuJoCo would take what is not named so for a format of its own, and not check its size.
+  const std::string raw("\xfe\xff\xff\xff\xfe\xff\xff\xff\0\0\0\0\0\0\0\0\0\0\0\0", 20);
+  write("textures/own.bin", raw);
+  EXPECT_THAT(with_texture("type='2d' file='textures/own.bin'"),
+              ::testing::EndsWith("textures/own.bin must be a PNG file named *.png."));
+  write("textures/own.bin", testing::contents(directory_ / "textures/floor.png"));
+  EXPECT_THAT(with_texture("type='2d' file='textures/own.bin'"), HasSubstr("named *.png."));
+  write("textures/own.PNG", testing::contents(directory_ / "textures/floor.png"));
+  EXPECT_EQ(with_texture("type='2d' file='textures/own.PNG'"), "");
   write("textures/own.png", std::string(1000, 'x'));
-  EXPECT_THAT(with_texture("type='2d' file='textures/own.png'"),
-              AllOf(HasSubstr("own"), ::testing::EndsWith(".")));
+  EXPECT_THAT(with_texture("type='cube' fileright='textures/own.png'"),
+              ::testing::EndsWith("textures/own.png must be a PNG file named *.png."));
   EXPECT_THAT(with_texture("type='cube' builtin='flat' width='100000' height='100000'"),
               HasSubstr("own.xml:1: A texture has at most 4096 x 4096 pixels."));
   write("textures/own.png", std::string((32 << 20) + 1, 'x'));

@@ -1,0 +1,135 @@
+#include "sim/world/obj_check.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace dodgesim {
+
+namespace {
+
+// Takes what comes before one of `ends` off `rest`, and that end.
+std::string_view take_until(std::string_view& rest, std::string_view ends) {
+  const std::string_view taken = rest.substr(0, rest.find_first_of(ends));
+  rest.remove_prefix(std::min(taken.size() + 1, rest.size()));
+  return taken;
+}
+
+// The next word of a line, empty at its end.
+std::string_view take_word(std::string_view& line) {
+  constexpr std::string_view kBlanks = " \t";
+  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+  return take_until(line, kBlanks);
+}
+
+template <class Number>
+std::optional<Number> parse(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  Number number{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return number;
+}
+
+struct Kind {
+  std::string_view keyword, name;
+  int numbers;  // that MuJoCo reads of each
+};
+// A corner of a face names one of each: "vertex/texture coordinate/normal".
+constexpr std::array<Kind, 3> kKinds = {
+    {{"v", "vertex", 3}, {"vt", "texture coordinate", 2}, {"vn", "normal", 3}}};
+using Counts = std::array<long, 3>;
+
+// Adds to what there is of each kind what a line that begins with `keyword` brings.
+const Kind* count(std::string_view keyword, Counts& counts) {
+  for (std::size_t k = 0; k < kKinds.size(); ++k) {
+    if (keyword != kKinds[k].keyword) continue;
+    ++counts[k];
+    return &kKinds[k];
+  }
+  return nullptr;
+}
+
+// Checks line by line a text that has `totals` of each kind. An empty complaint is none.
+class ObjCheck {
+ public:
+  explicit ObjCheck(const Counts& totals) : totals_(totals) {}
+
+  std::string check(std::string_view line) {
+    const std::string_view keyword = take_word(line);
+    if (const Kind* kind = count(keyword, so_far_)) return check_numbers(*kind, line);
+    if (keyword == "o" || keyword == "g") part_ended_ = has_faces_;
+    return keyword == "f" ? check_face(line) : "";
+  }
+
+ private:
+  static std::string check_numbers(const Kind& kind, std::string_view line) {
+    for (int i = 0; i < kind.numbers; ++i) {
+      const std::string_view word = take_word(line);
+      if (word.empty()) {
+        return "a " + std::string(kind.name) + " has " + std::to_string(kind.numbers) + " numbers";
+      }
+      if (!std::isfinite(parse<double>(word).value_or(NAN))) {
+        return "'" + std::string(word) + "' is not a finite number";
+      }
+    }
+    return "";
+  }
+
+  std::string check_face(std::string_view line) {
+    if (part_ended_) {
+      return "a second object or group has faces, but MuJoCo reads those of the first alone: join "
+             "them";
+    }
+    has_faces_ = true;
+    for (std::string_view corner = take_word(line); !corner.empty() && corner[0] != '#';
+         corner = take_word(line)) {
+      const std::string complaint = check_corner(corner);
+      if (!complaint.empty()) return "the face's corner '" + std::string(corner) + "' " + complaint;
+    }
+    return "";
+  }
+
+  std::string check_corner(std::string_view corner) const {
+    for (std::size_t k = 0; k < kKinds.size(); ++k) {
+      const std::string name(kKinds[k].name);
+      const std::string_view index = take_until(corner, "/");
+      if (index.empty() && totals_[k] > 0) return "names no " + name + ", though the file has some";
+      if (index.empty()) continue;
+      const long number = parse<long>(index).value_or(0);
+      if (number == 0) return "names no " + name + ": they are counted from 1, or back from -1";
+      if (number > totals_[k] || number < -so_far_[k]) {
+        return "names a " + name + " that does not exist: the file has " +
+               std::to_string(number > 0 ? totals_[k] : so_far_[k]) + (number > 0 ? "" : " so far");
+      }
+    }
+    return corner.empty() ? "" : "has more than three parts";
+  }
+
+  Counts totals_, so_far_{};
+  bool has_faces_ = false, part_ended_ = false;
+};
+
+}  // namespace
+
+std::string complaint_about_obj(std::string_view text) {
+  Counts totals{};
+  for (std::string_view rest = text; !rest.empty();) {
+    std::string_view line = take_until(rest, "\n");
+    count(take_word(line), totals);
+  }
+  ObjCheck lines(totals);
+  int number = 0;
+  for (std::string_view rest = text; !rest.empty();) {
+    std::string_view line = take_until(rest, "\n");
+    ++number;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    const std::string complaint = lines.check(line);
+    if (!complaint.empty()) return "line " + std::to_string(number) + ": " + complaint;
+  }
+  return "";
+}
+
+}  // namespace dodgesim
