@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <string_view>
 #include <type_traits>
 
 #include "sim/base/error.h"
@@ -26,12 +27,16 @@ void throw_error(const char* message) {
 
 void ignore_warning(const char*) {}
 
-// MuJoCo's messages run over several lines and end without a full stop.
+// MuJoCo's messages run over several lines and end without a full stop. It makes the hulls of what
+// collides with Qhull, whose own message it drops.
 std::string one_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;) {
     text.replace(at, 1, ", ");
   }
+  constexpr std::string_view kQhull = "qhull error";
+  const std::size_t at = text.find(kQhull);
+  if (at != text.npos) text.insert(at + kQhull.size(), " (are the mesh's points in one plane?)");
   return text;
 }
 

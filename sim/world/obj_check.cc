@@ -129,7 +129,10 @@ std::string complaint_about_obj(std::string_view text) {
     const std::string complaint = lines.check(line);
     if (!complaint.empty()) return "line " + std::to_string(number) + ": " + complaint;
   }
-  return "";
+  constexpr int kOfSolid = 4;
+  if (totals[0] >= kOfSolid) return "";
+  return "line " + std::to_string(number) + ": the file ends after " + std::to_string(totals[0]) +
+         " vertices, but a solid has at least " + std::to_string(kOfSolid);
 }
 
 }  // namespace dodgesim

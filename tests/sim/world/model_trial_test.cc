@@ -118,6 +118,13 @@ TEST_F(ModelTrial, AMeshThatMujocoWouldMisreadIsNamedWithItsLine) {
                                "face's corner '5' names a vertex that does not exist: .*\\."));
 }
 
+TEST_F(ModelTrial, AFlatMeshThatCollidesIsExplained) {
+  write("meshes/own.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0.1 0.1 0\nf 1 2 3\nf 2 4 3\n");
+  write_object("<geom type='mesh' mesh='m' group='1' contype='4' conaffinity='7'/>",
+               "<mesh name='m' file='meshes/own.obj'/>");
+  EXPECT_THAT(complaint(), HasSubstr("are the mesh's points in one plane?"));
+}
+
 TEST_F(ModelTrial, BrokenMeshesCostASentence) {
   for (const std::string& obj :
        {std::string(), std::string("not a mesh"), std::string("v 0 0 0\nv nan 0 0\nv 0 1 0\n"),

@@ -29,7 +29,7 @@ TEST(ObjCheckTest, WhatProgramsWriteIsGood) {
   EXPECT_EQ(complaint_about("g body\ns off\nusemtl red\nf 1 3 2\nusemtl blue\nf 1 2 4\n"), "");
   EXPECT_EQ(complaint_about("vt 0 1\nvt 1 1 0\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/-1\n"), "");
   EXPECT_EQ(complaint_about("vn 0 0 1\n\tf  1//1\t2//1  3//1 \n"), "");
-  EXPECT_EQ(complaint_about_obj("v 0 0 0 1 0.5 0.5 0.5\nv 1 0 0 red\n"), "") << "colours";
+  EXPECT_EQ(complaint_about("v 0 0 0 1 0.5 0.5 0.5\nv 1 0 0 red\n"), "") << "colours";
 }
 
 TEST(ObjCheckTest, AFaceNamesWhatThereIs) {
@@ -80,6 +80,12 @@ TEST(ObjCheckTest, CoordinatesAreFiniteNumbers) {
   EXPECT_THAT(complaint_about_obj("v 0 1e999 0\n"), HasSubstr("'1e999' is not a finite number"));
   EXPECT_EQ(complaint_about_obj("v 0 0\n"), "line 1: a vertex has 3 numbers");
   EXPECT_EQ(complaint_about_obj("vt 0\n"), "line 1: a texture coordinate has 2 numbers");
+}
+
+TEST(ObjCheckTest, ASolidHasFourVertices) {
+  EXPECT_EQ(complaint_about_obj("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+            "line 4: the file ends after 3 vertices, but a solid has at least 4");
+  EXPECT_THAT(complaint_about_obj(""), StartsWith("line 0: the file ends after 0 vertices"));
 }
 
 }  // namespace
