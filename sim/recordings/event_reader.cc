@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "sim/recordings/hdf5_event_reader.h"
@@ -15,12 +16,14 @@ namespace dodgesim {
 namespace {
 
 constexpr std::size_t kPortion = 1 << 14;  // events
+constexpr std::size_t kCellsOfSize = 2;    // width and height, in a first line
 
 // Whether one of the first events has a fraction in place of whole microseconds.
 bool has_fractions(const std::string& path) {
   TextColumns file(path);
   const Column t = {"t", 0};
   for (std::size_t i = 0; i < kPortion && file.next(); ++i) {
+    if (file.cells() == kCellsOfSize) continue;
     const double stamp = file.number(t);
     if (stamp != std::floor(stamp)) return true;
   }
@@ -31,7 +34,10 @@ bool has_fractions(const std::string& path) {
 class TextReader : public EventReader {
  public:
   TextReader(const std::string& path, const ImageSize& image, bool names_columns)
-      : image_(image), in_seconds_(!names_columns && has_fractions(path)), file_(path) {
+      : image_(image),
+        may_be_size_(!names_columns),
+        in_seconds_(!names_columns && has_fractions(path)),
+        file_(path) {
     if (!names_columns) return;
     t_.name = "t_us";
     file_.read_names({"t_us", "x", "y", "p"});
@@ -41,6 +47,10 @@ class TextReader : public EventReader {
   std::span<const Event> next() override {
     events_.clear();
     while (events_.size() < kPortion && file_.next()) {
+      if (std::exchange(may_be_size_, false) && file_.cells() == kCellsOfSize) {
+        expect_size();
+        continue;
+      }
       const RawEvent raw = {time_us(), file_.integer(x_), file_.integer(y_), file_.integer(p_)};
       events_.push_back(checked_event(raw, image_, [this] { return file_.place(); }));
     }
@@ -58,7 +68,16 @@ class TextReader : public EventReader {
     file_.refuse(t_, "nearer to 0, as events of this file are in seconds");
   }
 
+  void expect_size() const {
+    const std::int64_t width = file_.integer({"width", 0}), height = file_.integer({"height", 1});
+    if (width == image_.width && height == image_.height) return;
+    throw ScenarioError(file_.place() + ": the image is " + std::to_string(width) + " x " +
+                        std::to_string(height) + ", but the calibration says " +
+                        std::to_string(image_.width) + " x " + std::to_string(image_.height) + ".");
+  }
+
   ImageSize image_;
+  bool may_be_size_;  // the next line
   bool in_seconds_;
   TextColumns file_;
   Column t_ = {"t", 0}, x_ = {"x", 1}, y_ = {"y", 2}, p_ = {"p", 3};

@@ -6,7 +6,8 @@
 // .npy  Records with the fields t [us], x, y and p, little-endian integers or truths, in any order;
 //       other little-endian numbers, texts and padding may stand between them.
 // .txt  A line "t x y p" an event: t is in seconds, as in the rpg data sets, if it has a fraction
-//       in one of the first 16,384 events, and otherwise in microseconds.
+//       in one of the first 16,384 events, and otherwise in microseconds. A first line "width
+//       height", as E2VID has, must be the size of the image.
 // .csv  The same with commas, after a line that names the columns: t_us, x, y and p in any order.
 // .raw  Prophesee's EVT 2.0 and EVT 3.0 (evt_words.h), behind lines "% keyword value" of which
 //       "% format EVT3;height=720;width=1280" or "% evt 3.0" names the format. The clock is whole

@@ -34,6 +34,7 @@ class TextColumns {
 
   // Reads the next line; false at the end.
   bool next();
+  std::size_t cells() const { return cells_.size(); }  // of the line
   // Of the line. A whole number may be written as 12, 12.0 or 1.2e1.
   std::string_view text(const Column& column) const;
   std::int64_t integer(const Column& column) const;

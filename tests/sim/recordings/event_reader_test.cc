@@ -106,6 +106,16 @@ TEST_F(Reading, TextMayBeInSecondsAndHaveRemarks) {
               ElementsAre(Event{10, 1, 2, 1}, Event{15, 3, 4, -1}));
 }
 
+TEST_F(Reading, TextMayBeginWithTheSizeOfTheImage) {
+  EXPECT_THAT(read(file("e.txt", "640 480\n0.000009 59 32 1\n")), ElementsAre(Event{9, 59, 32, 1}));
+  EXPECT_THAT(read(file("f.txt", "# of E2VID\n640 480\n9 59 32 1\n")),
+              ElementsAre(Event{9, 59, 32, 1}));
+  EXPECT_THAT(refusal("g.txt", "240 180\n0.000009 59 32 1\n"),
+              EndsWith("g.txt:1: the image is 240 x 180, but the calibration says 640 x 480."));
+  EXPECT_THAT(refusal("h.txt", "9 59 32 1\n640 480\n"), HasSubstr("h.txt:2: y is missing"));
+  EXPECT_THAT(refusal("i.csv", "t_us,x,y,p\n640,480\n"), HasSubstr("i.csv:2: y is missing"));
+}
+
 TEST_F(Reading, TextInWholeMicrosecondsMayHaveTheirPoint) {
   EXPECT_THAT(read(file("e.txt", "6.6e+05 1.25e+02 1.07e+02 1.0\n660001.000 5 190 0.0\n")),
               ElementsAre(Event{660000, 125, 107, 1}, Event{660001, 5, 190, -1}));
