@@ -2,7 +2,9 @@
 //
 // .h5   DSEC and RVT: events/x, y, t [us], p (0 or -1 OFF, 1 ON), and t_offset, if there is one,
 //       which is added to t. Also with these four at the root, as the fields of records CD/events
-//       (Prophesee) or events, or as the columns t, x, y, p of a table events (v2e).
+//       (Prophesee) or events, as the columns t, x, y, p of a table events (v2e), or as xs, ys, ts
+//       and ps (E2VID). t may be of real numbers: as in .txt, they are seconds if they have
+//       fractions.
 // .npy  Records with the fields t [us], x, y and p, little-endian integers or truths, in any order;
 //       other little-endian numbers, texts and padding may stand between them.
 // .txt  A line "t x y p" an event: t is in seconds, as in the rpg data sets, if it has a fraction

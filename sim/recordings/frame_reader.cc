@@ -6,6 +6,7 @@
 #include "sim/base/error.h"
 #include "sim/base/formatted.h"
 #include "sim/events/event_camera.h"
+#include "sim/recordings/raw_event.h"
 
 namespace dodgesim {
 
@@ -100,9 +101,12 @@ void FrameReader::check_times() {
     }
     before = now;
   }
-  if (__builtin_sub_overflow(before, first_us_, &duration_us_)) {
-    refuse(times_, "spans more than 2^63 us");
+  // Readers of events take no more either.
+  if (first_us_ < -kLastUs || before > kLastUs) {
+    refuse(times_, "goes from " + std::to_string(first_us_) + " to " + std::to_string(before) +
+                       " us, but must stay within 2^60 us of 0: are these nanoseconds?");
   }
+  duration_us_ = before - first_us_;
   times_.rewind();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -50,16 +51,23 @@ class Hdf5Reader : public EventReader {
     for (const char* name : {"CD/events", "events"}) {
       if (records_.empty() && is(name, H5I_DATASET)) records_ = name;
     }
-    if (records_.empty() && !is("events", H5I_GROUP) && is("t", H5I_DATASET)) group_ = "";
+    if (records_.empty() && !is("events", H5I_GROUP) &&
+        (is("t", H5I_DATASET) || is("ts", H5I_DATASET))) {
+      group_ = "";
+    }
     expect_size("width", image.width);
     expect_size("height", image.height);
     offset_us_ = scalar("t_offset").value_or(0);
     const std::array<const char*, 4> fields = {"t", "x", "y", "p"};
+    const std::string plural = records_.empty() && is(group_ + "ts", H5I_DATASET) ? "s" : "";
     for (std::size_t i = 0; i < fields.size(); ++i) {
       columns_[i].index = i;
-      open_column(fields[i], columns_[i]);
+      open_column(fields[i] + plural, columns_[i]);
     }
+    in_seconds_ = has_fractions();
   }
+
+  bool in_seconds() const override { return in_seconds_; }
 
   double part_read() const override { return share(read_, size_); }
 
@@ -68,10 +76,10 @@ class Hdf5Reader : public EventReader {
     for (Hdf5Column& column : columns_) read(column, count);
     events_.clear();
     for (std::size_t i = 0; i < count; ++i, ++read_) {
-      const std::int64_t t_us = std::clamp(columns_[0].values[i], -2 * kLastUs, 2 * kLastUs);
-      events_.push_back(checked_event(
-          {t_us + offset_us_, columns_[1].values[i], columns_[2].values[i], columns_[3].values[i]},
-          image_, [&] { return path_ + ", event " + std::to_string(read_); }));
+      events_.push_back(
+          checked_event({time_us(columns_[0].values[i]) + offset_us_, columns_[1].values[i],
+                         columns_[2].values[i], columns_[3].values[i]},
+                        image_, [&] { return path_ + ", event " + std::to_string(read_); }));
     }
     return events_;
   }
@@ -81,9 +89,30 @@ class Hdf5Reader : public EventReader {
     std::string name;
     hsize_t index = 0;  // in columns_, and in a table
     hid_t dataset = -1;
-    hid_t type = -1;  // of the values in memory or, of records, of the one field that is read
+    hid_t type = -1;       // of the values in memory or, of records, of the one field that is read
+    bool is_real = false;  // then `values` are the bits of doubles
     std::vector<std::int64_t> values;  // of the portion
   };
+
+  // Whether one of the first events has a fraction in place of whole microseconds.
+  bool has_fractions() {
+    if (!columns_[0].is_real) return false;
+    read(columns_[0], std::min<hsize_t>(1 << 14, size_));
+    return std::ranges::any_of(columns_[0].values, [](std::int64_t bits) {
+      const auto t = std::bit_cast<double>(bits);
+      return t != std::floor(t);
+    });
+  }
+
+  std::int64_t time_us(std::int64_t value) const {
+    constexpr std::int64_t kMostUs = 2 * kLastUs;  // whatever is added: checked_event() refuses it
+    if (!columns_[0].is_real) return std::clamp(value, -kMostUs, kMostUs);
+    const double t_us = std::bit_cast<double>(value) * (in_seconds_ ? 1e6 : 1);
+    if (std::abs(t_us) < static_cast<double>(kMostUs)) return std::llround(t_us);
+    throw ScenarioError(path_ + ", event " + std::to_string(read_) + ": t is " +
+                        formatted("%g", std::bit_cast<double>(value)) +
+                        ", which is no instant in " + (in_seconds_ ? "s." : "us."));
+  }
 
   // Whether there is such an object, of that kind. Of "a/b", a must be looked for first.
   bool is(const std::string& name, H5I_type_t kind) const {
@@ -127,7 +156,7 @@ class Hdf5Reader : public EventReader {
                         ", but the calibration says " + std::to_string(expected) + ".");
   }
 
-  void open_column(const char* field, Hdf5Column& column) {
+  void open_column(const std::string& field, Hdf5Column& column) {
     const std::string dataset = records_.empty() ? group_ + field : records_;
     column.name = records_.empty() ? dataset : records_ + ", " + field;
     const hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
@@ -151,24 +180,30 @@ class Hdf5Reader : public EventReader {
                         columns_.front().name + ".");
   }
 
-  // Refuses other than whole numbers: the library would cut off what stands behind the point.
-  void set_type(const char* field, Hdf5Column& column) const {
+  // Refuses other than whole numbers, but for t: the library would cut off what stands behind the
+  // point.
+  void set_type(const std::string& field, Hdf5Column& column) const {
     hid_t type = H5Dget_type(column.dataset);
-    column.type = H5T_NATIVE_INT64;
     if (!records_.empty() && !is_table_) {
       const bool compound = H5Tget_class(type) == H5T_COMPOUND;
-      const int member = compound ? H5Tget_member_index(type, field) : -1;
+      const int member = compound ? H5Tget_member_index(type, field.c_str()) : -1;
       if (member < 0) throw ScenarioError(path_ + ": " + records_ + " has no field " + field + ".");
       const hid_t of_member = H5Tget_member_type(type, static_cast<unsigned>(member));
       H5Tclose(std::exchange(type, of_member));
-      column.type = H5Tcreate(H5T_COMPOUND, sizeof(std::int64_t));
-      H5Tinsert(column.type, field, 0, H5T_NATIVE_INT64);
     }
     const H5T_class_t kind = H5Tget_class(type);
     H5Tclose(type);
-    if (kind == H5T_INTEGER || kind == H5T_ENUM) return;  // booleans are an enumeration
+    column.is_real = kind == H5T_FLOAT && column.index == 0 && !is_table_;
+    const hid_t in_memory = column.is_real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+    column.type = in_memory;
+    if (!records_.empty() && !is_table_) {
+      column.type = H5Tcreate(H5T_COMPOUND, sizeof(std::int64_t));
+      H5Tinsert(column.type, field.c_str(), 0, in_memory);
+    }
+    if (kind == H5T_INTEGER || kind == H5T_ENUM || column.is_real) return;  // enum: booleans
     throw ScenarioError(path_ + ": " + column.name +
-                        " has no whole numbers; t must be in microseconds, x and y in pixels.");
+                        " has no whole numbers, as pixels, polarities and a table's "
+                        "microseconds are.");
   }
 
   void read(Hdf5Column& column, hsize_t count) const {
@@ -195,6 +230,7 @@ class Hdf5Reader : public EventReader {
   std::string group_ = "events/";  // of the four lists; empty: the root
   std::string records_;            // the list of records, or table; empty: there are four lists
   bool is_table_ = false;
+  bool in_seconds_ = false;
   std::int64_t offset_us_ = 0;
   std::array<Hdf5Column, 4> columns_;  // t, x, y, p
   hsize_t size_ = 0, read_ = 0;        // events

@@ -28,13 +28,14 @@ constexpr const char* kDetectFooter =
     R"(The pilot gets what was recorded as late as in flight (`dodgesim explain delays`), in cycles.
 What it commands moves nobody, and its goal is to stay where it is.
 
-EVENTS: .h5 (DSEC, RVT; or t, x, y, p at the root, as records CD/events or as a table events); .npy
-  of records with the integers t [us], x, y and p; .txt as `emulate` and `replay --events` write it,
-  or of the rpg data sets, with t in seconds (it has a fraction in one of the first 16,384 events);
-  .csv whose first line names the columns t_us, x, y and p; .raw of Prophesee (EVT 2.0 and 3.0).
-  Of p, 0 and -1 are OFF, 1 is ON. The events must be in order of time, but
-  for 10 ms. The pilot drops those that come later; up to 16 in a row with stamps far ahead of the
-  next are passed over, and so are up to 32 at the end that are more than ten minutes ahead.
+EVENTS: .h5 (DSEC, RVT; or t, x, y, p at the root, as xs, ys, ts, ps, as records CD/events or as a
+  table events); .npy of records with the integers t [us], x, y and p; .txt as `emulate` and `replay
+  --events` write it, or of the rpg data sets and E2VID; .csv whose first line names the columns
+  t_us, x, y and p; .raw of Prophesee (EVT 2.0 and 3.0). If t has a fraction in one of the first
+  16,384 events of .txt or .h5, it is in seconds. Of p, 0 and -1 are OFF, 1 is ON. The events must
+  be in order of time, but for 10 ms. The pilot drops those that come later; up to 16 in a row with
+  stamps far ahead of the next are passed over, and so are up to 32 at the end that are more than
+  ten minutes ahead.
 CALIBRATION.yaml: width, height; intrinsics: {fx, fy, cx, cy}; distortion: {model:
   radtan_k1_k2_p1_p2_k3, coeffs: [...]}; p_BC_m and R_BC (rows), the camera's place on the body,
   which by default looks forward; imu_axes, where x, y, z of the IMU point, by default as

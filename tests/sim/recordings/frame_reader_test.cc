@@ -173,6 +173,9 @@ TEST_F(FrameReaderTest, RefusesInstantsThatDoNotIncreaseOrJump) {
   expect_bad_times(npy_array("<i8", Times{0, std::int64_t{1} << 30}),
                    "follows 0 us by more than 1073741823 us");
   expect_bad_times(npy_array("<i8", Times{INT64_MIN, INT64_MAX}), "has a gap");
+  expect_bad_times(npy_array("<i8", Times{1600000000000000000, 1600000000001000000}),
+                   "are these nanoseconds?");
+  expect_bad_times(npy_array("<i8", Times{INT64_MIN, INT64_MIN + 1}), "within 2^60 us of 0");
 }
 
 TEST_F(FrameReaderTest, ReportsWhatTheSystemRefuses) {
