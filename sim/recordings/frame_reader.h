@@ -11,8 +11,8 @@
 namespace dodgesim {
 
 // FRAMES: (N, H, W), C order, float32 linear luminance or uint8, of which 255 is the luminance 1.
-// TIMES: (N) int64, microseconds from any origin, increasing. Reads picture by picture, so that a
-// video may be larger than the memory.
+// TIMES: (N) int64, microseconds from any origin within 2^60 of them, increasing. Reads picture by
+// picture, so that a video may be larger than the memory.
 class FrameReader {
  public:
   // Opens both files and checks all that can be said without the pictures themselves: types,

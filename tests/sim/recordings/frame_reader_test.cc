@@ -97,10 +97,11 @@ TEST_F(FrameReaderTest, TakesBytesAsShares) {
 TEST_F(FrameReaderTest, TakesInstantsFromAnyOrigin) {
   constexpr std::int64_t kNow = 1600000000000000;  // unix time
   constexpr std::int64_t kGap = (std::int64_t{1} << 30) - 1;
+  constexpr std::int64_t kLast = std::int64_t{1} << 60;
   EXPECT_EQ(refusal(good_frames_, npy_array("<i8", Times{kNow, kNow + kGap})), "");
   EXPECT_EQ(refusal(good_frames_, npy_array("<i8", Times{-kNow - kGap, -kNow})), "");
-  EXPECT_EQ(refusal(good_frames_, npy_array("<i8", Times{INT64_MIN, INT64_MIN + 1})), "");
-  EXPECT_EQ(refusal(good_frames_, npy_array("<i8", Times{INT64_MAX - 1, INT64_MAX})), "");
+  EXPECT_EQ(refusal(good_frames_, npy_array("<i8", Times{-kLast, -kLast + 1})), "");
+  EXPECT_EQ(refusal(good_frames_, npy_array("<i8", Times{kLast - 1, kLast})), "");
 }
 
 TEST_F(FrameReaderTest, RefusesFilesThatAreNoArrays) {
