@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <optional>
+#include <string_view>
 
 #include "sim/base/error.h"
 #include "sim/base/input_file.h"
@@ -16,8 +16,6 @@
 namespace dodgesim {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::uint32_t kMaxTexturePx = 4096;  // a side
 
@@ -38,9 +36,10 @@ std::optional<std::array<std::uint32_t, 2>> png_size(const std::string& path) {
   return std::array<std::uint32_t, 2>{number(16), number(20)};
 }
 
-// MuJoCo tells by the ending.
-bool ends_with(const std::string& path, const char* ending) {
-  return strcasecmp(fs::path(path).extension().c_str(), ending) == 0;
+// MuJoCo tells by the last characters, with a point before them or not.
+bool ends_with(const std::string& path, std::string_view ending) {
+  return path.size() >= ending.size() &&
+         strncasecmp(path.data() + path.size() - ending.size(), ending.data(), ending.size()) == 0;
 }
 
 void check_texture_file(const std::string& path, const std::string& where) {
@@ -63,7 +62,7 @@ void check_texture_size(const std::vector<double>& pixels, const std::string& wh
 }
 
 void check_mesh_file(const std::string& path, const std::string& where) {
-  if (!ends_with(path, ".obj")) return;
+  if (!ends_with(path, "obj")) return;
   const std::string complaint = complaint_about_obj(read_file(path));
   if (complaint.empty()) return;
   throw ScenarioError(where + "The mesh " + path + ", " + complaint + ".");

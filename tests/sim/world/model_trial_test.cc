@@ -116,6 +116,10 @@ TEST_F(ModelTrial, AMeshThatMujocoWouldMisreadIsNamedWithItsLine) {
   EXPECT_THAT(complaint(), ::testing::MatchesRegex(
                                ".*objects/own.xml:1: The mesh .*/meshes/own.obj, line 9: the "
                                "face's corner '5' names a vertex that does not exist: .*\\."));
+  // As MuJoCo needs no point to take it for one.
+  write("meshes/own_obj", std::string(kTetrahedron) + "f 1 2 5\n");
+  write_object(kBall, "<mesh name='m' file='meshes/own_obj'/>");
+  EXPECT_THAT(complaint(), HasSubstr("own_obj, line 9: the face's corner '5'"));
 }
 
 TEST_F(ModelTrial, AFlatMeshThatCollidesIsExplained) {
