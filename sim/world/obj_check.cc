@@ -17,6 +17,14 @@ std::string_view take_until(std::string_view& rest, std::string_view ends) {
   return taken;
 }
 
+// The next line, which ends as those of any system.
+std::string_view take_line(std::string_view& rest) {
+  const std::string_view line = rest.substr(0, rest.find_first_of("\r\n"));
+  rest.remove_prefix(line.size());
+  rest.remove_prefix(rest.starts_with("\r\n") ? 2 : std::min<std::size_t>(rest.size(), 1));
+  return line;
+}
+
 // The next word of a line, empty at its end.
 std::string_view take_word(std::string_view& line) {
   constexpr std::string_view kBlanks = " \t";
@@ -58,9 +66,11 @@ class ObjCheck {
   explicit ObjCheck(const Counts& totals) : totals_(totals) {}
 
   std::string check(std::string_view line) {
+    const char* const end = line.data() + line.size();
     const std::string_view keyword = take_word(line);
     if (const Kind* kind = count(keyword, so_far_)) return check_numbers(*kind, line);
-    if (keyword == "o" || keyword == "g") part_ended_ = has_faces_;
+    const bool is_bare = keyword.data() + keyword.size() == end;  // then MuJoCo passes it over
+    if ((keyword == "o" || keyword == "g") && !is_bare) part_ended_ = has_faces_;
     return keyword == "f" ? check_face(line) : "";
   }
 
@@ -94,16 +104,16 @@ class ObjCheck {
 
   std::string check_corner(std::string_view corner) const {
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
-      const std::string name(kKinds[k].name);
       const std::string_view index = take_until(corner, "/");
-      if (index.empty() && totals_[k] > 0) return "names no " + name + ", though the file has some";
-      if (index.empty()) continue;
+      if (index.empty() && totals_[k] == 0) continue;
       const long number = parse<long>(index).value_or(0);
+      const long count = number < 0 ? so_far_[k] : totals_[k];
+      if (number != 0 && number >= -count && number <= count) continue;
+      const std::string name(kKinds[k].name);
+      if (index.empty()) return "names no " + name + ", though the file has some";
       if (number == 0) return "names no " + name + ": they are counted from 1, or back from -1";
-      if (number > totals_[k] || number < -so_far_[k]) {
-        return "names a " + name + " that does not exist: the file has " +
-               std::to_string(number > 0 ? totals_[k] : so_far_[k]) + (number > 0 ? "" : " so far");
-      }
+      return "names a " + name + " that does not exist: the file has " + std::to_string(count) +
+             (number < 0 ? " so far" : "");
     }
     return corner.empty() ? "" : "has more than three parts";
   }
@@ -117,16 +127,14 @@ class ObjCheck {
 std::string complaint_about_obj(std::string_view text) {
   Counts totals{};
   for (std::string_view rest = text; !rest.empty();) {
-    std::string_view line = take_until(rest, "\n");
+    std::string_view line = take_line(rest);
     count(take_word(line), totals);
   }
   ObjCheck lines(totals);
   int number = 0;
   for (std::string_view rest = text; !rest.empty();) {
-    std::string_view line = take_until(rest, "\n");
     ++number;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    const std::string complaint = lines.check(line);
+    const std::string complaint = lines.check(take_line(rest));
     if (!complaint.empty()) return "line " + std::to_string(number) + ": " + complaint;
   }
   constexpr int kOfSolid = 4;

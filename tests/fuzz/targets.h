@@ -24,6 +24,7 @@ bool result(Bytes bytes);    // a result and a campaign's identity from a worker
 bool csv(Bytes bytes);       // throws.csv of a baseline
 bool manifest(Bytes bytes);  // manifest.json of a baseline
 bool npy(Bytes bytes);       // frames and time stamps of a video
+bool mesh(Bytes bytes);      // an OBJ file
 bool events(Bytes bytes);    // recordings of events, of an IMU and of states
 
 // Names a target in the messages of tests.
@@ -32,8 +33,9 @@ inline std::ostream& operator<<(std::ostream& out, const Target& target) {
 }
 
 inline constexpr Target kTargets[] = {
-    {"scenario", scenario}, {"camera", camera},     {"journal", journal}, {"result", result},
-    {"csv", csv},           {"manifest", manifest}, {"npy", npy},         {"events", events},
+    {"scenario", scenario}, {"camera", camera}, {"journal", journal},
+    {"result", result},     {"csv", csv},       {"manifest", manifest},
+    {"npy", npy},           {"events", events}, {"mesh", mesh},
 };
 
 }  // namespace dodgesim::fuzz

@@ -39,7 +39,9 @@ TEST(ObjCheckTest, AFaceNamesWhatThereIs) {
   EXPECT_THAT(complaint_about("f 1 -5 2\nv 0 0 0\n"),
               StartsWith("line 5: the face's corner '-5' names a"));
   EXPECT_THAT(complaint_about("f 1 -5 2\nv 0 0 0\n"), HasSubstr("has 4 so far"));
+  EXPECT_THAT(complaint_about("f 1 2 -9223372036854775808\n"), HasSubstr("does not exist"));
   EXPECT_EQ(complaint_about("v 0 0 0\nf 1 -5 2\n"), "");
+  EXPECT_THAT(complaint_about("# hidden\rf 1 3 5\n"), StartsWith("line 6: "));
   EXPECT_THAT(complaint_about("vt 0 0\nf 1/1 2/2 3/1\n"),
               HasSubstr("'2/2' names a texture coordinate"));
   EXPECT_THAT(complaint_about("vn 0 0 1\nf 1//1 2//2 3//1\n"),
@@ -48,7 +50,7 @@ TEST(ObjCheckTest, AFaceNamesWhatThereIs) {
 }
 
 TEST(ObjCheckTest, NumbersOfPointsAreWhole) {
-  for (const char* corner : {"0", "a", "1.5", "99999999999999999999", "\\"}) {
+  for (const char* corner : {"0", "a", "1.5", "99999999999999999999", "\\", "1\v"}) {
     EXPECT_THAT(complaint_about(std::string("f 1 2 ") + corner), HasSubstr("counted from 1"))
         << corner;
   }
@@ -72,6 +74,8 @@ TEST(ObjCheckTest, FacesAreOfOneObjectOrGroup) {
               StartsWith("line 8: a second object or group has faces"));
   EXPECT_THAT(complaint_about("f 1 2 3\ng second\nf 1 4 3\n"), StartsWith("line 7: "));
   EXPECT_EQ(complaint_about("f 1 2 3\ng empty\n"), "");
+  EXPECT_EQ(complaint_about("f 1 2 3\ng\nf 1 4 3\n"), "") << "no name, no group";
+  EXPECT_THAT(complaint_about("f 1 2 3\ng \nf 1 4 3\n"), StartsWith("line 7: "));
 }
 
 TEST(ObjCheckTest, CoordinatesAreFiniteNumbers) {
