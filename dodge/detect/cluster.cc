@@ -54,6 +54,17 @@ std::size_t longest_outlines(int width, int height) {
   return 2 * static_cast<std::size_t>((width + 1) / 2) * static_cast<std::size_t>(height);
 }
 
+// The first pixel from `from` on that the mask holds; `size` if there is none. A mask is nearly
+// empty: looks at eight pixels at a time.
+int next_set(const std::uint8_t* mask, int from, int size) {
+  for (std::uint64_t eight = 0; from + 8 <= size; from += 8) {
+    std::memcpy(&eight, mask + from, sizeof eight);
+    if (eight != 0) break;
+  }
+  while (from < size && mask[from] == 0) ++from;
+  return from;
+}
+
 float shorter_side(const cv::RotatedRect& r) { return std::min(r.size.width, r.size.height); }
 
 }  // namespace
@@ -109,17 +120,11 @@ void Clusterer::group_connected_pixels(const TimeImage& image, const OpticalFlow
   outline_.clear();
   const std::uint8_t* mask = image.obstacle_mask().ptr<std::uint8_t>();
   const int size = width_ * height_;
-  // The mask is nearly empty: look at eight pixels at a time.
-  for (int start = 0; start < size; start += 8) {
-    std::uint64_t eight = 0;
-    std::memcpy(&eight, mask + start, static_cast<std::size_t>(std::min(8, size - start)));
-    if (eight == 0) continue;
-    for (int pixel = start; pixel < std::min(start + 8, size); ++pixel) {
-      if (mask[pixel] == 0 || visited_[static_cast<std::size_t>(pixel)] != 0) continue;
-      // Groups share region_, so that visited_ can be cleared at the end.
-      flood(image, pixel);
-      summarise(image, flow);
-    }
+  for (int pixel = next_set(mask, 0, size); pixel < size; pixel = next_set(mask, pixel + 1, size)) {
+    if (visited_[static_cast<std::size_t>(pixel)] != 0) continue;
+    // Groups share region_, so that visited_ can be cleared at the end.
+    flood(image, pixel);
+    summarise(image, flow);
   }
   for (const int pixel : region_) visited_[static_cast<std::size_t>(pixel)] = 0;
   region_.clear();
@@ -202,10 +207,20 @@ cv::RotatedRect Clusterer::bounding_rectangle(std::span<const cv::Point2f> point
   return rectangle;
 }
 
+// Whether the cost is at most eps. Without its first summand, which takes long, it is no greater.
+bool Clusterer::are_near(const Cluster& a, const Cluster& b) const {
+  const double without_position = config_.weight_velocity_1ppx * (a.velocity - b.velocity).norm() +
+                                  config_.weight_rho * std::abs(a.rho - b.rho);
+  return without_position <= config_.eps && cost(a, b) <= config_.eps;
+}
+
+// The group itself and those near it; once they make it a core, those with a label are left out.
 void Clusterer::neighbours(std::size_t i, std::vector<std::size_t>& out) const {
-  out.clear();
+  const auto enough = static_cast<std::size_t>(config_.min_points);
+  out.assign(1, i);
   for (std::size_t j = 0; j < groups_.size(); ++j) {
-    if (j == i || cost(groups_[i].features, groups_[j].features) <= config_.eps) out.push_back(j);
+    if (j == i || (groups_[j].label >= 0 && out.size() >= enough)) continue;
+    if (are_near(groups_[i].features, groups_[j].features)) out.push_back(j);
   }
 }
 
