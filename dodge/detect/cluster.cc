@@ -111,7 +111,11 @@ const std::vector<Cluster>& Clusterer::find(const TimeImage& image, const Optica
 
 double Clusterer::cost(const Cluster& a, const Cluster& b) const {
   return config_.weight_position_1ppx * rectangle_distance(a.rectangle, b.rectangle) +
-         config_.weight_velocity_1ppx * (a.velocity - b.velocity).norm() +
+         cost_without_position(a, b);
+}
+
+double Clusterer::cost_without_position(const Cluster& a, const Cluster& b) const {
+  return config_.weight_velocity_1ppx * (a.velocity - b.velocity).norm() +
          config_.weight_rho * std::abs(a.rho - b.rho);
 }
 
@@ -207,11 +211,10 @@ cv::RotatedRect Clusterer::bounding_rectangle(std::span<const cv::Point2f> point
   return rectangle;
 }
 
-// Whether the cost is at most eps. Without its first summand, which takes long, it is no greater.
+// Whether the cost is at most eps. The distance of rectangles takes long, and often decides
+// nothing.
 bool Clusterer::are_near(const Cluster& a, const Cluster& b) const {
-  const double without_position = config_.weight_velocity_1ppx * (a.velocity - b.velocity).norm() +
-                                  config_.weight_rho * std::abs(a.rho - b.rho);
-  return without_position <= config_.eps && cost(a, b) <= config_.eps;
+  return cost_without_position(a, b) <= config_.eps && cost(a, b) <= config_.eps;
 }
 
 // The group itself and those near it; once they make it a core, those with a label are left out.

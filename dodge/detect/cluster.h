@@ -95,6 +95,7 @@ class Clusterer {
   void summarise(const TimeImage& image, const OpticalFlow& flow);
   cv::RotatedRect bounding_rectangle(std::span<const cv::Point2f> points);
   int label_groups();
+  double cost_without_position(const Cluster& a, const Cluster& b) const;
   bool are_near(const Cluster& a, const Cluster& b) const;
   void neighbours(std::size_t i, std::vector<std::size_t>& out) const;
   void take_neighbours(int label);

@@ -27,17 +27,21 @@ void throw_error(const char* message) {
 
 void ignore_warning(const char*) {}
 
-// MuJoCo's messages run over several lines and end without a full stop. It makes the hulls of what
-// collides with Qhull, whose own message it drops.
+// MuJoCo's messages run over several lines and end without a full stop.
 std::string one_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;) {
     text.replace(at, 1, ", ");
   }
-  constexpr std::string_view kQhull = "qhull error";
-  const std::size_t at = text.find(kQhull);
-  if (at != text.npos) text.insert(at + kQhull.size(), " (are the mesh's points in one plane?)");
   return text;
+}
+
+// MuJoCo makes the hulls of what collides with Qhull, and drops what that says.
+std::string explained(std::string message) {
+  constexpr std::string_view kQhull = "qhull error";
+  const std::size_t at = message.find(kQhull);
+  if (at == message.npos) return message;
+  return message.insert(at + kQhull.size(), " (are the mesh's points in one plane?)");
 }
 
 template <class T>
@@ -82,7 +86,8 @@ MjModelPtr compile_model(const std::string& xml, const std::string& directory,
     throw MemoryError(label + ": " + one_line(message) + ".");
   }
   if (!model) {
-    throw ScenarioError(label + ": the model does not compile: " + one_line(message) + ".");
+    throw ScenarioError(label + ": the model does not compile: " + explained(one_line(message)) +
+                        ".");
   }
   check_numbers(model.get(), label);
   return model;

@@ -22,7 +22,7 @@ constexpr std::size_t kCellsOfSize = 2;    // width and height, in a first line
 bool has_fractions(const std::string& path) {
   TextColumns file(path);
   const Column t = {"t", 0};
-  for (std::size_t i = 0; i < kPortion && file.next(); ++i) {
+  for (std::size_t i = 0; i < kEventsThatTellUnit && file.next(); ++i) {
     if (file.cells() == kCellsOfSize) continue;
     const double stamp = file.number(t);
     if (stamp != std::floor(stamp)) return true;

@@ -97,7 +97,7 @@ class Hdf5Reader : public EventReader {
   // Whether one of the first events has a fraction in place of whole microseconds.
   bool has_fractions() {
     if (!columns_[0].is_real) return false;
-    read(columns_[0], std::min<hsize_t>(1 << 14, size_));
+    read(columns_[0], std::min<hsize_t>(kEventsThatTellUnit, size_));
     return std::ranges::any_of(columns_[0].values, [](std::int64_t bits) {
       const auto t = std::bit_cast<double>(bits);
       return t != std::floor(t);
@@ -184,7 +184,8 @@ class Hdf5Reader : public EventReader {
   // point.
   void set_type(const std::string& field, Hdf5Column& column) const {
     hid_t type = H5Dget_type(column.dataset);
-    if (!records_.empty() && !is_table_) {
+    const bool of_records = !records_.empty() && !is_table_;
+    if (of_records) {
       const bool compound = H5Tget_class(type) == H5T_COMPOUND;
       const int member = compound ? H5Tget_member_index(type, field.c_str()) : -1;
       if (member < 0) throw ScenarioError(path_ + ": " + records_ + " has no field " + field + ".");
@@ -196,7 +197,7 @@ class Hdf5Reader : public EventReader {
     column.is_real = kind == H5T_FLOAT && column.index == 0 && !is_table_;
     const hid_t in_memory = column.is_real ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
     column.type = in_memory;
-    if (!records_.empty() && !is_table_) {
+    if (of_records) {
       column.type = H5Tcreate(H5T_COMPOUND, sizeof(std::int64_t));
       H5Tinsert(column.type, field.c_str(), 0, in_memory);
     }

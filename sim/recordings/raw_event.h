@@ -12,6 +12,9 @@ namespace dodgesim {
 
 constexpr std::int64_t kLastUs = std::int64_t{1} << 60;  // sums of instants do not overflow
 
+// Among so many first events one with a fraction tells that a recording is in seconds.
+constexpr std::size_t kEventsThatTellUnit = 1 << 14;
+
 struct RawEvent {
   std::int64_t t_us = 0, x = 0, y = 0, p = 0;
 };

@@ -224,7 +224,7 @@ MjModelPtr compose_model(const WorldSpec& spec) {
                                                        {spec.vehicle_file(), "a vehicle"}};
   for (const auto& [file, what] : files) {
     const std::string label = spec.path(file);
-    const std::vector<MjcfTag> tags = read_model_file(spec.models_dir, file);
+    std::vector<MjcfTag> tags = read_model_file(spec.models_dir, file);
     // Gravity, air and the time step are known to the throws, the controller and the IMU, too.
     refuse(tags, {"option"}, what, label);
     refuse(tags, kUnseen, what, label);
@@ -236,13 +236,13 @@ MjModelPtr compose_model(const WorldSpec& spec) {
       expect_no_place(tags, label);
     }
     refuse_root_default(tags, what, label);
-    parts.push_back({label, tags});
+    parts.push_back({label, std::move(tags)});
   }
   std::size_t contacts = 0;
   for (std::size_t i = 0; i < spec.objects.size(); ++i) {
-    const std::vector<MjcfTag> tags = scaled_object(spec, i);
+    std::vector<MjcfTag> tags = scaled_object(spec, i);
     contacts += most_contacts(tags);
-    parts.push_back({spec.path(spec.objects[i].file()), tags});
+    parts.push_back({spec.path(spec.objects[i].file()), std::move(tags)});
   }
   try {
     return compile(parts, spec.models_dir, parts[0].label + " with " + parts[1].label, contacts);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
-#include <optional>
+#include <cstdint>
+
+#include "sim/base/numbers.h"
 
 namespace dodgesim {
 
@@ -32,13 +32,9 @@ std::string_view take_word(std::string_view& line) {
   return take_until(line, kBlanks);
 }
 
-template <class Number>
-std::optional<Number> parse(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  Number number{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return number;
+bool is_finite_number(std::string_view word) {
+  const NumberForm form = number_form(word);
+  return form != NumberForm::kNone && form != NumberForm::kNotFinite && parse_double(word);
 }
 
 struct Kind {
@@ -48,7 +44,7 @@ struct Kind {
 // A corner of a face names one of each: "vertex/texture coordinate/normal".
 constexpr std::array<Kind, 3> kKinds = {
     {{"v", "vertex", 3}, {"vt", "texture coordinate", 2}, {"vn", "normal", 3}}};
-using Counts = std::array<long, 3>;
+using Counts = std::array<std::int64_t, 3>;
 
 // Adds to what there is of each kind what a line that begins with `keyword` brings.
 const Kind* count(std::string_view keyword, Counts& counts) {
@@ -81,7 +77,7 @@ class ObjCheck {
       if (word.empty()) {
         return "a " + std::string(kind.name) + " has " + std::to_string(kind.numbers) + " numbers";
       }
-      if (!std::isfinite(parse<double>(word).value_or(NAN))) {
+      if (!is_finite_number(word)) {
         return "'" + std::string(word) + "' is not a finite number";
       }
     }
@@ -106,8 +102,8 @@ class ObjCheck {
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
       const std::string_view index = take_until(corner, "/");
       if (index.empty() && totals_[k] == 0) continue;
-      const long number = parse<long>(index).value_or(0);
-      const long count = number < 0 ? so_far_[k] : totals_[k];
+      const std::int64_t number = parse_integer<std::int64_t>(index).value_or(0);
+      const std::int64_t count = number < 0 ? so_far_[k] : totals_[k];
       if (number != 0 && number >= -count && number <= count) continue;
       const std::string name(kKinds[k].name);
       if (index.empty()) return "names no " + name + ", though the file has some";

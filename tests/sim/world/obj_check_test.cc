@@ -29,6 +29,7 @@ TEST(ObjCheckTest, WhatProgramsWriteIsGood) {
   EXPECT_EQ(complaint_about("g body\ns off\nusemtl red\nf 1 3 2\nusemtl blue\nf 1 2 4\n"), "");
   EXPECT_EQ(complaint_about("vt 0 1\nvt 1 1 0\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/-1\n"), "");
   EXPECT_EQ(complaint_about("vn 0 0 1\n\tf  1//1\t2//1  3//1 \n"), "");
+  EXPECT_EQ(complaint_about("v 00.50 -1.e3 .5\n"), "");
   EXPECT_EQ(complaint_about("v 0 0 0 1 0.5 0.5 0.5\nv 1 0 0 red\n"), "") << "colours";
 }
 
